@@ -7,6 +7,7 @@
 #include <QActionGroup>
 #include <QEvent>
 #include <QLabel>
+#include <QLineEdit>
 #include <QMenu>
 #include <QToolButton>
 
@@ -14,6 +15,7 @@ namespace marsview {
 namespace {
 
 constexpr int kToolIconSide = 20; // points
+constexpr int kSearchCharacters = 24;
 
 } // namespace
 
@@ -56,6 +58,16 @@ MainToolBar::MainToolBar(const WindowActions& actions, QWidget* parent)
     addAction(actions.light);
     light_button_ = widgetForAction(actions.light);
     light_button_->setAccessibleName(tr("Direction of the light"));
+    addSeparator();
+    search_ = new QLineEdit(this);
+    search_->setObjectName(QStringLiteral("nameSearch"));
+    search_->setPlaceholderText(tr("Find a name"));
+    search_->setToolTip(tr("Type the name of a place, for example a mountain or a crater"));
+    search_->setAccessibleName(tr("Find a name"));
+    search_->addAction(actions.find_name->icon(), QLineEdit::LeadingPosition);
+    search_->setClearButtonEnabled(true);
+    search_->setFixedWidth(search_->fontMetrics().averageCharWidth() * kSearchCharacters);
+    search_action_ = addWidget(search_);
     // Qt leaves tool buttons out of the round of the Tab key.
     for (QToolButton* button : findChildren<QToolButton*>(QString(), Qt::FindDirectChildrenOnly)) {
         if (button->objectName() != QStringLiteral("qt_toolbar_ext_button")) {
@@ -116,6 +128,7 @@ void MainToolBar::fitTexts()
         }
     };
     caption_->setVisible(true);
+    search_action_->setVisible(true);
     set(general_buttons_, Qt::ToolButtonTextBesideIcon);
     set(special_buttons_, Qt::ToolButtonTextBesideIcon);
     if (sizeHint().width() > width()) {
@@ -126,6 +139,9 @@ void MainToolBar::fitTexts()
     }
     if (sizeHint().width() > width()) {
         caption_->setVisible(false);
+    }
+    if (sizeHint().width() > width()) {
+        search_action_->setVisible(false); // Go to Place finds names, too
     }
 }
 

@@ -6,6 +6,7 @@
 #include <QList>
 #include <QToolBar>
 
+class QLineEdit;
 class QToolButton;
 
 namespace marsview {
@@ -22,6 +23,8 @@ public:
     void showExaggeration(double exaggeration);
     void setExaggerationRange(const ExaggerationRange& range);
     void setExaggerationEnabled(bool is_enabled);
+    /// The field for names; hidden where there is no room.
+    QLineEdit& searchField() const noexcept { return *search_; }
     /// The button of the light, or the toolbar if that button is hidden for lack of space.
     const QWidget& lightAnchor() const;
 
@@ -45,6 +48,8 @@ private:
     QAction* caption_ = nullptr;          // of the exaggeration
     ExaggerationControl* exaggeration_ = nullptr;
     QWidget* light_button_ = nullptr;
+    QLineEdit* search_ = nullptr;
+    QAction* search_action_ = nullptr;
 };
 
 } // namespace marsview

@@ -18,6 +18,7 @@
 #include "ui/load_status.h"
 #include "ui/main_tool_bar.h"
 #include "ui/map_menu.h"
+#include "ui/name_search.h"
 #include "ui/overlay/map_overlays.h"
 #include "ui/overlay/measure_marks.h"
 #include "ui/panels/georeferencing_panel.h"
@@ -56,6 +57,7 @@
 #include <QGuiApplication>
 #include <QImage>
 #include <QKeyEvent>
+#include <QLineEdit>
 #include <QListWidget>
 #include <QMenu>
 #include <QMenuBar>
@@ -197,6 +199,7 @@ MainWindow::MainWindow(const WindowOptions& options, QWidget* parent)
     connectController();
     connectProject();
     connectView();
+    connectNames();
     connectMeasuring();
     connectHint();
     makeNotices();
@@ -273,7 +276,8 @@ void MainWindow::connectActions()
             [this](QAction* action) { view_->setTool(static_cast<Tool>(action->data().toInt())); });
     on(actions_->home, [this] { view_->goHome(); });
     on(actions_->north, [this] { view_->turnNorthUp(); });
-    on(actions_->go_to_coordinate, [this] { goToCoordinate(); });
+    on(actions_->go_to_place, [this] { goToPlace(); });
+    on(actions_->find_name, [this] { findName(); });
     for (QAction* action : std::as_const(actions_->steps)) {
         on(action, [this, step = static_cast<NavigationStep>(action->data().toInt())] {
             view_->step(step);
@@ -448,6 +452,22 @@ void MainWindow::connectProject()
         statusBar()->showMessage(tr("Saved %1").arg(isolated(QDir::toNativeSeparators(file))),
                                  kMessageDuration);
     });
+}
+
+void MainWindow::connectNames()
+{
+    name_search_ = new NameSearch({.window = *this,
+                                   .view = *view_,
+                                   .overlays = *overlays_,
+                                   .field = tool_bar_->searchField(),
+                                   .open_names = *actions_->open_names,
+                                   .is_remembered = isRemembered()},
+                                  this);
+    connect(name_search_, &NameSearch::opened, this, [this](const QString& message) {
+        statusBar()->showMessage(message, kMessageDuration);
+    });
+    connect(name_search_, &NameSearch::failed, this,
+            [this](const QString& problem) { reportFailure(tr("Cannot Open Names"), problem); });
 }
 
 void MainWindow::connectView()
@@ -854,12 +874,28 @@ void MainWindow::savePicture()
                               : tr("map"));
 }
 
-void MainWindow::goToCoordinate()
+void MainWindow::findName()
+{
+    QLineEdit& field = tool_bar_->searchField();
+    if (!field.isVisible()) {
+        goToPlace();
+        return;
+    }
+    field.setFocus(Qt::ShortcutFocusReason);
+    field.selectAll();
+}
+
+void MainWindow::goToPlace()
 {
     if (!view_->map()) {
         return;
     }
-    auto* dialog = new GoToDialog(view_->map(), preferences_, last_place_, this);
+    auto* dialog =
+        new GoToDialog(view_->map(), preferences_, last_place_, name_search_->namesOnMap(), this);
+    connect(dialog, &GoToDialog::nameChosen, this, [this, dialog](const PlaceName& place) {
+        last_place_ = dialog->entry();
+        name_search_->goTo(place);
+    });
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     connect(dialog, &GoToDialog::placeChosen, this, [this, dialog](GridPoint grid) {
         last_place_ = dialog->entry();

@@ -33,6 +33,7 @@ class MeasurePanel;
 class MapOverlays;
 class MainToolBar;
 class MapMenu;
+class NameSearch;
 class NoticeBar;
 class NoticeCenter;
 class PictureSaver;
@@ -111,6 +112,8 @@ public:
     ProjectController& project() noexcept { return *project_; }
     ProjectMenu& projectMenu() noexcept { return *project_menu_; }
     StretchControl& stretch() noexcept { return *stretch_; }
+    NameSearch& nameSearch() noexcept { return *name_search_; }
+    MainToolBar* toolBar() const noexcept { return tool_bar_; }
     const Session& session() const noexcept { return controller_->session(); }
     QUndoStack& undoStack() noexcept { return controller_->undoStack(); }
     const LoadController& loader() const noexcept { return controller_->loader(); }
@@ -118,7 +121,10 @@ public:
 
     /// Takes effect at once; remembered when the window is.
     void setPreferences(const Preferences& preferences);
-    void goToCoordinate();
+    /// Asks for a name or a coordinate.
+    void goToPlace();
+    /// Focuses the search field, or asks for a name where the toolbar has no room for it.
+    void findName();
     /// Puts the position that the status bar shows on the clipboard.
     void copyCoordinates();
     /// The same for a place of the scene's grid.
@@ -155,6 +161,7 @@ private:
     void connectPanels();
     void connectController();
     void connectProject();
+    void connectNames();
     void showTitle();
     void connectView();
     void connectHint();
@@ -212,6 +219,7 @@ private:
     LightPopup* light_popup_ = nullptr;
     PictureSaver* picture_saver_ = nullptr;
     StretchControl* stretch_ = nullptr;
+    NameSearch* name_search_ = nullptr;
     GuideWindow* guide_ = nullptr; // once it was asked for
     GoToEntry last_place_;
     QString last_folder_;

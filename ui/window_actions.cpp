@@ -140,8 +140,9 @@ WindowActions::WindowActions(QMainWindow& window, QWidget& map, QUndoStack& undo
     makeHapticsMenu(window);
     makeHelpMenu(window);
     setIcons(*this);
-    for_shown_ += {save_picture,    home, north, go_to_coordinate, exaggerate_more, exaggerate_less,
-                   copy_coordinates};
+    for_shown_ +=
+        {save_picture,    home, north, go_to_place, find_name, exaggerate_more, exaggerate_less,
+         copy_coordinates};
     for_shown_ += steps;
     showSession({});
     showContactModel(kContactModelDefault);
@@ -161,6 +162,9 @@ void WindowActions::makeFileMenu(QMainWindow& window)
     open_address = menu->addAction(tr("Open &Address…"));
     open_address->setShortcut(QKeySequence(Qt::CTRL | Qt::Key_U));
     open_address->setToolTip(tr("Open a cloud-optimized GeoTIFF on a server"));
+    open_names = menu->addAction(tr("Open Na&mes…"));
+    open_names->setToolTip(tr("Open a file of named points to find and show on the map"));
+    open_names->setEnabled(false);
     recent = menu->addMenu(tr("Open &Recent"));
     menu->addSeparator();
     save_picture = menu->addAction(tr("Save &Picture…"));
@@ -220,8 +224,12 @@ void WindowActions::makeViewMenu(QMainWindow& window, QWidget& map)
     north->setIconText(tr("North"));
     north->setToolTip(tr("Turn north to the top (N)"));
     add_key(north, {Qt::Key_N});
-    go_to_coordinate = menu->addAction(tr("&Go to Coordinate…"));
-    go_to_coordinate->setShortcut(QKeySequence(Qt::CTRL | Qt::Key_G));
+    go_to_place = menu->addAction(tr("&Go to Place…"));
+    go_to_place->setToolTip(tr("Go to a name or a coordinate"));
+    go_to_place->setShortcut(QKeySequence(Qt::CTRL | Qt::Key_G));
+    find_name = menu->addAction(tr("Fin&d Name"));
+    find_name->setToolTip(tr("Search for the name of a place"));
+    find_name->setShortcut(QKeySequence::Find);
     coordinate_format = menu->addMenu(tr("Coordinate &Format"));
     menu->addSeparator();
     makeToolMenu(window, *menu, map);

@@ -30,6 +30,7 @@ struct WindowActions {
     QAction* open = nullptr;
     QAction* open_folder = nullptr;
     QAction* open_address = nullptr;
+    QAction* open_names = nullptr;
     QMenu* recent = nullptr; // filled by RecentFiles
     QAction* save_picture = nullptr;
     QAction* cancel_loading = nullptr;
@@ -40,7 +41,8 @@ struct WindowActions {
     QActionGroup* tools = nullptr; // data(): the Tool
     QAction* home = nullptr;
     QAction* north = nullptr;
-    QAction* go_to_coordinate = nullptr;
+    QAction* go_to_place = nullptr;
+    QAction* find_name = nullptr;
     QAction* copy_coordinates = nullptr;
     QMenu* coordinate_format = nullptr; // filled by the window
     QList<QAction*> steps;              // data(): the NavigationStep

@@ -39,10 +39,13 @@ std::optional<PlaceName> bundledName(std::string_view line)
         line = line.substr(0, comma);
     }
     const auto [diameter_km, latitude, longitude] = numbers;
+    // In the IAU's lists craters have no descriptor, nor have albedo features, which have no size.
+    const PlaceKind kind = kindOfName(line);
+    const bool is_crater = kind == PlaceKind::Other && diameter_km > 0.0;
     return PlaceName{.name = std::string(line),
                      .position = {Angle::degrees(longitude), Angle::degrees(latitude)},
                      .diameter_m = diameter_km * kMetersPerKilometer,
-                     .kind = kindOfName(line)};
+                     .kind = is_crater ? PlaceKind::Crater : kind};
 }
 
 std::shared_ptr<const Gazetteer> readBundled(const Body& body, const std::filesystem::path& path)
@@ -182,6 +185,10 @@ readGazetteer(const std::string& path, const Body* body, JobMonitor& monitor)
     }
     const FeatureCollection& content = file->content;
     const Placement place(content, body);
+    if (!content.crs && body == nullptr) {
+        return Error{ErrorCode::Invalid,
+                     path + ": does not state its body; open a map on that body first"};
+    }
     std::vector<PlaceName> names;
     bool has_points = false;
     for (const FeatureLayer& layer : content.layers) {

@@ -21,8 +21,9 @@ std::shared_ptr<const Gazetteer> bundledGazetteer(const Body& body);
 /// degrees of longitude and latitude on `body`, of its usual kind of latitude; the body of the
 /// result is `body` then.
 ///
-/// Errors are those of readVectorFile(), and Invalid if no point has a name or if the coordinates
-/// are not on the body. Blocks on the disk: not for the GUI thread.
+/// Errors are those of readVectorFile(), and Invalid if no point has a name, if the coordinates are
+/// not on the body, or if neither the file nor `body` states one. Blocks on the disk: not for the
+/// GUI thread.
 Result<std::shared_ptr<const Gazetteer>>
 readGazetteer(const std::string& path, const Body* body, JobMonitor& monitor);
 

@@ -6,11 +6,12 @@
 namespace marsview {
 
 enum class PlaceKind {
-    Other,          // without a descriptor; on planets and moons mostly craters
+    Other,          // without a descriptor
     LetteredCrater, // "Abbe H": a crater near the one that it is named after
     Canyon,         // Chasma, Labyrinthus
     Cape,           // Promontorium
     Chaos,
+    Crater,      // no descriptor
     CraterChain, // Catena
     Dunes,       // Undae
     Hollow,      // Cavus
@@ -27,7 +28,8 @@ enum class PlaceKind {
     Volcano,     // Patera
 };
 
-/// By the letter at the end of a name of the IAU, or by the first Latin descriptor among its words.
+/// Never Crater, since names without a descriptor are not always craters. By the letter at the end
+/// of a name of the IAU, or by the first Latin descriptor among its words.
 PlaceKind kindOfName(std::string_view name);
 
 } // namespace marsview

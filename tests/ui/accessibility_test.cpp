@@ -77,7 +77,7 @@ TEST_F(AccessibilityTest, EveryControlHasAName)
     expectNames(LightPopup(window_.get()));
     expectNames(SavePictureDialog({800, 600}, {}, window_.get()));
     expectNames(StretchDialog(window_.get()));
-    expectNames(GoToDialog(window_->view()->map(), {}, {}, window_.get()));
+    expectNames(GoToDialog(window_->view()->map(), {}, {}, {}, window_.get()));
 }
 
 TEST_F(AccessibilityTest, TheTabKeyReachesEveryControlOfTheWindow)
@@ -111,7 +111,7 @@ TEST_F(AccessibilityTest, TheTabKeyReachesEveryControlOfTheDialogs)
     QApplication::setActiveWindow(&address);
     expectReached(address);
     address.close();
-    GoToDialog go_to(window_->view()->map(), {}, {}, window_.get());
+    GoToDialog go_to(window_->view()->map(), {}, {}, {}, window_.get());
     go_to.show();
     QApplication::setActiveWindow(&go_to); // without a window manager
     expectReached(go_to);

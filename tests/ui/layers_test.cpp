@@ -338,7 +338,7 @@ TEST_F(LayersTest, AllHiddenIsAnEmptyView)
     controller().setVisible(id(0), false);
     ASSERT_TRUE(QTest::qWaitFor([this] { return !window_->view()->map(); }, 5000));
     EXPECT_FALSE(window_->actionSet().home->isEnabled());
-    EXPECT_FALSE(window_->actionSet().go_to_coordinate->isEnabled());
+    EXPECT_FALSE(window_->actionSet().go_to_place->isEnabled());
     controller().setVisible(id(0), true);
     ASSERT_TRUE(settle());
     EXPECT_TRUE(window_->actionSet().home->isEnabled());

@@ -189,7 +189,7 @@ TEST_F(TranslationTest, ReachesEveryDialog)
     window_->actionSet().edit_stretch->trigger();
     expectMarked(*window_->stretch().dialog());
     window_->stretch().dialog()->close();
-    GoToDialog go_to(window_->view()->map(), {}, {}, window_.get());
+    GoToDialog go_to(window_->view()->map(), {}, {}, {}, window_.get());
     expectMarked(go_to);
     go_to.findChild<QLineEdit*>(QStringLiteral("coordinate"))->setText(QStringLiteral("15, 15"));
     expectMarked(go_to);

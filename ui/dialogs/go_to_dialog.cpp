@@ -2,6 +2,7 @@
 
 #include "core/geo/coordinate_entry.h"
 #include "core/geo/extent.h"
+#include "ui/text/place_name_text.h"
 #include "ui/text/sentence.h"
 
 #include <QComboBox>
@@ -94,6 +95,13 @@ bool isOnlyMapPoint(const QString& text)
     const Result<MapPoint> plain = mapPointFrom(text.toStdString());
     const auto point = plain ? std::optional(*plain) : localMapPointFrom(text);
     return point && (std::abs(point->x) > 360.0 || std::abs(point->y) > 360.0);
+}
+
+// Whether the text begins like a name: with a letter, which no coordinate does but "N 18 E 226".
+bool isName(const QString& text)
+{
+    static const QRegularExpression kName(QStringLiteral("^\\p{L}(?![ ]*[-+0-9.,])"));
+    return text.contains(kName);
 }
 
 // The outermost half pixel has no surface; a position there is moved to the nearest sample.
@@ -190,15 +198,17 @@ placeOnMap(const Map& map, const CoordinateFormat& format, ReadAs read_as, const
 GoToDialog::GoToDialog(std::shared_ptr<const Map> map,
                        const Preferences& preferences,
                        const GoToEntry& last,
+                       NamesOnMap names,
                        QWidget* parent)
     : QDialog(parent)
     , map_(std::move(map))
     , preferences_(preferences)
+    , names_(std::move(names))
     , field_(new QLineEdit(last.text, this))
     , kind_(new QComboBox(this))
     , answer_(new QLabel(this))
 {
-    setWindowTitle(tr("Go to Coordinate"));
+    setWindowTitle(tr("Go to Place"));
     kind_->setAccessibleName(tr("How the coordinate is read"));
     for (const ReadAs read_as : readingsOn(map_->info(), preferences_.coordinates)) {
         kind_->addItem(readingName(read_as, map_->info()), static_cast<int>(read_as));
@@ -207,7 +217,7 @@ GoToDialog::GoToDialog(std::shared_ptr<const Map> map,
     kind_->setCurrentIndex(std::max(0, last_index)); // the format's own is first
     kind_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     kind_->setMinimumContentsLength(30);
-    field_->setAccessibleName(tr("Coordinate"));
+    field_->setAccessibleName(tr("Name or coordinate"));
     field_->setObjectName(QStringLiteral("coordinate"));
     field_->setClearButtonEnabled(true);
     field_->selectAll();
@@ -217,7 +227,7 @@ GoToDialog::GoToDialog(std::shared_ptr<const Map> map,
     answer_->setMinimumHeight(3 * fontMetrics().lineSpacing()); // no jumps while typing
     answer_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
     auto* form = new QFormLayout;
-    form->addRow(tr("&Coordinate"), field_);
+    form->addRow(tr("&Place"), field_);
     form->addRow(tr("&Read as"), kind_);
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
     go_button_ = buttons->addButton(tr("&Go"), QDialogButtonBox::AcceptRole);
@@ -233,6 +243,12 @@ GoToDialog::GoToDialog(std::shared_ptr<const Map> map,
     connect(kind_, &QComboBox::currentIndexChanged, this, &GoToDialog::check);
     connect(buttons, &QDialogButtonBox::accepted, this, &GoToDialog::go);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+    auto* completer = new NameCompleter(*field_);
+    completer->setNames(names_);
+    connect(completer, &NameCompleter::chosen, this, [this](const PlaceName& place) {
+        Q_EMIT nameChosen(place);
+        accept();
+    });
     check();
 }
 
@@ -268,8 +284,35 @@ void GoToDialog::check()
     }
     const Result<FoundPlace> place =
         placeOnMap(*map_, preferences_.coordinates, readAs(), now.text);
-    go_button_->setEnabled(place.has_value());
-    answer_->setText(place ? answerFor(*place) : asSentence(place.error().message));
+    const auto named = place ? std::nullopt : namedPlace();
+    go_button_->setEnabled(place || named);
+    if (named) {
+        answer_->setText(answerFor(*named));
+    } else if (!place && isName(now.text)) {
+        answer_->setText(noMatchText(now.text, names_, map_->info().body));
+    } else {
+        answer_->setText(place ? answerFor(*place) : asSentence(place.error().message));
+    }
+}
+
+// What the text names unless it is a coordinate: the first of the list below the field.
+std::optional<PlaceName> GoToDialog::namedPlace() const
+{
+    const QString text = entry().text;
+    auto found = isName(text) ? names_.find(text, 1) : std::vector<PlaceName>();
+    return found.empty() ? std::nullopt : std::optional(std::move(found.front()));
+}
+
+QString GoToDialog::answerFor(const PlaceName& place) const
+{
+    const QString name = isolated(QString::fromStdString(place.name));
+    const QString detail = placeDetailText(place);
+    //: A place: its name, then its kind and size
+    QStringList lines{detail.isEmpty() ? name : tr("%1: %2").arg(name, detail)};
+    if (const auto grid = map_->georeference().toGrid(place.position)) {
+        lines.append(positionText(preferences_.coordinates, *map_, *grid));
+    }
+    return lines.join(QLatin1Char('\n'));
 }
 
 // The position as it was read, then in the chosen format if that is another, then the elevation.
@@ -309,6 +352,9 @@ void GoToDialog::go()
 {
     if (const auto place = placeOnMap(*map_, preferences_.coordinates, readAs(), entry().text)) {
         Q_EMIT placeChosen(place->grid);
+        accept();
+    } else if (const auto named = namedPlace()) {
+        Q_EMIT nameChosen(*named);
         accept();
     }
 }

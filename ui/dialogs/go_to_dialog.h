@@ -1,10 +1,11 @@
-// Going to a place by its coordinate.
+// Going to a place by its name or its coordinate.
 #pragma once
 
 #include "core/base/result.h"
 #include "core/session/map.h"
 #include "ui/controllers/preferences.h"
 #include "ui/text/coordinate_text.h"
+#include "ui/widgets/name_completer.h"
 
 #include <QDialog>
 #include <QTimer>
@@ -55,21 +56,26 @@ public:
     GoToDialog(std::shared_ptr<const Map> map,
                const Preferences& preferences,
                const GoToEntry& last,
+               NamesOnMap names,
                QWidget* parent = nullptr);
 
     GoToEntry entry() const;
 
 Q_SIGNALS:
     void placeChosen(GridPoint grid);
+    void nameChosen(const PlaceName& place);
 
 private:
     ReadAs readAs() const;
     QString answerFor(const FoundPlace& place);
+    std::optional<PlaceName> namedPlace() const;
+    QString answerFor(const PlaceName& place) const;
     void check();
     void go();
 
     std::shared_ptr<const Map> map_;
     Preferences preferences_;
+    NamesOnMap names_;
     QTimer arrival_timer_;       // runs while the elevation of the place is loading
     QLineEdit* field_ = nullptr; // first: the first child created gets the focus
     QComboBox* kind_ = nullptr;

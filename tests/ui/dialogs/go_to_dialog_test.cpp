@@ -144,7 +144,7 @@ TEST_F(GoToDialogTest, NamesTheExtentOfTheMapForPlacesOutside)
 
 TEST_F(GoToDialogTest, EnablesGoOnlyForValidText)
 {
-    GoToDialog dialog(load(maps_.mars()), {}, {});
+    GoToDialog dialog(load(maps_.mars()), {}, {}, {});
     auto* field = dialog.findChild<QLineEdit*>(QStringLiteral("coordinate"));
     auto* answer = dialog.findChild<QLabel*>(QStringLiteral("answer"));
     auto* go = dialog.findChild<QDialogButtonBox*>()->buttons().constLast();
@@ -171,7 +171,7 @@ TEST_F(GoToDialogTest, FliesThereAndRemembersTheText)
     window.show();
     ASSERT_TRUE(openAndWait(window, maps_.mars()));
     for (int round = 0; round < 2; ++round) {
-        window.actionSet().go_to_coordinate->trigger();
+        window.actionSet().go_to_place->trigger();
         auto* dialog = window.findChild<GoToDialog*>();
         ASSERT_NE(dialog, nullptr);
         auto* field = dialog->findChild<QLineEdit*>(QStringLiteral("coordinate"));
@@ -208,7 +208,7 @@ TEST_F(GoToDialogTest, MarksThePlaceUntilDismissed)
         window.datasetPanel()->list()->setFocus();
         QTest::mouseMove(&view, view.rect().center() + QPoint(60, 40));
         EXPECT_FALSE(mark.isVisible());
-        window.actionSet().go_to_coordinate->trigger();
+        window.actionSet().go_to_place->trigger();
         auto* dialog = window.findChild<GoToDialog*>();
         ASSERT_NE(dialog, nullptr);
         auto* field = dialog->findChild<QLineEdit*>(QStringLiteral("coordinate"));
@@ -260,16 +260,16 @@ TEST_F(GoToDialogTest, ReadsInTheConventionOfTheBodyUnlessChosenOtherwise)
     const auto kind = [](const GoToDialog& dialog) {
         return static_cast<D>(dialog.findChild<QComboBox*>()->currentData().toInt());
     };
-    const GoToDialog on_mars(mars, {}, {});
+    const GoToDialog on_mars(mars, {}, {}, {});
     EXPECT_EQ(kind(on_mars), D::Planetocentric);
-    const GoToDialog on_earth(earth, {}, on_mars.entry());
+    const GoToDialog on_earth(earth, {}, on_mars.entry(), {});
     EXPECT_EQ(kind(on_earth), D::Planetographic);
-    EXPECT_EQ(kind(GoToDialog(earth, {}, {.read_as = D::Map, .text = {}})), D::Map);
+    EXPECT_EQ(kind(GoToDialog(earth, {}, {.read_as = D::Map, .text = {}}, {})), D::Map);
 }
 
 TEST_F(GoToDialogTest, OffersOnlyMapCoordinatesWithoutGeographicOnes)
 {
-    GoToDialog dialog(load(maps_.hill()), {}, {});
+    GoToDialog dialog(load(maps_.hill()), {}, {}, {});
     auto* kinds = dialog.findChild<QComboBox*>();
     EXPECT_EQ(kinds->count(), 1);
     dialog.findChild<QLineEdit*>(QStringLiteral("coordinate"))

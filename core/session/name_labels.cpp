@@ -1,0 +1,202 @@
+#include "core/session/name_labels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace marsview {
+namespace {
+
+// The least diameter in the picture, in points of the screen.
+constexpr double kAcrossPointsMin = 14.0;
+constexpr double kLetteredAcrossPointsMin = 48.0;
+
+// A feature this many times as wide as the picture is not what the picture shows.
+constexpr double kPicturesAcrossMax = 12.0;
+
+constexpr double kUnknownDiameterM = 50e3;
+
+constexpr std::size_t kRequestsMax = 400; // the largest
+constexpr std::size_t kLabelsMax = 60;
+constexpr double kGapPoints = 6.0;
+constexpr double kPointClearPoints = 6.0;
+constexpr double kShownBefore = 1.25; // counts as so much larger
+constexpr double kLiftPoints = 3.0;   // of the place for the ray that looks for it
+
+// A feature in the picture.
+struct Seen {
+    std::size_t place = 0; // index
+    double across_px = 0.0;
+    double importance = 0.0;
+};
+
+// The camera of one picture.
+class Picture {
+public:
+    Picture(const OrbitCamera& camera, const NameLabelOptions& options)
+        : camera_(camera)
+        , viewport_(options.viewport)
+        , eye_(eyeOf(camera))
+        , axes_(axesOf(camera))
+        , pixels_at_unit_(0.5 * viewport_.height / std::tan(0.5 * camera.field_of_view.radians()))
+    {}
+
+    // In pixels for a meter across; nothing where the point is not in the picture.
+    std::optional<double> scaleAt(const ScenePoint& point) const
+    {
+        const Vec3 to = point - eye_;
+        const double depth_m = dot(to, axes_.forward);
+        if (!(depth_m > 0.0)) {
+            return std::nullopt;
+        }
+        const double scale = pixels_at_unit_ / depth_m;
+        return std::abs(dot(to, axes_.right)) * scale <= 0.5 * viewport_.width &&
+                       std::abs(dot(to, axes_.up)) * scale <= 0.5 * viewport_.height
+                   ? std::optional(scale)
+                   : std::nullopt;
+    }
+    std::optional<PixelPoint> pixel(const ScenePoint& point) const
+    {
+        return project(camera_, viewport_, point);
+    }
+    bool isHidden(const ScenePoint& place, const SceneSurface& ground, double exaggeration) const
+    {
+        const Vec3 to = place - eye_;
+        const double distance_m = length(to);
+        const auto hit =
+            ground.cast({.origin = eye_, .direction = to * (1.0 / distance_m)}, exaggeration);
+        return hit && hit->distance_m < distance_m;
+    }
+
+private:
+    const OrbitCamera& camera_;
+    Viewport viewport_;
+    ScenePoint eye_;
+    CameraAxes axes_;
+    double pixels_at_unit_;
+};
+
+} // namespace
+
+NameLabels::NameLabels(std::shared_ptr<const Gazetteer> names, const SceneSurface& ground)
+    : names_(std::move(names))
+    , ground_(ground)
+{
+    if (ground_.isEmpty()) {
+        return;
+    }
+    const Georeference& scene = ground_.maps().front().map->georeference();
+    const SceneBox box = ground_.box(1.0);
+    for (std::size_t i = 0; i < names_->names().size(); ++i) {
+        const auto grid = scene.toGrid(names_->names()[i].position);
+        if (!grid) {
+            continue;
+        }
+        const ScenePoint point = scene.sceneFrame().toScene(*grid, 0.0);
+        if (point.x >= box.minimum.x && point.x <= box.maximum.x && point.y >= box.minimum.y &&
+            point.y <= box.maximum.y) {
+            const double height_m = ground_.height(point.x, point.y);
+            places_.push_back({.name = i,
+                               .x_m = point.x,
+                               .y_m = point.y,
+                               .height_m = std::isfinite(height_m) ? height_m : 0.0});
+        }
+    }
+}
+
+std::vector<NameLabel>
+NameLabels::inPicture(const OrbitCamera& camera,
+                      const NameLabelOptions& options,
+                      const std::function<LabelSize(std::size_t, double)>& size_of)
+{
+    const Picture picture(camera, options);
+    const double scale = options.pixels_per_point;
+    const bool has_sizes = names_->hasSizes();
+    const double across_px_max = kPicturesAcrossMax * options.viewport.width;
+    std::vector<Seen> seen;
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+        const Place& place = places_[i];
+        const PlaceName& name = names_->names()[place.name];
+        const auto pixels_per_m =
+            picture.scaleAt({place.x_m, place.y_m, place.height_m * options.exaggeration});
+        if (!pixels_per_m) {
+            continue;
+        }
+        const double diameter_m = name.diameter_m > 0.0 ? name.diameter_m
+                                  : has_sizes           ? kUnknownDiameterM
+                                                        : 0.0;
+        const double across_px = diameter_m * *pixels_per_m;
+        const double least =
+            name.kind == PlaceKind::LetteredCrater ? kLetteredAcrossPointsMin : kAcrossPointsMin;
+        if (has_sizes && (across_px < least * scale || across_px > across_px_max)) {
+            continue;
+        }
+        seen.push_back({.place = i,
+                        .across_px = name.diameter_m > 0.0 ? across_px : 0.0,
+                        .importance = (has_sizes ? across_px : *pixels_per_m) *
+                                      (place.was_shown ? kShownBefore : 1.0)});
+    }
+    const std::size_t count = std::min(seen.size(), kRequestsMax);
+    std::partial_sort(seen.begin(), seen.begin() + static_cast<std::ptrdiff_t>(count), seen.end(),
+                      [](const Seen& a, const Seen& b) {
+                          return a.importance != b.importance ? a.importance > b.importance
+                                                              : a.place < b.place;
+                      });
+    seen.resize(count);
+    std::vector<LabelRequest> requests;
+    std::vector<ScenePoint> points;
+    std::vector<Seen> requested;
+    for (const Seen& feature : seen) {
+        Place& place = places_[feature.place];
+        const double height_m = ground_.height(place.x_m, place.y_m);
+        if (!std::isfinite(height_m)) {
+            continue; // no terrain there
+        }
+        place.height_m = height_m;
+        const ScenePoint point{place.x_m, place.y_m, height_m * options.exaggeration};
+        const auto pixel = picture.pixel(point);
+        if (!pixel) {
+            continue;
+        }
+        const LabelSize size = size_of(place.name, feature.across_px);
+        const bool is_area = feature.across_px > 0.0;
+        requests.push_back({.place = *pixel,
+                            .width_px = size.width_px,
+                            .height_px = size.height_px,
+                            .anchor = is_area ? LabelAnchor::Area : LabelAnchor::Point,
+                            .clear_px = is_area ? 0.0 : kPointClearPoints * scale});
+        points.push_back(point);
+        requested.push_back(feature);
+    }
+    const auto placed =
+        placeLabels(requests,
+                    {.viewport = options.viewport,
+                     .gap_px = kGapPoints * scale,
+                     .count_max = kLabelsMax,
+                     .obstacles = options.obstacles},
+                    [&](std::size_t index) {
+                        // Above the terrain, or the ray may hit it just before the place.
+                        ScenePoint point = points[index];
+                        point.z +=
+                            kLiftPoints * scale * metersPerPixel(camera, options.viewport, point);
+                        return !picture.isHidden(point, ground_, options.exaggeration);
+                    });
+    for (Place& place : places_) {
+        place.was_shown = false;
+    }
+    std::vector<NameLabel> labels;
+    for (const PlacedLabel& label : placed) {
+        const Seen& feature = requested[label.request];
+        Place& place = places_[feature.place];
+        place.was_shown = true;
+        labels.push_back({.name = place.name,
+                          .box = label.box,
+                          .place = requests[label.request].place,
+                          .anchor = requests[label.request].anchor,
+                          .across_px = feature.across_px});
+    }
+    return labels;
+}
+
+} // namespace marsview

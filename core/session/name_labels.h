@@ -1,0 +1,75 @@
+// Which names of places a picture of the terrain shows, and where.
+#pragma once
+
+#include "core/names/gazetteer.h"
+#include "core/session/scene_surface.h"
+#include "core/view/label_placement.h"
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace marsview {
+
+/// The size of a label in pixels, and how it lies.
+struct LabelSize {
+    double width_px = 0.0;
+    double height_px = 0.0;
+};
+
+/// A name in a picture.
+struct NameLabel {
+    std::size_t name = 0; // index in the gazetteer
+    LabelBox box{};
+    PixelPoint place{}; // of the middle of what it names
+    LabelAnchor anchor = LabelAnchor::Area;
+    double across_px = 0.0; // the diameter of what it names, in the picture; 0: unknown
+};
+
+struct NameLabelOptions {
+    Viewport viewport{};
+    double pixels_per_point = 1.0;
+    double exaggeration = 1.0;
+    std::span<const LabelBox> obstacles = {};
+};
+
+/// The names of a gazetteer on the terrain of a scene. Not copyable; one thread at a time.
+class NameLabels {
+public:
+    /// Finds where in the scene the names are: some 10 ms for ten thousand names on a projected
+    /// map.
+    NameLabels(std::shared_ptr<const Gazetteer> names, const SceneSurface& ground);
+
+    const Gazetteer& names() const noexcept { return *names_; }
+    /// Names that are on a map of the scene.
+    std::size_t count() const noexcept { return places_.size(); }
+
+    /// The labels of a picture. What looks larger comes first: size and distance both count.
+    /// Features need a diameter of 14 points in the picture, lettered craters 48. Names without a
+    /// size count as 50 km, or, if no name has a size, are shown at any distance. Labels do not
+    /// overlap each other nor the obstacles. A place that the terrain hides has none. Labels of the
+    /// picture before are preferred a little, so that they do not flicker while the camera moves.
+    ///
+    /// `size_of` returns the size of a label that spans `across_px`.
+    std::vector<NameLabel>
+    inPicture(const OrbitCamera& camera,
+              const NameLabelOptions& options,
+              const std::function<LabelSize(std::size_t name, double across_px)>& size_of);
+
+private:
+    struct Place {
+        std::size_t name = 0;
+        double x_m = 0.0;
+        double y_m = 0.0;
+        double height_m = 0.0; // as read last
+        bool was_shown = false;
+    };
+
+    std::shared_ptr<const Gazetteer> names_;
+    SceneSurface ground_;
+    std::vector<Place> places_; // the largest first
+};
+
+} // namespace marsview
