@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -18,6 +19,7 @@ BodyMesh::BodyMesh(std::shared_ptr<const FilledHeightfield> heights,
     : heights_(std::move(heights))
     , positions_(std::move(positions))
     , exaggeration_(exaggeration)
+    , scale_(heights_->heightfield().scale())
     , columns_(static_cast<std::uint32_t>(positions_.columns()))
     , rows_(static_cast<std::uint32_t>(positions_.rows()))
     , cell_columns_(positions_.wraps() ? columns_ : columns_ - 1)
@@ -26,6 +28,16 @@ BodyMesh::BodyMesh(std::shared_ptr<const FilledHeightfield> heights,
     , blocks_per_row_((cell_columns_ + kBlockCells - 1) / kBlockCells)
     , cell_blocks_(blocks_per_row_ * ((rows_ - 1 + kBlockCells - 1) / kBlockCells))
 {
+    const SampleGrid& samples = heights_->heightfield().samples();
+    if (!samples.hasVoids()) {
+        samples.visit([this](auto view) {
+            if constexpr (std::is_same_v<decltype(view), GridView<const std::int16_t>>) {
+                int16_ = view.data();
+            } else if constexpr (std::is_same_v<decltype(view), GridView<const float>>) {
+                float_ = view.data();
+            }
+        });
+    }
     const std::array<bool, 2> closes{positions_.closesAtFirstRow(), positions_.closesAtLastRow()};
     for (std::size_t i = 0; i < caps_.size(); ++i) {
         if (closes[i]) {
@@ -186,8 +198,7 @@ FanCorners BodyMesh::fan(std::uint32_t vertex) const noexcept
     const std::uint32_t row = vertex / columns_;
     const std::uint32_t column = vertex - row * columns_;
     FanCorners corners;
-    const bool is_inside = row > 0 && row + 1 < rows_ && column > 0 && column + 1 < columns_;
-    if (is_inside) {
+    if (isInside(column, row)) {
         const std::array<std::uint32_t, 6> around{cellCorner(column, row, false, kFirst),
                                                   cellCorner(column, row, true, kFirst),
                                                   cellCorner(column, row - 1, false, kThird),
@@ -231,6 +242,39 @@ FanCorners BodyMesh::fan(std::uint32_t vertex) const noexcept
         }
     }
     return corners;
+}
+
+VertexRing BodyMesh::ring(std::uint32_t vertex, const FanCorners& corners) const noexcept
+{
+    const std::uint32_t row = vertex / columns_;
+    const std::uint32_t column = vertex - row * columns_;
+    VertexRing ring;
+    if (isInside(column, row)) {
+        const std::array<std::array<std::uint32_t, 2>, 6> around{{{column, row + 1},
+                                                                  {column + 1, row + 1},
+                                                                  {column + 1, row},
+                                                                  {column, row - 1},
+                                                                  {column - 1, row - 1},
+                                                                  {column - 1, row}}};
+        ring.count = around.size();
+        for (std::size_t i = 0; i < around.size(); ++i) {
+            const auto [c, r] = around[is_mirrored_ && i > 0 ? around.size() - i : i];
+            ring.vertices[i] = r * columns_ + c;
+            ring.points[i] = sampleAt(c, r);
+        }
+        return ring;
+    }
+    for (const std::uint32_t corner : corners) {
+        ring.vertices[ring.count++] = vertexAt(nextCorner(corner));
+    }
+    if (const std::uint32_t end = vertexAt(previousCorner(corners.back()));
+        end != ring.vertices[0]) {
+        ring.vertices[ring.count++] = end;
+    }
+    for (std::size_t i = 0; i < ring.count; ++i) {
+        ring.points[i] = this->vertex(ring.vertices[i]);
+    }
+    return ring;
 }
 
 ScenePoint BodyMesh::highAbove(const ScenePoint& point) const noexcept
@@ -283,8 +327,7 @@ Status BodyMesh::buildTree(JobMonitor& monitor)
     }
     for (std::uint32_t row = 0; row < rows_; ++row) {
         for (std::uint32_t column = 0; column < columns_; ++column) {
-            const double height_m =
-                exaggeration_ * heights_->sample(column, row + positions_.firstRow());
+            const double height_m = heightAt(column, row);
             highest_m_ = row == 0 && column == 0 ? height_m : std::max(highest_m_, height_m);
         }
     }

@@ -33,6 +33,15 @@ private:
     std::size_t count_ = 0;
 };
 
+/// The ends of the edges of a vertex, in the order of its corners, each of which lies between two
+/// of them: after the last comes the first, unless the vertex is at the border.
+struct VertexRing {
+    static constexpr std::size_t kCountMax = FanCorners::kCountMax + 1;
+    std::array<std::uint32_t, kCountMax> vertices;
+    std::array<ScenePoint, kCountMax> points;
+    std::size_t count = 0;
+};
+
 /// The same queries as TriangleMesh, without storing a triangle: each cell of the grid is cut from
 /// sample (column, row) to (column + 1, row + 1), with vertices at the samples' positions on the
 /// body and straight edges between them. The columns of a map around the body meet, and flat
@@ -81,6 +90,8 @@ public:
     }
     std::uint32_t across(std::uint32_t corner) const noexcept;
     FanCorners fan(std::uint32_t vertex) const noexcept;
+    /// `corners` is fan(vertex).
+    VertexRing ring(std::uint32_t vertex, const FanCorners& corners) const noexcept;
     bool isAtBorder(std::uint32_t vertex) const noexcept
     {
         return across(previousCorner(fan(vertex).front())) == kNone;
@@ -147,8 +158,23 @@ private:
 
     ScenePoint sampleAt(std::uint32_t column, std::uint32_t row) const noexcept
     {
-        return positions_.at(column, row,
-                             exaggeration_ * heights_->sample(column, row + positions_.firstRow()));
+        return positions_.at(column, row, heightAt(column, row));
+    }
+    // In scene meters. Samples without voids are read by their type.
+    double heightAt(std::uint32_t column, std::uint32_t row) const noexcept
+    {
+        const std::size_t raster_row = row + positions_.firstRow();
+        const std::size_t index = raster_row * heights_->columns() + column;
+        if (int16_ != nullptr) {
+            return exaggeration_ * scale_.height(static_cast<double>(int16_[index]));
+        }
+        return exaggeration_ * (float_ != nullptr
+                                    ? scale_.height(static_cast<double>(float_[index]))
+                                    : heights_->sample(column, raster_row));
+    }
+    bool isInside(std::uint32_t column, std::uint32_t row) const noexcept
+    {
+        return row > 0 && row + 1 < rows_ && column > 0 && column + 1 < columns_;
     }
     std::uint32_t cornerNumber(bool is_upper, Role role) const noexcept
     {
@@ -224,6 +250,9 @@ private:
     std::shared_ptr<const FilledHeightfield> heights_;
     BodyPositions positions_;
     double exaggeration_;
+    ElevationScale scale_;
+    const std::int16_t* int16_ = nullptr; // the samples, if they have this type and no voids
+    const float* float_ = nullptr;
     std::uint32_t columns_;
     std::uint32_t rows_;
     std::uint32_t cell_columns_;

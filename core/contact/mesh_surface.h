@@ -40,10 +40,25 @@ struct MeshGoal {
     Vec3 from(const ScenePoint& point) const noexcept { return (scene - point) + rest; }
 };
 template <typename Mesh>
+using MeshCorners = decltype(std::declval<const Mesh&>().fan(0));
+/// A mesh with few edges at a vertex, which computes the ends of all of them at once.
+template <typename Mesh>
+concept MeshWithRings = requires(const Mesh& mesh, const MeshCorners<Mesh>& corners)
+{
+    mesh.ring(0, corners);
+};
+template <typename Mesh>
+struct MeshRing {};
+template <MeshWithRings Mesh>
+struct MeshRing<Mesh> {
+    decltype(std::declval<const Mesh&>().ring(0, MeshCorners<Mesh>())) ends;
+};
+template <typename Mesh>
 struct MeshFan {
     MeshVertex vertex;
     ScenePoint point;
-    decltype(std::declval<const Mesh&>().fan(0)) corners; // TriangleMesh::fan
+    MeshCorners<Mesh> corners; // TriangleMesh::fan
+    MeshRing<Mesh> ring{};
 };
 
 /// The face that a walk is on. Weights are dot products with `inward`, counted from a corner on
@@ -221,10 +236,23 @@ public:
         return legs;
     }
 
-    Fan fan(Vertex v) const noexcept { return {v, mesh_->vertex(v.index), mesh_->fan(v.index)}; }
+    Fan fan(Vertex v) const noexcept
+    {
+        Fan fan{v, mesh_->vertex(v.index), mesh_->fan(v.index), {}};
+        if constexpr (MeshWithRings<Mesh>) {
+            fan.ring.ends = mesh_->ring(v.index, fan.corners);
+        }
+        return fan;
+    }
     template <typename F>
     void eachSpoke(const Fan& fan, F&& function) const noexcept
     {
+        if constexpr (MeshWithRings<Mesh>) {
+            for (std::size_t i = 0; i < fan.ring.ends.count; ++i) {
+                function(spokeAt(fan, i));
+            }
+            return;
+        }
         for (const std::uint32_t corner : fan.corners) {
             function(spokeTo(fan, mesh_->vertexAt(Mesh::nextCorner(corner))));
         }
@@ -236,6 +264,15 @@ public:
     template <typename F>
     void eachSector(const Fan& fan, F&& function) const noexcept
     {
+        if constexpr (MeshWithRings<Mesh>) {
+            std::size_t i = 0;
+            for (const std::uint32_t corner : fan.corners) {
+                const std::size_t next = i + 1 < fan.ring.ends.count ? i + 1 : 0;
+                function(Face{Mesh::faceOf(corner)}, spokeAt(fan, i), spokeAt(fan, next));
+                i = next;
+            }
+            return;
+        }
         // Each sector begins at the spoke at which the one before it ends.
         Spoke begin = spokeTo(fan, mesh_->vertexAt(Mesh::nextCorner(fan.corners.front())));
         for (const std::uint32_t corner : fan.corners) {
@@ -315,6 +352,10 @@ private:
     Spoke spokeTo(const Fan& fan, std::uint32_t vertex) const noexcept
     {
         return {{vertex}, mesh_->vertex(vertex) - fan.point};
+    }
+    static Spoke spokeAt(const Fan& fan, std::size_t i) noexcept requires MeshWithRings<Mesh>
+    {
+        return {{fan.ring.ends.vertices[i]}, fan.ring.ends.points[i] - fan.point};
     }
     bool isValley(std::uint32_t corner) const noexcept;
     std::optional<Face> wayOutOfMixed(const Fan& fan, const Goal& goal) const noexcept;

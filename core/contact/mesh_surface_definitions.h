@@ -114,18 +114,15 @@ auto BasicMeshSurface<Mesh>::wayOut(const Fan& fan, const Goal& goal) const noex
     const double goal_squared = dot(to_goal, to_goal);
     bool is_over_all = true;
     bool is_over_any = false;
-    Vec3 a = mesh_->vertex(mesh_->vertexAt(Mesh::nextCorner(fan.corners.front()))) - fan.point;
-    for (const std::uint32_t corner : fan.corners) {
-        const Vec3 b = mesh_->vertex(mesh_->vertexAt(Mesh::previousCorner(corner))) - fan.point;
-        const Vec3 normal = cross(a, b);
+    eachSector(fan, [&](Face, const Spoke& a, const Spoke& b) {
+        const Vec3 normal = cross(a.along, b.along);
         const double above = dot(normal, to_goal);
         const bool is_over = above > 0.0 && above * above > mesh_surface::kRiseMin *
                                                                 mesh_surface::kRiseMin *
                                                                 goal_squared * dot(normal, normal);
         is_over_all = is_over_all && is_over;
         is_over_any = is_over_any || is_over;
-        a = b; // where the next face begins
-    }
+    });
     if (is_over_all) {
         return Face{Mesh::faceOf(fan.corners.front())};
     }
