@@ -35,6 +35,7 @@ ModeStep pan(const ModeOptions& options, const ModeInput& input, ModeState& stat
     Vec3 force_n = moved.force_n;
     force_n.z = -input.stiffness_n_per_m * (input.hand.z - state.grabbed.z);
     return {.frame = input.frame.panned(moved.shift_m),
+            .seen_from = input.frame,
             .force_n = force_n,
             .has_moved_map = !(moved.shift_m == Vec3{})};
 }
@@ -45,11 +46,13 @@ ModeStep zoom(const ModeOptions& options, const ModeInput& input, ModeState& sta
     const double wanted = scale / zoomFactor(options.zoom, input.hand_shift.z);
     const double next = std::clamp(wanted, std::min(scale, options.scene_per_meter_min),
                                    std::max(scale, options.scene_per_meter_max));
-    // The grabbed point of space stays at the hand.
     const WorkspaceFrame lifted = input.frame.panned({0.0, 0.0, input.hand_shift.z});
-    const WorkspaceFrame zoomed = lifted.zoomed(input.hand, scale / next);
+    WorkspacePoint fixed = input.hand;
+    fixed.z -= std::max(input.clearance_m - input.hand_shift.z - kZoomHeightM, 0.0);
+    const WorkspaceFrame zoomed = lifted.zoomed(fixed, scale / next);
     const double hold = input.stiffness_n_per_m * input.free_share;
     return {.frame = zoomed.turned(input.hand, Angle::radians(input.twist_change_rad)),
+            .seen_from = lifted,
             .force_n = {-hold * (input.hand.x - state.grabbed.x),
                         -hold * (input.hand.y - state.grabbed.y),
                         detentForce(options.zoom, aboveDetent(options.zoom, next))},
@@ -61,9 +64,11 @@ ModeStep glide(const ModeOptions& options, const ModeInput& input, ModeState& st
 {
     const PanStep moved = glideMap(options.pan, state.pan, input.free_share, dt_s);
     if (moved.shift_m == Vec3{}) {
-        return {.frame = input.frame};
+        return {.frame = input.frame, .seen_from = input.frame};
     }
-    return {.frame = input.frame.panned(moved.shift_m), .has_moved_map = true};
+    return {.frame = input.frame.panned(moved.shift_m),
+            .seen_from = input.frame,
+            .has_moved_map = true};
 }
 
 } // namespace

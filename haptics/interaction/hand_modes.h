@@ -25,6 +25,8 @@ struct ModeInput {
     double free_share = 1.0;       // 0 at a wall: WallContact::ground_share
     double stiffness_n_per_m = 0.; // of holds
     Vec3 surface_force_n{};        // on the hand, while it does not hold
+    /// Of the hand over the terrain straight below it in `frame`, in workspace meters.
+    double clearance_m = 0.0;
     WorkspaceFrame frame;
 };
 
@@ -38,10 +40,18 @@ struct ModeState {
 
 struct ModeStep {
     WorkspaceFrame frame;
+    /// The frame from which the view follows to `frame`. A zoom lifts the surface in the workspace
+    /// first, where the view does not follow: it zooms about the same point of the scene.
+    WorkspaceFrame seen_from;
     Vec3 force_n{};                // of the mode; 0 unless it grabs
     bool has_changed_mode = false; // in the rendered force: hovering and pressing count as one
     bool has_moved_map = false;    // pulled, gliding, zoomed or turned
 };
+
+/// Above the surface, in the workspace: the height of the point about which a zoom magnifies. It is
+/// less than the rise that doubles the zoom, divided by ln 2, so that the surface rises with the
+/// hand.
+inline constexpr double kZoomHeightM = 0.02;
 
 /// Whether the mode holds the map: the surface force is then off.
 constexpr bool isHolding(StylusMode mode) noexcept
@@ -50,9 +60,10 @@ constexpr bool isHolding(StylusMode mode) noexcept
 }
 
 /// Pan: the map follows with inertia, and the hand's height is held; at the grab the surface force
-/// continues. Zoom: the hand holds a point of free space, which moves up and down with it and about
-/// which its height zooms, so that the surface never passes the hand; with detents; twisting
-/// rotates the map, and the horizontal position is held.
+/// continues. Zoom: the hand carries the surface below it up and down, and its height zooms about a
+/// point between the two, at most kZoomHeightM above the surface: a raised hand always raises the
+/// surface, and the surface never passes the hand. With detents; twisting rotates the map, and the
+/// horizontal position is held.
 /// Otherwise a released map glides. The forces of a mode act along different axes, so they are
 /// added; a force along a wall's axis fades out before the wall (`free_share`). Servo thread.
 ModeStep stepModes(const ModeOptions& options,

@@ -55,6 +55,17 @@ PanStep pullMap(const PanOptions& options,
     return step;
 }
 
+void stopMap(PanState& state, const Vec3& shift, double hold_share) noexcept
+{
+    const Vec3 way = level(shift);
+    const double square = dot(way, way);
+    const double along = dot(state.velocity_m_per_s, way);
+    if (square > 0.0 && along < 0.0) {
+        state.velocity_m_per_s = state.velocity_m_per_s - way * (along / square);
+    }
+    state.stretch_m = state.stretch_m - way * hold_share;
+}
+
 PanStep
 glideMap(const PanOptions& options, PanState& state, double mass_share, double dt_s) noexcept
 {

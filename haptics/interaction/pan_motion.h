@@ -42,6 +42,10 @@ PanStep pullMap(const PanOptions& options,
                 double mass_share,
                 double dt_s) noexcept;
 
+/// Something has moved the map back by `shift`, horizontally, after a step. It loses its velocity
+/// in the opposite direction. `hold_share`, 0 to 1, of the shift stretches the hold.
+void stopMap(PanState& state, const Vec3& shift, double hold_share) noexcept;
+
 /// The map is not held. If a wall is touched, `mass_share` 0, it loses its momentum.
 PanStep
 glideMap(const PanOptions& options, PanState& state, double mass_share, double dt_s) noexcept;

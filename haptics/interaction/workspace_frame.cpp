@@ -96,6 +96,18 @@ WorkspaceFrame WorkspaceFrame::turned(const WorkspacePoint& fixed, Angle angle) 
             .turn = turn + -angle};
 }
 
+WorkspaceFrame WorkspaceFrame::moved(const WorkspaceFrame& from,
+                                     const WorkspaceFrame& to) const noexcept
+{
+    if (*this == from) {
+        return to;
+    }
+    return {.anchor = anchor,
+            .place = to.toScene(from.toWorkspace(place)),
+            .scene_per_meter = scene_per_meter * to.scene_per_meter / from.scene_per_meter,
+            .turn = turn + to.turn + -from.turn};
+}
+
 bool WorkspaceFrame::isSound() const noexcept
 {
     const double sum = anchor.x + anchor.y + anchor.z + place.x + place.y + place.z +

@@ -32,6 +32,9 @@ struct WorkspaceFrame {
     WorkspaceFrame zoomed(const WorkspacePoint& fixed, double factor) const noexcept;
     /// The frame after the map has been turned counterclockwise about the vertical through `fixed`.
     WorkspaceFrame turned(const WorkspacePoint& fixed, Angle angle) const noexcept;
+    /// The frame after the scene has moved in the workspace as it does from `from` to `to`: `to`,
+    /// if this frame is `from`.
+    WorkspaceFrame moved(const WorkspaceFrame& from, const WorkspaceFrame& to) const noexcept;
     /// Whether all numbers are finite and the scale is valid.
     bool isSound() const noexcept;
 };

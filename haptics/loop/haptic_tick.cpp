@@ -123,7 +123,9 @@ private:
             is_stretched_ =
                 !(length(settings_.frame.toWorkspace(at) - state_.frame.toWorkspace(at)) < kJumpM);
         }
-        state_.frame = settings_.frame;
+        state_.frame =
+            is_limit ? state_.frame.moved(state_.seen_frame, settings_.frame) : settings_.frame;
+        state_.seen_frame = settings_.frame;
         state_.frame_number = settings_.frame_number;
         state_.has_frame = true;
     }
@@ -215,7 +217,8 @@ private:
 
         const bool is_grabbing =
             (input_.sample.buttons & kGrabbingButtons) != 0 || settings_.is_grabbing;
-        const ModeStep mode = stepModes(settings_.modes,
+        const double clearance_m = clearance();
+        const ModeStep mode = stepModes(modeOptions(),
                                         {.hand = state_.hand,
                                          .hand_shift = shift_m_,
                                          .twist_change_rad = twist_change_rad_,
@@ -224,24 +227,31 @@ private:
                                          .free_share = share,
                                          .stiffness_n_per_m = stiffness,
                                          .surface_force_n = state_.surface_force_n,
+                                         .clearance_m = clearance_m,
                                          .frame = state_.frame},
                                         state_.modes, dt_s_);
         result_.has_changed_mode = mode.has_changed_mode;
-        if (mode.frame.isSound()) {
+        if (mode.has_moved_map && mode.frame.isSound()) {
+            const WorkspaceFrame before = state_.frame;
             state_.frame = mode.frame;
-            if (mode.has_moved_map) {
-                keepWithinView();
-            }
+            state_.seen_frame = state_.seen_frame.moved(mode.seen_from, mode.frame);
+            keepWithinView(share);
+            keepHandOnMap(before);
+        } else if (settings_.fit && !isHolding(state_.modes.mode) &&
+                   !state_.contact.is_in_contact && input_.recorded_goal == nullptr) {
+            state_.frame = fitted({}, *settings_.fit, state_.frame, state_.seen_frame, state_.hand,
+                                  clearance_m, dt_s_);
         }
         refreshTerrain(stiffness);
         Vec3 force_n = mode.force_n + walls.force_n;
+        const Vec3 surface_n = touch() * (stiffness * share);
         if (isHolding(state_.modes.mode)) {
-            hold(mode.force_n);
+            state_.held_force_n = mode.force_n;
+            state_.release_share = 0.0;
         } else {
-            const Vec3 surface_n = touch() * (stiffness * share);
             force_n = force_n + surface_n + release(surface_n);
-            state_.surface_force_n = surface_n;
         }
+        state_.surface_force_n = surface_n;
         force_n = force_n * std::clamp(settings_.force_share, 0.0, 1.0);
         if (!options_.is_passivity_kept) {
             return force_n;
@@ -252,46 +262,76 @@ private:
         return passive.force_n;
     }
 
-    // The map's motion ends where the camera's target reaches its bounds.
-    void keepWithinView() noexcept
+    // The limits of the zoom are those of the frame that the camera follows.
+    ModeOptions modeOptions() const noexcept
+    {
+        ModeOptions modes = settings_.modes;
+        const double share = state_.frame.scene_per_meter / state_.seen_frame.scene_per_meter;
+        modes.scene_per_meter_min *= share;
+        modes.scene_per_meter_max *= share;
+        return modes;
+    }
+
+    // Of the hand over the terrain below it, in the workspace.
+    double clearance() const noexcept
+    {
+        const ScenePoint at = state_.frame.toScene(state_.hand);
+        return (at.z - map_->height(onGrid(map_->frame.frame().toGrid(at)))) /
+               state_.frame.scene_per_meter;
+    }
+
+    // Moves the map by `shift_m`, in the scene, back from where the hand has moved it.
+    void moveBack(const Vec3& shift_m, double hold_share) noexcept
+    {
+        state_.frame.place = state_.frame.place + shift_m;
+        state_.seen_frame.place = state_.seen_frame.place + shift_m;
+        stopMap(state_.modes.pan, -state_.frame.differenceToWorkspace(shift_m),
+                state_.modes.mode == StylusMode::Pan ? hold_share : 0.0);
+    }
+
+    // The map's motion ends where the camera's target reaches its bounds: a hand that goes on
+    // pulling feels the hold's spring, which relaxes at a wall.
+    void keepWithinView(double share) noexcept
     {
         if (!settings_.view_bounds) {
             return;
         }
         const ViewBounds& bounds = *settings_.view_bounds;
-        const ScenePoint target = state_.frame.toScene(bounds.target);
+        const ScenePoint target = state_.seen_frame.toScene(bounds.target);
         ScenePoint kept = target;
         kept.x = std::clamp(target.x, bounds.low.x, std::max(bounds.low.x, bounds.high.x));
         kept.y = std::clamp(target.y, bounds.low.y, std::max(bounds.low.y, bounds.high.y));
-        if (kept == target) {
-            return;
+        if (!(kept == target)) {
+            moveBack(kept - target, share);
         }
-        state_.frame.place = state_.frame.place + (kept - target);
-        Vec3 scene_m_per_s = state_.frame.differenceToScene(state_.modes.pan.velocity_m_per_s);
-        // Against the bound; the target moves against the map.
-        scene_m_per_s.x = kept.x != target.x ? 0.0 : scene_m_per_s.x;
-        scene_m_per_s.y = kept.y != target.y ? 0.0 : scene_m_per_s.y;
-        state_.modes.pan.velocity_m_per_s = state_.frame.differenceToWorkspace(scene_m_per_s);
     }
 
-    // While the hand holds the map, goal and proxy are what it holds.
-    void hold(const Vec3& force_n) noexcept
+    // A gliding map stops where its edge reaches the hand.
+    void keepHandOnMap(const WorkspaceFrame& before) noexcept
     {
-        state_.held_force_n = force_n;
-        state_.release_share = 0.0;
-        state_.goal = state_.frame.toScene(state_.hand);
-        WorkspacePoint held = state_.hand;
-        if (state_.modes.mode == StylusMode::Pan) {
-            held.z = state_.modes.grabbed.z;
+        if (!state_.is_on_map || isHolding(state_.modes.mode)) {
+            return;
         }
-        state_.contact.proxy = state_.frame.toScene(held);
-        state_.proxy = map_->frame.fromScene(clamped(state_.contact.proxy));
+        const Vec3 was_m = beyondMap(before.toScene(state_.hand));
+        const Vec3 is_m = beyondMap(state_.frame.toScene(state_.hand));
+        if (length(is_m) > length(was_m)) {
+            moveBack(was_m - is_m, 0.0);
+        }
+    }
+
+    // From the map to a point beside it, horizontally; zero over the map.
+    Vec3 beyondMap(const ScenePoint& at) const noexcept
+    {
+        const SceneFrame& frame = map_->frame.frame();
+        const GridPoint grid = frame.toGrid(at);
+        const GridPoint inside = onGrid(grid);
+        return inside == grid ? Vec3{} : at - frame.toScene(inside, at.z);
     }
 
     // After a release the force of the hold passes over to that of the surface.
     Vec3 release(const Vec3& surface_n) noexcept
     {
-        if (has_jumped_ || is_fresh_) {
+        if (has_jumped_ || is_fresh_ || is_entering_) {
             state_.release_share = 0.0;
         } else if (result_.has_changed_mode) {
             state_.release_n = state_.held_force_n - surface_n;
@@ -343,13 +383,42 @@ private:
         return {along(at.column, georeference.columns()), along(at.row, georeference.rows())};
     }
 
+    // Whether there is terrain below the hand. From inside, the edge of the map is a wall; beside
+    // the map there is nothing to touch until the hand comes over it.
+    bool isOverMap() noexcept
+    {
+        if (input_.recorded_goal != nullptr) {
+            return true;
+        }
+        const ScenePoint at = state_.frame.toScene(state_.hand);
+        beyond_m_ = beyondMap(at);
+        result_.is_at_edge = !(beyond_m_ == Vec3{});
+        if (!result_.is_at_edge) {
+            is_entering_ = !state_.is_on_map && state_.has_touched;
+            state_.is_on_map = true;
+        } else if (has_jumped_ || is_fresh_) {
+            state_.is_on_map = false;
+        }
+        if (!state_.is_on_map) {
+            state_.goal = at;
+            state_.contact = {};
+            state_.contact.proxy = at;
+            state_.proxy = map_->frame.fromScene(at);
+        }
+        result_.is_at_edge = result_.is_at_edge && state_.is_on_map;
+        return state_.is_on_map;
+    }
+
     // From the stylus to the proxy, in workspace meters.
     Vec3 touch() noexcept
     {
+        if (!isOverMap()) {
+            return {};
+        }
         const TracePoint aimed = input_.recorded_goal != nullptr ? *input_.recorded_goal : aim();
         if (is_other_model_) {
             goOnAtProxy();
-        } else if (map_->is_touched && (has_jumped_ || !state_.has_touched)) {
+        } else if (map_->is_touched && (has_jumped_ || is_entering_ || !state_.has_touched)) {
             putStraightAbove(aimed);
         }
         update(aimed);
@@ -360,13 +429,15 @@ private:
             result_.missed_samples =
                 static_cast<std::uint32_t>(std::min<std::uint64_t>(missed, UINT32_MAX));
         }
-        if (!state_.contact.is_in_contact || state_.contact.counters.refused != 0) {
+        if (state_.contact.counters.refused != 0) {
             return {};
         }
-        return state_.frame.differenceToWorkspace(state_.contact.proxy - clamped(state_.goal));
+        const Vec3 up_m =
+            state_.contact.is_in_contact ? state_.contact.proxy - clamped(state_.goal) : Vec3{};
+        return state_.frame.differenceToWorkspace(up_m - beyond_m_);
     }
 
-    // Beyond the map's border the surface continues level, without a wall at the edge.
+    // The nearest point over the map.
     ScenePoint clamped(const ScenePoint& goal) const noexcept
     {
         const SceneFrame& frame = map_->frame.frame();
@@ -426,7 +497,8 @@ private:
         if (isTooLate()) {
             note(ForceOffReason::MissedDeadline);
         }
-        result_.has_changed_map = has_jumped_ || is_fresh_ || is_stretched_;
+        result_.has_changed_map = has_jumped_ || is_fresh_ || is_stretched_ ||
+                                  (is_entering_ && state_.contact.is_in_contact);
         const SafetyOutput safe = limitForce(
             options_.limits,
             {.force_n = force_n, .reason = result_.reason, .has_changed = result_.has_changed_map},
@@ -460,7 +532,7 @@ private:
     {
         result_.mode = state_.modes.mode;
         result_.hand = state_.hand;
-        result_.goal = state_.goal;
+        result_.goal = state_.goal + (state_.is_on_map ? beyond_m_ : Vec3{}); // where the hand is
         result_.contact = state_.contact;
         result_.proxy = state_.proxy;
     }
@@ -475,6 +547,8 @@ private:
     StepResult result_;
     Vec3 shift_m_{};
     double twist_change_rad_ = 0.0;
+    Vec3 beyond_m_{}; // from the map's edge to the hand, in the scene
+    bool is_entering_ = false;
     bool has_jumped_ = false;
     bool is_fresh_ = false;
     bool is_other_model_ = false;

@@ -4,6 +4,7 @@
 #include "haptics/device/haptic_device.h"
 #include "haptics/interaction/hand_modes.h"
 #include "haptics/interaction/hand_view.h"
+#include "haptics/interaction/workspace_fit.h"
 #include "haptics/interaction/workspace_walls.h"
 #include "haptics/loop/passivity_observer.h"
 #include "haptics/loop/safety_limiter.h"
@@ -33,6 +34,8 @@ struct LoopSettings {
     std::uint64_t frame_number = 0; // otherwise the loop keeps the frame as its hand has moved it
     FrameOrigin frame_origin = FrameOrigin::View;
     std::optional<ViewBounds> view_bounds{};
+    /// In free space, while the map is at rest, the workspace slowly moves there; empty: it stays.
+    std::optional<WorkspaceFit> fit{};
     double stiffness_n_per_m = 300.0; // of surface and walls; limited by the device
     double force_share = 1.0;         // of all forces, 0 to 1
     bool has_walls = true;
@@ -98,11 +101,13 @@ struct TickState {
     double twist_rad = 0.0;
     bool has_frame = false;
     WorkspaceFrame frame;
+    WorkspaceFrame seen_frame; // moves as the camera: also where the workspace alone has moved
     std::uint64_t frame_number = 0;
     std::uint64_t map_serial = 0; // 0: none
     std::uint64_t map_id = 0;
     double exaggeration = 0.0; // of the map
     bool has_touched = false;  // since this map was set
+    bool is_on_map = false;    // the hand has been over the map, whose edge is a wall from inside
     ContactState contact;      // the last
     TracePoint proxy{};        // the same in map coordinates
     ScenePoint goal{};
@@ -128,6 +133,7 @@ struct StepResult {
     WorkspacePoint hand{};
     ScenePoint goal{};
     ContactState contact;
+    bool is_at_edge = false; // beyond the edge of the map, which holds the hand back
     TracePoint proxy{};
     TickGoals goals;                  // passed to the contact model, in order
     double ground_share = 1.0;        // fraction of the surface force that the walls let through

@@ -35,11 +35,13 @@ struct LoopState {
     StylusMode mode = StylusMode::Hover;
     ForceOffReason reason = ForceOffReason::NoTouch;
     Vec3 force_n{};
+    bool is_at_edge = false; // of the map
     double ground_share = 1.0;
     double stiffness_n_per_m = 0.0;
     double tick_s = 0.0; // how long the tick took
     /// As moved by the hand; `frame_number` is that of the settings from which it started.
     WorkspaceFrame frame;
+    WorkspaceFrame seen_frame; // which the camera follows; `frame` also moves to fit the view
     std::uint64_t frame_number = 0;
     LoopCounts counts;
     bool is_finished = false; // the device has finished, or was lost

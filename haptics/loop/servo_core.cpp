@@ -35,6 +35,7 @@ std::vector<MemoryRange> ServoCore::memory() const
 void ServoCore::begin()
 {
     const WorkspaceFrame frame = tick_.frame;
+    const WorkspaceFrame seen_frame = tick_.seen_frame;
     const std::uint64_t frame_number = tick_.frame_number;
     const bool has_frame = tick_.has_frame;
     const double heat_n2 = cooledHeat(options_.tick.limits, tick_.safety.heat_n2,
@@ -42,6 +43,7 @@ void ServoCore::begin()
     tick_ = {};
     tick_.safety.heat_n2 = heat_n2;
     tick_.frame = frame;
+    tick_.seen_frame = seen_frame;
     tick_.frame_number = frame_number;
     tick_.has_frame = has_frame;
     counts_ = {};
@@ -234,10 +236,12 @@ void ServoCore::publish(const StepResult& result, double tick_s) noexcept
                   .mode = result.mode,
                   .reason = result.reason,
                   .force_n = result.force_n,
+                  .is_at_edge = result.is_at_edge,
                   .ground_share = result.ground_share,
                   .stiffness_n_per_m = result.stiffness_n_per_m,
                   .tick_s = tick_s,
                   .frame = tick_.frame,
+                  .seen_frame = tick_.seen_frame,
                   .frame_number = tick_.frame_number,
                   .counts = counts_,
                   .is_finished = is_finished_});

@@ -11,16 +11,27 @@
 
 namespace marsview {
 
+/// Heights of the surface that a contact model touches. Servo thread.
+class SurfaceHeights {
+public:
+    virtual ~SurfaceHeights() = default;
+    /// In scene meters, with the exaggeration, at a grid position, which is clamped to the grid.
+    virtual double height(const GridPoint& at) const noexcept = 0;
+};
+
 /// Created and destroyed by any thread except the servo thread; used only by the servo thread.
 struct ServoMap {
     GoalFrame frame;
     std::unique_ptr<MapContactModel> model;
-    std::shared_ptr<ServoTerrain> terrain;        // null if the map is in memory
-    ContactModelKind kind = kContactModelDefault; // of the model
-    double radius_m = 1.0;                        // of the model's sphere, if it has one
-    std::uint64_t map_id = 0;                     // identifies the touched map
-    std::uint64_t serial = 0;                     // unique for each ServoMap
-    bool is_touched = false;                      // the model already has a proxy
+    std::unique_ptr<const SurfaceHeights> heights; // of the same surface
+    std::shared_ptr<ServoTerrain> terrain;         // null if the map is in memory
+    ContactModelKind kind = kContactModelDefault;  // of the model
+    double radius_m = 1.0;                         // of the model's sphere, if it has one
+    std::uint64_t map_id = 0;                      // identifies the touched map
+    std::uint64_t serial = 0;                      // unique for each ServoMap
+    bool is_touched = false;                       // the model already has a proxy
+
+    double height(const GridPoint& at) const noexcept { return heights->height(at); }
 };
 
 struct ServoMapOptions {

@@ -70,6 +70,7 @@ void TerrainView::connectParts()
         reader_.report();
         Q_EMIT sightChanged();
     });
+    connect(&grab_key_, &GrabKey::released, this, [this] { setGrabbing(false); });
     connect(&touch_, &TouchTool::redrawNeeded, this, [this] { update(); });
     connect(&touch_, &TouchTool::moved, &mouse_, &MapMouse::showCursor);
     connect(&touch_, &TouchTool::moved, this, &TerrainView::stylusMoved);
@@ -319,6 +320,7 @@ void TerrainView::keyPressEvent(QKeyEvent* event)
 {
     if (event->key() == Qt::Key_Space && event->modifiers() == Qt::NoModifier) {
         if (!event->isAutoRepeat()) {
+            grab_key_.hold();
             setGrabbing(true);
         }
         return;
@@ -334,17 +336,6 @@ void TerrainView::keyPressEvent(QKeyEvent* event)
     }
 }
 
-void TerrainView::keyReleaseEvent(QKeyEvent* event)
-{
-    if (event->key() == Qt::Key_Space) {
-        if (!event->isAutoRepeat()) {
-            setGrabbing(false);
-        }
-        return;
-    }
-    QOpenGLWidget::keyReleaseEvent(event);
-}
-
 void TerrainView::focusInEvent(QFocusEvent* event)
 {
     QOpenGLWidget::focusInEvent(event);
@@ -354,7 +345,6 @@ void TerrainView::focusInEvent(QFocusEvent* event)
 void TerrainView::focusOutEvent(QFocusEvent* event)
 {
     QOpenGLWidget::focusOutEvent(event);
-    setGrabbing(false);
     reader_.report();
 }
 

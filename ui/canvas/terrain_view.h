@@ -2,6 +2,7 @@
 #pragma once
 
 #include "ui/canvas/camera_controller.h"
+#include "ui/canvas/grab_key.h"
 #include "ui/canvas/map_mouse.h"
 #include "ui/canvas/place_reader.h"
 #include "ui/canvas/shown_scene.h"
@@ -187,7 +188,7 @@ Q_SIGNALS:
     void stylusMoved();
     /// isCrosshairShown() changed.
     void crosshairChanged(bool is_shown);
-    /// The grab key was pressed or released.
+    /// The grab key was pressed or released for a device.
     void grabbingChanged(bool is_grabbing);
     void toolChanged(Tool tool);
     /// A gesture of the mouse moved the camera or the stylus, or asked for the menu.
@@ -206,7 +207,6 @@ protected:
     void mouseDoubleClickEvent(QMouseEvent* event) override;
     void wheelEvent(QWheelEvent* event) override;
     void keyPressEvent(QKeyEvent* event) override;
-    void keyReleaseEvent(QKeyEvent* event) override;
     void focusInEvent(QFocusEvent* event) override;
     void focusOutEvent(QFocusEvent* event) override;
     void contextMenuEvent(QContextMenuEvent* event) override;
@@ -225,6 +225,7 @@ private:
     CameraController camera_;
     ViewProjection projection_;
     TouchTool touch_;
+    GrabKey grab_key_;
     PlaceReader reader_;
     MapMouse mouse_;
     TerrainCanvas canvas_;

@@ -65,12 +65,16 @@ void TouchTool::setPressing(bool is_pressing)
 
 bool TouchTool::setGrabbing(bool is_grabbing)
 {
-    if (is_grabbing == buttons_.is_grabbing) {
+    if (is_grabbing == (buttons_.is_grabbing || is_device_grabbing_)) {
         return false;
+    }
+    if (is_grabbing ? device_.has_value() : is_device_grabbing_) {
+        is_device_grabbing_ = is_grabbing;
+        return true;
     }
     buttons_.is_grabbing = is_grabbing;
     follow();
-    return true;
+    return false;
 }
 
 void TouchTool::deepen(double factor)

@@ -36,8 +36,10 @@ public:
 
     void setPressing(bool is_pressing);
     bool isPressing() const noexcept { return buttons_.is_pressing; }
-    /// False where nothing changes.
+    /// The key that grabs acts for the device where one is shown as it is pressed, otherwise for the
+    /// mouse. Returns whether the device's grab begins or ends.
     bool setGrabbing(bool is_grabbing);
+    /// With the mouse.
     bool isGrabbing() const noexcept { return buttons_.is_grabbing; }
     /// The pressing depth, deeper if factor > 1.
     void deepen(double factor);
@@ -79,6 +81,7 @@ private:
     QTimer refresh_timer_; // runs while finer terrain may arrive below the stylus
     double grabbed_z_m_ = 0.0;
     bool is_chosen_ = false;
+    bool is_device_grabbing_ = false;
     bool is_over_terrain_ = false;
     bool has_hand_moved_ = false; // since it began to press
 };

@@ -634,6 +634,8 @@ void HapticsController::takeSight()
                                          view_.exaggeration(), loop_->device().workspace)};
     loop_settings_.frame = hand_view_.frame;
     loop_settings_.frame_origin = FrameOrigin::View;
+    loop_settings_.fit.reset();
+    is_fitted_ = true;
     ++loop_settings_.frame_number;
     takeBounds();
     takeStrokes();
@@ -648,6 +650,21 @@ void HapticsController::takeBounds()
         navigationLimits(ground.box(view_.exaggeration()), ground.pixelMeters());
     loop_settings_.view_bounds = boundsFor(hand_view_, limits);
     boundZoom(hand_view_, limits, loop_settings_.modes);
+}
+
+// The hand has moved the map and left it at rest: in free space, the tick fits the workspace to the
+// view again.
+void HapticsController::takeFit(const LoopState& state)
+{
+    if (is_fitted_ || isHolding(state.mode)) {
+        return;
+    }
+    is_fitted_ = true;
+    loop_settings_.fit =
+        WorkspaceFit{.seen = hand_view_.frame,
+                     .fitted = frameForSight(view_.camera(), view_.viewport(), view_.ground(),
+                                             view_.exaggeration(), loop_->device().workspace)};
+    push();
 }
 
 // Keeps the strokes of a simulated hand within the picture; without terrain in sight they stay.
@@ -667,15 +684,20 @@ void HapticsController::takeStrokes()
 // frame returns to the camera.
 void HapticsController::followHand(const LoopState& state)
 {
-    if (state.frame_number != loop_settings_.frame_number || state.frame == hand_view_.frame) {
+    if (state.frame_number != loop_settings_.frame_number) {
         return;
     }
-    const OrbitCamera wanted = cameraFollowing(hand_view_, state.frame);
+    if (state.seen_frame == hand_view_.frame) {
+        takeFit(state);
+        return;
+    }
+    is_fitted_ = false;
+    const OrbitCamera wanted = cameraFollowing(hand_view_, state.seen_frame);
     is_following_ = true;
     view_.setCamera(wanted);
     is_following_ = false;
     const LimitedView limited =
-        limitedView({.camera = wanted, .frame = state.frame}, view_.camera());
+        limitedView({.camera = wanted, .frame = state.seen_frame}, view_.camera());
     hand_view_ = limited.view;
     if (limited.is_moved) {
         loop_settings_.frame = hand_view_.frame;
@@ -692,10 +714,12 @@ void HapticsController::showHand(const LoopState& state)
     const ContactState& contact = state.contact;
     const Vec3 force_n =
         state.frame.differenceToScene(state.force_n) * (1.0 / state.frame.scene_per_meter);
+    // At the edge of the map, too, the cursor stays behind and its spring leads to the hand.
+    const bool is_held_back = contact.is_in_contact || state.is_at_edge;
     view_.showDevice(StylusPose{.mode = state.mode,
-                                .proxy = contact.is_in_contact ? contact.proxy : state.goal,
+                                .proxy = is_held_back ? contact.proxy : state.goal,
                                 .goal = state.goal,
-                                .is_in_contact = contact.is_in_contact,
+                                .is_in_contact = is_held_back,
                                 .force_n = force_n,
                                 .force_n_max = loop_->device().force_n_peak});
 }

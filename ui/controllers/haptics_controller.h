@@ -186,6 +186,7 @@ private:
     void makeMapAgain();
     void takeSight();
     void takeBounds();
+    void takeFit(const LoopState& state);
     void takeStrokes();
     void followHand(const LoopState& state);
     void showHand(const LoopState& state);
@@ -225,7 +226,8 @@ private:
         OrbitCamera sent_to;
     };
     std::optional<Excursion> excursion_;
-    HandView hand_view_; // that loop_settings_.frame_number is of
+    HandView hand_view_;     // that loop_settings_.frame_number is of
+    bool is_fitted_ = false; // loop_settings_.fit is that of hand_view_
     bool is_following_ = false;
 
     std::vector<TickRecord> kept_ticks_; // of the last loop

@@ -116,6 +116,52 @@ TEST(HandModes, ZoomingHoldsThePlaceAndZoomsByHeight)
     EXPECT_LE(std::abs(step.force_n.z), 0.25);
 }
 
+// Paper, 4.2: the hand grabs empty space "to move the surface towards or away from the camera".
+TEST(HandModes, AZoomMovesTheSurfaceWithTheHandFromEveryHeight)
+{
+    for (const double clearance_m : {0.0, 0.005, 0.02, 0.05, 0.12}) {
+        for (const double side : {1.0, -1.0}) {
+            Hand hand;
+            hand.input.is_grabbing = true;
+            hand.move({});
+            double ground_m = -clearance_m;
+            const double scale = hand.input.frame.scene_per_meter;
+            for (int i = 0; i < 360; ++i) {
+                const ScenePoint ground = hand.input.frame.toScene({0.0, 0.0, ground_m});
+                hand.input.clearance_m = hand.input.hand.z + side * 1e-4 - ground_m;
+                hand.move({0.0, 0.0, side * 1e-4});
+                const double now_m = hand.input.frame.toWorkspace(ground).z;
+                ASSERT_GT((now_m - ground_m) * side, 0.2e-4) << clearance_m;
+                ground_m = now_m;
+                ASSERT_GE(hand.input.hand.z - ground_m, -1e-12);
+            }
+            EXPECT_NEAR(hand.input.frame.scene_per_meter, scale * std::exp2(-side * 1.2),
+                        1e-9 * scale);
+        }
+    }
+}
+
+TEST(HandModes, AZoomThereAndBackEndsWhereItBegan)
+{
+    Hand hand;
+    hand.input.is_grabbing = true;
+    hand.move({});
+    double ground_m = -0.05;
+    const auto lift = [&](double step_m) {
+        const ScenePoint ground = hand.input.frame.toScene({0.0, 0.0, ground_m});
+        hand.input.clearance_m = hand.input.hand.z + step_m - ground_m;
+        hand.move({0.0, 0.0, step_m});
+        ground_m = hand.input.frame.toWorkspace(ground).z;
+    };
+    for (int i = 0; i < 3000; ++i) {
+        lift(1e-5);
+    }
+    for (int i = 0; i < 3000; ++i) {
+        lift(-1e-5);
+    }
+    EXPECT_NEAR(ground_m, -0.05, 1e-5);
+}
+
 TEST(HandModes, TwistingTurnsTheMapAboutTheHand)
 {
     Hand hand;

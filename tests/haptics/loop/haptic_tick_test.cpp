@@ -113,15 +113,75 @@ TEST(HapticTick, AtAWallTheTerrainForceIsZero)
     EXPECT_NEAR(rig.at({0.082, 0.0, -0.025}).force_n.x, 0.0, 1e-9);
 }
 
-TEST(HapticTick, OutsideTheMapTheTerrainContinuesLevel)
+TEST(HapticTick, TheEdgeOfTheMapIsAWallFromInside)
 {
     Rig rig;
-    rig.settings.frame.scene_per_meter = 4000.0; // the map is 50 mm wide
+    rig.settings.frame.scene_per_meter = 4000.0; // the map is 50 mm wide, its edge at 25 mm
     rig.at({});
-    const StepResult result = rig.to({0.06, 0.0, -0.01});
+    const StepResult in_air = rig.to({0.027, 0.0, 0.0});
+    EXPECT_FALSE(in_air.contact.is_in_contact);
+    EXPECT_TRUE(in_air.is_at_edge);
+    EXPECT_NEAR(in_air.force_n.x, -400.0 * 0.002, 1e-9);
+    EXPECT_NEAR(in_air.force_n.z, 0.0, 1e-9);
+    rig.to({0.02, 0.0, 0.0});
+    const StepResult result = rig.to({0.026, 0.0, -0.01});
     EXPECT_TRUE(result.contact.is_in_contact);
-    EXPECT_NEAR(result.force_n.x, 0.0, 1e-9);
+    EXPECT_NEAR(result.force_n.x, -400.0 * 0.001, 1e-9);
     EXPECT_NEAR(result.force_n.z, 400.0 * 0.005, 1e-9);
+    EXPECT_FALSE(rig.to({0.0, 0.0, 0.0}).is_at_edge);
+}
+
+TEST(HapticTick, BesideTheMapThereIsNothingToTouch)
+{
+    Rig rig;
+    rig.settings.frame.scene_per_meter = 4000.0;
+    rig.at({0.04, 0.0, 0.0}); // begins beside the map
+    const StepResult below = rig.to({0.04, 0.0, -0.02});
+    EXPECT_FALSE(below.contact.is_in_contact);
+    EXPECT_FALSE(below.is_at_edge);
+    EXPECT_EQ(below.force_n, Vec3{});
+    EXPECT_NEAR(length(below.contact.proxy - rig.state.frame.toScene({0.04, 0.0, -0.02})), 0.0,
+                1e-9);
+    rig.to({0.04, 0.0, 0.0});
+    rig.to({0.0, 0.0, 0.0});
+    EXPECT_NEAR(rig.to({0.0, 0.0, -0.01}).force_n.z, 400.0 * 0.005, 1e-9);
+    EXPECT_NEAR(rig.to({0.026, 0.0, 0.0}).force_n.x, -0.4, 1e-9); // a wall from now on
+}
+
+TEST(HapticTick, InFreeSpaceTheWorkspaceSlowlyFitsTheView)
+{
+    Rig rig;
+    rig.at({});
+    WorkspaceFit fit{.seen = rig.settings.frame, .fitted = rig.settings.frame};
+    fit.fitted.place.z += 10.0; // the terrain 10 mm lower in the workspace
+    fit.fitted.scene_per_meter *= 1.1;
+    rig.settings.fit = fit;
+    WorkspaceFrame last = rig.state.frame;
+    for (int i = 0; i < 3000; ++i) {
+        const StepResult result = rig.at({});
+        EXPECT_EQ(result.force_n, Vec3{});
+        // At most 15 mm a second.
+        ASSERT_LE(length(rig.state.frame.toWorkspace(last.toScene({})) - WorkspacePoint{}),
+                  15.001e-6);
+        last = rig.state.frame;
+    }
+    EXPECT_NEAR(rig.state.frame.scene_per_meter, fit.fitted.scene_per_meter, 0.2);
+    EXPECT_NEAR(rig.state.frame.toScene({}).z, fit.fitted.toScene({}).z, 0.05); // meters
+    EXPECT_EQ(rig.state.seen_frame, rig.settings.frame);                        // the camera stays
+    // Toward the hand, it never gets into contact.
+    rig.settings.fit->fitted.place.z -= 200.0;
+    for (int i = 0; i < 20'000; ++i) {
+        ASSERT_FALSE(rig.at({}).contact.is_in_contact);
+    }
+    // In contact it rests.
+    rig.to({0.0, 0.0, -0.03});
+    const WorkspaceFrame touched = rig.state.frame;
+    ASSERT_TRUE(rig.at({0.0, 0.0, -0.03}).contact.is_in_contact);
+    rig.settings.fit->fitted.place.z += 400.0;
+    for (int i = 0; i < 1000; ++i) {
+        rig.at({0.0, 0.0, -0.03});
+    }
+    EXPECT_EQ(rig.state.frame, touched);
 }
 
 TEST(HapticTick, SwitchesTheForceOffForEveryReason)
