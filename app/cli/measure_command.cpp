@@ -3,6 +3,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/measure_input.h"
 #include "app/console/long_job.h"
+#include "app/console/measure_report.h"
 #include "app/console/number_checks.h"
 #include "app/console/text_output.h"
 #include "core/measure/attitude.h"
@@ -29,12 +30,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-// A length over terrain that is partly void is unknown.
-double wholeSurface(double surface_m, double void_m)
-{
-    return void_m > 0.0 ? kNan : surface_m;
-}
-
 void printVoidNotice(const MeasureOptions& options, double void_m)
 {
     if (void_m > 0.0) {
@@ -43,22 +38,6 @@ void printVoidNotice(const MeasureOptions& options, double void_m)
                      "the length along the terrain is unknown\n",
                      asOneLine(options.map.path).c_str(), asText(void_m).c_str());
     }
-}
-
-Json reportOf(const Distance& distance)
-{
-    Json legs = Json::array();
-    for (const LegDistance& leg : distance.legs) {
-        legs.push_back({{"geodesic_m", asJson(leg.geodesic_m)},
-                        {"azimuth_deg", asJson(leg.azimuth_deg)},
-                        {"surface_m", asJson(wholeSurface(leg.surface_m, leg.void_m))},
-                        {"rise_m", asJson(leg.rise_m)}});
-    }
-    return {{"geodesic_m", asJson(distance.geodesic_m)},
-            {"surface_m", asJson(wholeSurface(distance.surface_m, distance.void_m))},
-            {"straight_m", asJson(distance.straight_m)},
-            {"rise_m", asJson(distance.rise_m)},
-            {"legs", std::move(legs)}};
 }
 
 void printForPeople(const Distance& distance)
@@ -147,44 +126,6 @@ struct AttitudeCommand {
     MeasureOptions common;
     std::optional<double> elevation_error_m;
 };
-
-Json reportOf(const Attitude& attitude, GroundPosition center)
-{
-    const AttitudeUncertainty& uncertainty = attitude.uncertainty;
-    Json axes = Json::array();
-    for (const PoleAxis& axis : uncertainty.axes) {
-        axes.push_back({{"half_angle_deg", asJson(axis.half_angle_deg)},
-                        {"trend_deg", asJson(axis.trend_deg)},
-                        {"plunge_deg", asJson(axis.plunge_deg)}});
-    }
-    Json residuals = Json::array();
-    for (const double residual_m : attitude.residuals_m) {
-        residuals.push_back(asJson(residual_m));
-    }
-    return {{"strike_deg", asJson(attitude.strike_deg)},
-            {"dip_deg", asJson(attitude.dip_deg)},
-            {"dip_direction_deg", asJson(attitude.dip_direction_deg)},
-            {"rms_m", asJson(attitude.rms_m)},
-            {"pole",
-             {{"trend_deg", asJson(attitude.poleTrendDeg())},
-              {"plunge_deg", asJson(attitude.polePlungeDeg())},
-              {"east", asJson(attitude.normal.x)},
-              {"north", asJson(attitude.normal.y)},
-              {"up", asJson(attitude.normal.z)}}},
-            {"uncertainty",
-             {{"confidence", uncertainty.confidence},
-              {"dip_error_deg", asJson(uncertainty.dip_error_deg)},
-              {"strike_error_deg", asJson(uncertainty.strike_error_deg)},
-              {"axes", std::move(axes)},
-              {"elevation_error_m", uncertainty.elevation_error_m
-                                        ? asJson(*uncertainty.elevation_error_m)
-                                        : Json(nullptr)}}},
-            {"points", attitude.points},
-            {"residuals_m", std::move(residuals)},
-            {"lon", asJson(center.x)},
-            {"lat", asJson(center.y)},
-            {"elevation_m", asJson(attitude.center_elevation_m)}};
-}
 
 void printForPeople(const Attitude& attitude)
 {
@@ -283,22 +224,6 @@ void printUncoveredNotice(const MeasureOptions& options, const TerrainArea& area
     }
 }
 
-Json reportOf(const TerrainArea& area)
-{
-    Json json = {{"geodesic_m2", asJson(area.geodesic_m2)},
-                 {"perimeter_m", asJson(area.perimeter_m)},
-                 {"surface_m2", asJson(area.surface_m2)},
-                 {"covered_m2", asJson(area.covered_m2)},
-                 {"min_m", asJson(area.min_m)},
-                 {"max_m", asJson(area.max_m)},
-                 {"mean_m", asJson(area.mean_m)}};
-    if (area.volume_above_m3) {
-        json["volume_above_m3"] = asJson(*area.volume_above_m3);
-        json["volume_below_m3"] = asJson(*area.volume_below_m3);
-    }
-    return json;
-}
-
 void printForPeople(const TerrainArea& area)
 {
     const auto line = [](const char* label, double value, const char* unit) {
@@ -353,16 +278,7 @@ Status runCrater(const MeasureOptions& options)
     const GroundPosition center = input->lonLat(input->terrain->inTurn(crater->center));
     if (options.is_json) {
         const MapPoint map = input->terrain->toMap(crater->center).value_or(MapPoint{kNan, kNan});
-        printJson(withSchema({{"lon", asJson(center.x)},
-                              {"lat", asJson(center.y)},
-                              {"x", asJson(map.x)},
-                              {"y", asJson(map.y)},
-                              {"diameter_m", asJson(crater->diameter_m)},
-                              {"depth_m", asJson(crater->depth_m)},
-                              {"rim_m", asJson(crater->rim_m)},
-                              {"floor_m", asJson(crater->floor_m)},
-                              {"rms_m", asJson(crater->rms_m)},
-                              {"points", crater->points}}));
+        printJson(withSchema(reportOf(*crater, center, map)));
     } else {
         const auto line = [](const char* label, const std::string& text) {
             printLine(fmt::format("{:<12}{}", label, text));

@@ -3,15 +3,13 @@
 #include "app/cli/commands.h"
 #include "app/console/number_checks.h"
 #include "app/console/output_file.h"
+#include "app/console/picture.h"
 #include "app/console/scene.h"
 #include "core/files/picture_file.h"
 #include "core/raster/output_check.h"
-#include "ui/render/offscreen_picture.h"
 
 #include <CLI/CLI.hpp>
-#include <cmath>
 #include <cstdio>
-#include <fmt/format.h>
 #include <memory>
 #include <optional>
 #include <string>
@@ -38,37 +36,6 @@ struct RenderOptions {
     bool has_contours = false;
 };
 
-Result<OrbitCamera> cameraFrom(const RenderOptions& options,
-                               const Scene& scene,
-                               double exaggeration,
-                               const Viewport& viewport)
-{
-    OrbitCamera camera = homeCamera(scene.box(exaggeration), viewport);
-    const double home_distance_m = camera.distance_m;
-    if (options.tilt_deg) {
-        camera.tilt = Angle::degrees(*options.tilt_deg);
-    }
-    camera.azimuth = Angle::degrees(options.azimuth_deg);
-    if (!options.look_at.empty()) {
-        const Georeference& georeference = scene.map->georeference();
-        const GridPoint grid =
-            georeference.toGrid(MapPoint{options.look_at.front(), options.look_at.back()});
-        const double last_column = static_cast<double>(georeference.columns() - 1);
-        const double last_row = static_cast<double>(georeference.rows() - 1);
-        if (!(grid.column >= 0.0 && grid.column <= last_column && grid.row >= 0.0 &&
-              grid.row <= last_row)) {
-            return Error{ErrorCode::OutOfRange,
-                         fmt::format("--look-at: {},{} is not on the map", options.look_at.front(),
-                                     options.look_at.back())};
-        }
-        const double height_m = scene.map->heightfield().heightWaiting(grid);
-        camera.target = georeference.sceneFrame().toScene(
-            grid, std::isnan(height_m) ? 0.0 : height_m * exaggeration);
-    }
-    camera.distance_m = options.distance_m.value_or(home_distance_m);
-    return scene.bounded(camera, exaggeration, Scene::Ground::Waiting);
-}
-
 Status runRender(const RenderOptions& options)
 {
     if (Status checked =
@@ -85,31 +52,27 @@ Status runRender(const RenderOptions& options)
     if (!scene) {
         return std::move(scene).error();
     }
-    const double exaggeration = options.exaggeration.value_or(scene->exaggeration);
-    const Result<OrbitCamera> camera = cameraFrom(options, *scene, exaggeration, *viewport);
-    if (!camera) {
-        return camera.error();
+    PictureOptions picture_options{
+        .viewport = *viewport,
+        .distance_m = options.distance_m,
+        .azimuth_deg = options.azimuth_deg,
+        .tilt_deg = options.tilt_deg,
+        .exaggeration = options.exaggeration,
+        .error_px = options.error_px,
+        .has_every_sample = options.is_full,
+        .samples = options.samples,
+        .shading = options.shading == "tint"        ? ShadingMode::Tint
+                   : options.shading == "hillshade" ? ShadingMode::Hillshade
+                                                    : ShadingMode::Slope,
+        .light_deg = {options.light_deg.front(), options.light_deg.back()},
+        .has_contours = options.has_contours,
+    };
+    if (!options.look_at.empty()) {
+        picture_options.look_at = MapPoint{options.look_at.front(), options.look_at.back()};
     }
-    DrawStyle style;
-    style.exaggeration = exaggeration;
-    style.look.mode = options.shading == "tint"        ? ShadingMode::Tint
-                      : options.shading == "hillshade" ? ShadingMode::Hillshade
-                                                       : ShadingMode::Slope;
-    style.look.has_contours = options.has_contours;
-    style.look.light_azimuth = Angle::degrees(options.light_deg.front());
-    style.look.light_altitude = Angle::degrees(options.light_deg.back());
-    const Result<OffscreenPicture> picture = drawOffscreen(
-        *scene->renderer,
-        {.camera = *camera,
-         .viewport = *viewport,
-         .detail = {.error_px = options.error_px, .has_every_sample = options.is_full},
-         .samples = options.samples},
-        style, DepthUse::No);
+    const Result<OffscreenPicture> picture = drawPicture(*scene, picture_options);
     if (!picture) {
         return picture.error();
-    }
-    if (const std::optional<Error>& problem = picture->report.problem) {
-        return *problem; // a part of the terrain would be coarser than requested
     }
     const InterruptIgnored ignored;
     Status written = writePng(picture->colors, options.output);

@@ -5,9 +5,11 @@
 #include "core/base/plain_number.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <cstdint>
+#include <dlfcn.h>
 #include <filesystem>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -21,23 +23,36 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-constexpr const char* kProgram = "marsview-probe";
+constexpr char kProgram[] = "marsview-probe";
+
+// The folders of the program and of the file with this code, a module that another program loaded.
+std::array<fs::path, 2> ownFolders()
+{
+    std::error_code none;
+    Dl_info code{};
+    const bool is_found = dladdr(kProgram, &code) != 0 && code.dli_fname != nullptr;
+    return {fs::read_symlink("/proc/self/exe", none).parent_path(),
+            is_found ? fs::absolute(code.dli_fname, none).parent_path() : fs::path()};
+}
 
 // Next to the program, in libexec of its prefix, or in a build tree's bin; empty if it is missing.
 fs::path findProbe()
 {
     std::error_code none;
-    const fs::path folder = fs::read_symlink("/proc/self/exe", none).parent_path();
     const auto found = [&none](const fs::path& file) { return fs::is_regular_file(file, none); };
-    for (const fs::path& file :
-         {folder / kProgram, folder / MARSVIEW_LIBEXEC_FROM_BIN / kProgram}) {
-        if (found(file)) {
-            return file;
+    for (const fs::path& folder : ownFolders()) {
+        for (const fs::path& file :
+             {folder / kProgram, folder / MARSVIEW_LIBEXEC_FROM_BIN / kProgram}) {
+            if (found(file)) {
+                return file;
+            }
         }
-    }
-    for (fs::path above = folder; above.has_relative_path(); above = above.parent_path()) {
-        if (found(above / "bin" / kProgram)) {
-            return above / "bin" / kProgram;
+        for (fs::path above = folder; above.has_relative_path(); above = above.parent_path()) {
+            for (const char* below : {"bin", "libexec/marsview"}) {
+                if (found(above / below / kProgram)) {
+                    return above / below / kProgram;
+                }
+            }
         }
     }
     return {};

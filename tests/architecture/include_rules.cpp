@@ -75,6 +75,7 @@ const std::vector<Layer>& layers()
         {"app/gui/", {"core/", "haptics/", "ui/", "app/gui/"}},
         {"app/probe/", {"core/files/", "app/probe/"}},
         {"app/library/", {"core/", "app/library/"}},
+        {"app/python/", {"core/", "ui/render/", "app/console/", "app/python/"}},
         {"tests/architecture/", {"tests/"}},
         {"tests/support/", {"core/", "app/bench/reference/", "tests/support/"}},
         {"tests/core/", {"core/", "app/bench/reference/", "tests/"}},
