@@ -135,8 +135,15 @@ elevations(const PythonMap& self, const py::object& first, const py::object& sec
 py::object elevation(const PythonMap& self, const py::object& lon, const py::object& lat)
 {
     self.needsLonLat();
-    return elevations(self, lon, lat,
-                      [&self](double x, double y) { return self.geographic(x, y); });
+    if (self.latitudeKind() == LatitudeKind::Planetocentric) {
+        return elevations(self, lon, lat, [](double x, double y) {
+            return GeographicPoint{Angle::degrees(x), Angle::degrees(y)};
+        });
+    }
+    const Ellipsoid ellipsoid = *self.map->info().crs->ellipsoid();
+    return elevations(self, lon, lat, [&ellipsoid](double x, double y) {
+        return GeographicPoint{Angle::degrees(x), ellipsoid.planetocentric(Angle::degrees(y))};
+    });
 }
 
 py::object elevationMap(const PythonMap& self, const py::object& x, const py::object& y)
@@ -383,15 +390,6 @@ void PythonMap::needsLonLat() const
                                    "with crs or body",
                                    options.path)});
     }
-}
-
-GeographicPoint PythonMap::geographic(double longitude_deg, double latitude_deg) const
-{
-    const Angle latitude = Angle::degrees(latitude_deg);
-    return {Angle::degrees(longitude_deg),
-            latitudeKind() == LatitudeKind::Planetographic
-                ? map->info().crs->ellipsoid()->planetocentric(latitude)
-                : latitude};
 }
 
 void addMap(py::module_& module)

@@ -27,7 +27,6 @@ struct PythonMap {
     LatitudeKind latitudeKind() const { return options.latitudeKind(map->info().body); }
     /// Throws Failure on a map without a CRS.
     void needsLonLat() const;
-    GeographicPoint geographic(double longitude_deg, double latitude_deg) const;
 };
 
 void addMap(py::module_& module);

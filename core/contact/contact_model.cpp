@@ -36,13 +36,6 @@ std::unique_ptr<ContactModel> makeContactModel(ContactModelKind kind,
     return makeHeld<HeldOverMesh, ContactModel>(kind, surface, options);
 }
 
-std::unique_ptr<ContactModel> makeContactModel(ContactModelKind kind,
-                                               const BodySurface& surface,
-                                               const ContactModelOptions& options)
-{
-    return makeHeld<HeldOverMesh, ContactModel>(kind, surface, options);
-}
-
 std::unique_ptr<MapContactModel> makeContactModel(ContactModelKind kind,
                                                   const HeightfieldSurface& surface,
                                                   const ContactModelOptions& options)
