@@ -244,9 +244,7 @@ Status runLoop(const LoopOptions& options)
 #else
     (void)allocations_before;
 #endif
-    if (map->feeder) {
-        report.feeder = map->feeder->statistics();
-    }
+    report.feeder = map->touch->statistics();
     const Status recorded = recorder ? recorder->finish() : Done{};
     if (recorder) {
         report.recorded = recorder->updates();

@@ -5,8 +5,7 @@
 #include "core/contact/contact_model.h"
 #include "core/session/map.h"
 #include "core/view/scene_box.h"
-#include "haptics/terrain/clipmap_streamer.h"
-#include "haptics/terrain/servo_map.h"
+#include "haptics/terrain/touch_map.h"
 
 #include <memory>
 #include <optional>
@@ -22,11 +21,10 @@ struct LoopMapOptions {
 /// Loads tiles during its lifetime. Until the loop has ended only the servo thread may use the map.
 struct LoopMap {
     std::shared_ptr<const Map> opened;
-    std::unique_ptr<ClipmapStreamer> feeder; // null if the map is in memory
+    std::unique_ptr<TouchMap> touch;
     std::shared_ptr<ServoMap> map;
-    SceneBox box;          // of the whole map
-    double cell_m = 1.0;   // scene meters, the mean of both sides
-    double radius_m = 0.0; // of virtual-proxy
+    SceneBox box;        // of the whole map
+    double cell_m = 1.0; // scene meters, the mean of both sides
 };
 
 Result<LoopMap>

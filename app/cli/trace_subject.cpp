@@ -145,7 +145,7 @@ mapSubject(const MapOptions& options, const GoalRecording& recording, JobMonitor
     TraceSubject subject;
     subject.map = map;
     const Georeference& georeference = map->georeference();
-    subject.radius_m = (georeference.pixelWidthMeters() + georeference.pixelHeightMeters()) / 4.0;
+    subject.radius_m = 0.5 * georeference.sceneFrame().meanCellSideM();
     subject.is_recorded_on = isRecordedOn(recording, georeference);
     const auto goal_frame = [map](const TraceTouch& touch) {
         const Georeference& placed = map->georeference();

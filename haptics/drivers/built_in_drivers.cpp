@@ -2,7 +2,6 @@
 
 #include "haptics/device/plugin_driver.h"
 #include "haptics/drivers/forcedimension/dhd_driver.h"
-#include "haptics/drivers/mouse/mouse_driver.h"
 #include "haptics/drivers/null_driver.h"
 #include "haptics/drivers/openhaptics/openhaptics_driver.h"
 #include "haptics/drivers/polhem/polhem_driver.h"
@@ -11,11 +10,9 @@
 #include "haptics/drivers/simulated/sim_driver.h"
 #include "haptics/drivers/spacemouse/spacemouse.h"
 
-#include <utility>
-
 namespace marsview {
 
-std::vector<std::unique_ptr<DeviceDriver>> builtInDrivers(std::shared_ptr<MouseLink> mouse)
+std::vector<std::unique_ptr<DeviceDriver>> builtInDrivers()
 {
     std::vector<std::unique_ptr<DeviceDriver>> drivers;
     drivers.push_back(std::make_unique<OpenHapticsDriver>());
@@ -23,7 +20,6 @@ std::vector<std::unique_ptr<DeviceDriver>> builtInDrivers(std::shared_ptr<MouseL
     drivers.push_back(std::make_unique<PolhemDriver>());
     drivers.push_back(std::make_unique<SpaceMouseDriver>());
     drivers.push_back(std::make_unique<PluginDriver>());
-    drivers.push_back(std::make_unique<MouseDriver>(std::move(mouse)));
     drivers.push_back(makeSimDriver());
     drivers.push_back(makeReplayDriver());
     drivers.push_back(makeRecordDriver());

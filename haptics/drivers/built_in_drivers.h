@@ -2,16 +2,13 @@
 #pragma once
 
 #include "haptics/device/device_driver.h"
-#include "haptics/drivers/mouse/mouse_device.h"
 
 #include <memory>
 #include <vector>
 
 namespace marsview {
 
-/// One driver of each kind, in the order in which the user interface lists devices. `mouse` is the
-/// link through which the window moves the mouse device; null without a window.
-std::vector<std::unique_ptr<DeviceDriver>>
-builtInDrivers(std::shared_ptr<MouseLink> mouse = nullptr);
+/// One driver of each kind, in the order in which the user interface lists devices.
+std::vector<std::unique_ptr<DeviceDriver>> builtInDrivers();
 
 } // namespace marsview

@@ -122,9 +122,10 @@ std::unique_ptr<MapContactModel> Stylus::makeModel()
 {
     const SceneMap& map = ground_.maps()[at_.index];
     if (!touch_) {
-        touch_ = std::make_unique<MapTouch>(map);
+        touch_ = std::make_unique<TouchMap>(map);
     }
-    return touch_->makeModel(kind_, exaggeration_, {.radius_m = 0.5 * map.frame.meanCellSideM()});
+    const std::shared_ptr<ServoMap> made = touch_->make(kind_, exaggeration_);
+    return made ? std::move(made->model) : nullptr;
 }
 
 ScenePoint Stylus::aimedGround() const

@@ -4,7 +4,7 @@
 #include "core/contact/contact_model.h"
 #include "core/session/scene_surface.h"
 #include "haptics/interaction/mouse_stylus.h"
-#include "haptics/terrain/map_touch.h"
+#include "haptics/terrain/touch_map.h"
 
 #include <memory>
 #include <optional>
@@ -73,7 +73,7 @@ private:
     GroundPoint at_; // the last argument of aim()
     double point_m_ = 1.0;
     ContactModelKind kind_ = kContactModelDefault;
-    std::unique_ptr<MapTouch> touch_;        // for the map aimed at, from the first touch on
+    std::unique_ptr<TouchMap> touch_;        // for the map aimed at, from the first touch on
     std::unique_ptr<MapContactModel> model_; // on touch_; while in contact
     std::optional<StylusPose> pose_;
 };

@@ -26,10 +26,10 @@ using std::chrono::milliseconds;
 constexpr milliseconds kPollInterval{16};
 constexpr milliseconds kLookInterval{3000};
 
-// What a window has no use for: no device at all, and the mouse, which touches without one.
+// A window has no use for the placeholder of a missing device.
 bool isForWindows(const FoundDevice& device)
 {
-    return !device.uri.starts_with("null:") && !device.uri.starts_with("mouse:");
+    return !device.uri.starts_with("null:");
 }
 
 QString lastingUri(const QString& uri)
@@ -584,7 +584,7 @@ void HapticsController::tellReplay()
 void HapticsController::setMap(std::size_t index)
 {
     stopRecording(RecordingEnd::WithItsMap);
-    hand_map_ = std::make_unique<HandMap>(view_.ground().maps()[index]);
+    hand_map_ = std::make_unique<TouchMap>(view_.ground().maps()[index]);
     loop_settings_.map = hand_map_->make(model_, exaggeration_);
     push();
 }

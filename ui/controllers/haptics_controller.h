@@ -3,11 +3,11 @@
 
 #include "haptics/interaction/hand_view.h"
 #include "haptics/loop/servo_loop.h"
+#include "haptics/terrain/touch_map.h"
 #include "haptics/trace/replay_check.h"
 #include "haptics/trace/session_recorder.h"
 #include "ui/controllers/detached_jobs.h"
 #include "ui/controllers/device_finder.h"
-#include "ui/controllers/hand_map.h"
 #include "ui/controllers/haptics_settings.h"
 #include "ui/text/recording_report.h"
 
@@ -218,7 +218,7 @@ private:
     bool is_grabbing_ = false; // by a key
 
     double exaggeration_ = 1.0;
-    std::unique_ptr<HandMap> hand_map_; // null without a map in the picture
+    std::unique_ptr<TouchMap> hand_map_; // null without a map in the picture
     LoopSettings loop_settings_;
     // Of a replay that has moved the camera: where the camera was, and where the replay sent it.
     struct Excursion {

@@ -1,0 +1,55 @@
+// A map as contact models touch it: all of a map in memory, or the resident tiles of a tiled map.
+#pragma once
+
+#include "core/contact/contact_model.h"
+#include "core/session/scene_surface.h"
+#include "haptics/terrain/clipmap_streamer.h"
+#include "haptics/terrain/servo_map.h"
+
+#include <memory>
+#include <optional>
+
+namespace marsview {
+
+/// The one way from an opened map to its contact models, for the mouse of the window and for the
+/// loop of a device. It does not wait for tiles: a tiled map always has its coarsest tile in
+/// memory, and a separate thread loads finer ones while the map is touched. For the thread that
+/// owns it; the servo thread alone uses what make() returns.
+///
+///     TouchMap touch({.map = map, .frame = map->georeference().sceneFrame()});
+///     settings.map = touch.make(ContactModelKind::ContinuousWalk, exaggeration);
+class TouchMap {
+public:
+    explicit TouchMap(const SceneMap& map);
+
+    const SceneMap& map() const noexcept { return map_; }
+    bool isOf(const SceneMap& map) const { return map.map == map_.map && map.frame == map_.frame; }
+    /// Whether the map's surface may change by itself while it is touched.
+    bool isTiled() const noexcept { return terrain_ != nullptr; }
+
+    /// The map with a new model, from now on with tiles around the hand. `radius_m` is that of the
+    /// model's sphere, half a cell if empty. Null for a map in memory whose voids have not been
+    /// filled.
+    std::shared_ptr<ServoMap> make(ContactModelKind kind,
+                                   double exaggeration,
+                                   std::optional<double> radius_m = std::nullopt);
+    /// The hand is gone: loading stops.
+    void release();
+
+    /// For a hand without a servo loop, such as the mouse: reports its position and applies newly
+    /// loaded tiles at once, since a jump of the surface cannot be felt. Returns true if the surface
+    /// has changed: `model`, which make() returned, has been notified and needs an update.
+    bool follow(MapContactModel& model, const ScenePoint& hand);
+
+    /// Of loading tiles; empty for a map in memory.
+    std::optional<WindowFeederStatistics> statistics() const;
+
+private:
+    SceneMap map_;
+    std::uint64_t map_id_;
+    std::unique_ptr<ClipmapStreamer> streamer_; // for a tiled map
+    std::shared_ptr<ServoTerrain> terrain_;     // for a tiled map
+    bool is_streaming_ = false;
+};
+
+} // namespace marsview
