@@ -3,6 +3,7 @@
 #include "tests/support/make_raster.h"
 #include "tests/ui/timeout.h"
 #include "ui/canvas/terrain_view.h"
+#include "ui/controllers/session_controller.h"
 
 #include <QFile>
 #include <QTest>
@@ -12,7 +13,6 @@
 #include <vector>
 
 namespace marsview {
-namespace {} // namespace
 
 QString TestMaps::write(const QString& name, const Shape& shape, const Height& height) const
 {
@@ -82,20 +82,16 @@ WindowOptions testWindowOptions()
             .failures = WindowOptions::Failures::BySignalOnly};
 }
 
+// By the state: the signal may have come before, while the caller waited for something else.
 bool waitUntilSettled(MainWindow& window)
 {
-    bool is_settled = false;
-    const auto connection = QObject::connect(&window, &MainWindow::settled, &window,
-                                             [&is_settled] { is_settled = true; });
-    const bool was_in_time = QTest::qWaitFor([&is_settled] { return is_settled; }, kTimeout);
-    QObject::disconnect(connection);
-    // Layout changes caused by the map request another picture.
-    return was_in_time && QTest::qWaitFor(
-                              [&window] {
-                                  return shownLayers(window.session()).empty() ||
-                                         window.view()->isPictureComplete();
-                              },
-                              kTimeout);
+    return QTest::qWaitFor(
+        [&window] {
+            const SessionController& controller = window.controller();
+            return window.view()->isReady() && !controller.isBusy() && !controller.isPreparing() &&
+                   (shownLayers(window.session()).empty() || window.view()->isPictureComplete());
+        },
+        kTimeout);
 }
 
 bool openAndWait(MainWindow& window, const QString& file)
