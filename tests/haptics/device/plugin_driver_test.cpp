@@ -120,7 +120,7 @@ TEST(PluginDriver, OpensADeviceAndPassesEverythingOnInBothDirections)
     EXPECT_EQ(c.rate_hz, 1000.0);
     EXPECT_EQ(c.axes_in, 6);
     EXPECT_EQ(c.axes_out, 3);
-    EXPECT_EQ(c.buttons, 2);
+    EXPECT_EQ(c.buttons, 3);
     EXPECT_TRUE(c.has_presence);
     EXPECT_FALSE(c.owns_clock);
 
@@ -130,7 +130,7 @@ TEST(PluginDriver, OpensADeviceAndPassesEverythingOnInBothDirections)
     EXPECT_EQ((*device)->read(sample), DeviceStatus::Fine);
     EXPECT_EQ(sample.position, (WorkspacePoint{0.001, -0.002, 0.0005}));
     EXPECT_EQ(sample.twist_rad, 0.25);
-    EXPECT_EQ(sample.buttons, 2U);
+    EXPECT_EQ(sample.buttons, 4U);
     EXPECT_TRUE(sample.is_held);
     EXPECT_GE(sample.time, before);
     EXPECT_LE(sample.time, std::chrono::steady_clock::now());
@@ -238,7 +238,7 @@ TEST(PluginDriver, OpensAPluginBuiltAgainstTheFirstHeader)
     EXPECT_EQ(sample.position, (WorkspacePoint{0.001, -0.002, 0.0005}));
     EXPECT_EQ(sample.twist_rad, 0.25);
     EXPECT_EQ(sample.orientation, Orientation{}) << "not measured";
-    EXPECT_EQ(sample.buttons, 2U);
+    EXPECT_EQ(sample.buttons, 4U);
     EXPECT_EQ((*device)->trouble(), "");
     device->reset();
     EXPECT_THAT(driver.open(file.string() + ",home").error().message,

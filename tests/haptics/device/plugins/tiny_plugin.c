@@ -99,7 +99,7 @@ static uint32_t describeDevice(MarsviewDevice* device, MarsviewCapabilities* cap
         .rate_hz = 1000.0,
         .axes_in = 6,
         .axes_out = 3,
-        .buttons = 2,
+        .buttons = 3,
         .flags = MARSVIEW_HAS_PRESENCE,
         .name = "Tiny One",
     };
@@ -132,7 +132,7 @@ static uint32_t readDevice(MarsviewDevice* device, MarsviewSample* sample)
     sample->position_m[1] = device->force_n[1] / 1000.0;
     sample->position_m[2] = device->force_n[2] / 1000.0;
     sample->twist_rad = 0.25;
-    sample->buttons = 2;
+    sample->buttons = 4; /* not a grabbing button: the hand touches */
     sample->is_held = 1;
 #if defined(TINY_HAS_SIX_AXES)
     /* The tip down, the stylus not turned; and a torque, so that a test can check it. */
