@@ -19,6 +19,7 @@
 #include "ui/main_tool_bar.h"
 #include "ui/map_menu.h"
 #include "ui/name_search.h"
+#include "ui/overlay/map_labels.h"
 #include "ui/overlay/map_overlays.h"
 #include "ui/overlay/measure_marks.h"
 #include "ui/panels/georeferencing_panel.h"
@@ -184,6 +185,8 @@ MainWindow::MainWindow(const WindowOptions& options, QWidget* parent)
     actions_->panels->addAction(docks_->measurements()->toggleViewAction());
     actions_->panels->addSeparator();
     actions_->panels->addActions(overlays_->visibilityActions());
+    actions_->view_menu->insertActions(actions_->panels->menuAction(), overlays_->terrainActions());
+    actions_->view_menu->insertSeparator(actions_->panels->menuAction());
     setIcons(*docks_);
     for (QMenu* menu : menuBar()->findChildren<QMenu*>()) {
         menu->installEventFilter(this);
@@ -463,6 +466,11 @@ void MainWindow::connectNames()
                                    .open_names = *actions_->open_names,
                                    .is_remembered = isRemembered()},
                                   this);
+    const auto show_names = [this] {
+        overlays_->labels()->setNames(name_search_->namesOnMap().names);
+    };
+    connect(name_search_, &NameSearch::changed, this, show_names);
+    show_names();
     connect(name_search_, &NameSearch::opened, this, [this](const QString& message) {
         statusBar()->showMessage(message, kMessageDuration);
     });
@@ -703,8 +711,8 @@ void MainWindow::restoreWindow()
     const QSettings settings;
     restoreGeometry(settings.value(QStringLiteral("window/geometry")).toByteArray());
     docks_->restore(settings);
-    for (QAction* action : overlays_->visibilityActions()) {
-        action->setChecked(settings.value(overlayKey(*action), true).toBool());
+    for (QAction* action : overlays_->visibilityActions() + overlays_->terrainActions()) {
+        action->setChecked(settings.value(overlayKey(*action), action->isChecked()).toBool());
     }
     last_folder_ = settings.value(folderKey()).toString();
 }
@@ -949,6 +957,7 @@ void MainWindow::setPreferences(const Preferences& preferences)
     datasets_->setHeightUnit(preferences.height_unit);
     georeferencing_->setHeightUnit(preferences.height_unit);
     overlays_->setHeightUnit(preferences.height_unit);
+    overlays_->labels()->setCoordinateFormat(preferences.coordinates);
     stretch_->setHeightUnit(preferences.height_unit);
     measure_marks_->setHeightUnit(preferences.height_unit);
     measure_panel_->setHeightUnit(preferences.height_unit);
@@ -1044,7 +1053,7 @@ void MainWindow::closeEvent(QCloseEvent* event)
         setWindowState(windowState().setFlag(Qt::WindowFullScreen, false)); // not the next time
         settings.setValue(QStringLiteral("window/geometry"), saveGeometry());
         docks_->save(settings);
-        for (const QAction* action : overlays_->visibilityActions()) {
+        for (const QAction* action : overlays_->visibilityActions() + overlays_->terrainActions()) {
             settings.setValue(overlayKey(*action), action->isChecked());
         }
     }

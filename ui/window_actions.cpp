@@ -212,6 +212,7 @@ void WindowActions::makeEditMenu(QMainWindow& window, QUndoStack& undo_stack)
 void WindowActions::makeViewMenu(QMainWindow& window, QWidget& map)
 {
     QMenu* menu = window.menuBar()->addMenu(tr("&View"));
+    view_menu = menu;
     const auto add_key = [&map](QAction* action, const QList<QKeySequence>& sequences) {
         action->setShortcuts(sequences);
         action->setShortcutContext(Qt::WidgetShortcut);

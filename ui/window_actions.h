@@ -48,6 +48,7 @@ struct WindowActions {
     QList<QAction*> steps;              // data(): the NavigationStep
     QAction* exaggerate_more = nullptr;
     QAction* exaggerate_less = nullptr;
+    QMenu* view_menu = nullptr;
     QMenu* panels = nullptr;        // filled by the docks
     QAction* full_screen = nullptr; // checkable
 

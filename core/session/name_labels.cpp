@@ -9,7 +9,7 @@ namespace marsview {
 namespace {
 
 // The least diameter in the picture, in points of the screen.
-constexpr double kAcrossPointsMin = 14.0;
+constexpr double kAcrossPointsMin = 20.0;
 constexpr double kLetteredAcrossPointsMin = 48.0;
 
 // A feature this many times as wide as the picture is not what the picture shows.
@@ -23,6 +23,24 @@ constexpr double kGapPoints = 6.0;
 constexpr double kPointClearPoints = 6.0;
 constexpr double kShownBefore = 1.25; // counts as so much larger
 constexpr double kLiftPoints = 3.0;   // of the place for the ray that looks for it
+
+// The gazetteers state the length of narrow features as their diameter.
+double weightOf(PlaceKind kind)
+{
+    switch (kind) {
+    case PlaceKind::CraterChain:
+    case PlaceKind::Ridge:
+    case PlaceKind::Scarp:
+    case PlaceKind::Trough:
+        return 0.3;
+    case PlaceKind::Valley:
+        return 0.6;
+    case PlaceKind::Mountain:
+        return 1.5;
+    default:
+        return 1.0;
+    }
+}
 
 // A feature in the picture.
 struct Seen {
@@ -60,14 +78,6 @@ public:
     {
         return project(camera_, viewport_, point);
     }
-    bool isHidden(const ScenePoint& place, const SceneSurface& ground, double exaggeration) const
-    {
-        const Vec3 to = place - eye_;
-        const double distance_m = length(to);
-        const auto hit =
-            ground.cast({.origin = eye_, .direction = to * (1.0 / distance_m)}, exaggeration);
-        return hit && hit->distance_m < distance_m;
-    }
 
 private:
     const OrbitCamera& camera_;
@@ -78,6 +88,23 @@ private:
 };
 
 } // namespace
+
+bool isVisible(const SceneSurface& ground,
+               const OrbitCamera& camera,
+               const Viewport& viewport,
+               double exaggeration,
+               ScenePoint place,
+               double pixels_per_point)
+{
+    // Above the terrain, or the ray may hit it just before the place.
+    place.z += kLiftPoints * pixels_per_point * metersPerPixel(camera, viewport, place);
+    const ScenePoint eye = eyeOf(camera);
+    const Vec3 to = place - eye;
+    const double distance_m = length(to);
+    const auto hit =
+        ground.cast({.origin = eye, .direction = to * (1.0 / distance_m)}, exaggeration);
+    return !hit || hit->distance_m >= distance_m;
+}
 
 NameLabels::NameLabels(std::shared_ptr<const Gazetteer> names, const SceneSurface& ground)
     : names_(std::move(names))
@@ -129,12 +156,12 @@ NameLabels::inPicture(const OrbitCamera& camera,
         const double across_px = diameter_m * *pixels_per_m;
         const double least =
             name.kind == PlaceKind::LetteredCrater ? kLetteredAcrossPointsMin : kAcrossPointsMin;
-        if (has_sizes && (across_px < least * scale || across_px > across_px_max)) {
+        if (has_sizes && (across_px * weightOf(name.kind) < least * scale || across_px > across_px_max)) {
             continue;
         }
         seen.push_back({.place = i,
                         .across_px = name.diameter_m > 0.0 ? across_px : 0.0,
-                        .importance = (has_sizes ? across_px : *pixels_per_m) *
+                        .importance = (has_sizes ? across_px : *pixels_per_m) * weightOf(name.kind) *
                                       (place.was_shown ? kShownBefore : 1.0)});
     }
     const std::size_t count = std::min(seen.size(), kRequestsMax);
@@ -176,11 +203,8 @@ NameLabels::inPicture(const OrbitCamera& camera,
                      .count_max = kLabelsMax,
                      .obstacles = options.obstacles},
                     [&](std::size_t index) {
-                        // Above the terrain, or the ray may hit it just before the place.
-                        ScenePoint point = points[index];
-                        point.z +=
-                            kLiftPoints * scale * metersPerPixel(camera, options.viewport, point);
-                        return !picture.isHidden(point, ground_, options.exaggeration);
+                        return isVisible(ground_, camera, options.viewport, options.exaggeration,
+                                         points[index], scale);
                     });
     for (Place& place : places_) {
         place.was_shown = false;

@@ -13,6 +13,15 @@
 
 namespace marsview {
 
+/// Whether no terrain is between the eye and a place on the terrain, with a tolerance of three
+/// points of the screen.
+bool isVisible(const SceneSurface& ground,
+               const OrbitCamera& camera,
+               const Viewport& viewport,
+               double exaggeration,
+               ScenePoint place,
+               double pixels_per_point = 1.0);
+
 /// The size of a label in pixels, and how it lies.
 struct LabelSize {
     double width_px = 0.0;
@@ -47,7 +56,8 @@ public:
     std::size_t count() const noexcept { return places_.size(); }
 
     /// The labels of a picture. What looks larger comes first: size and distance both count.
-    /// Features need a diameter of 14 points in the picture, lettered craters 48. Names without a
+    /// Narrow features, as scarps and troughs, count less than their length, mountains more.
+    /// Features need a diameter of 20 points in the picture, lettered craters 48. Names without a
     /// size count as 50 km, or, if no name has a size, are shown at any distance. Labels do not
     /// overlap each other nor the obstacles. A place that the terrain hides has none. Labels of the
     /// picture before are preferred a little, so that they do not flicker while the camera moves.

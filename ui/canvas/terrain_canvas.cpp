@@ -167,10 +167,11 @@ void TerrainCanvas::setFrameTarget(std::chrono::milliseconds target)
     }
 }
 
-void TerrainCanvas::setLines(std::vector<DrapedLine> lines)
+void TerrainCanvas::setLines(std::vector<DrapedLine> lines, LineSet set)
 {
-    if (!lines.empty() || !lines_.empty()) {
-        lines_ = std::move(lines);
+    std::vector<DrapedLine>& shown = lines_[static_cast<std::size_t>(set)];
+    if (!lines.empty() || !shown.empty()) {
+        shown = std::move(lines);
         parts_.view.update();
     }
 }
@@ -285,13 +286,14 @@ void TerrainCanvas::paintLines()
 {
     const OrbitCamera& camera = parts_.camera.camera();
     const double scale = parts_.projection.pixelsPerPoint();
-    const PixelArea area = areaOf(lines_, camera, viewportOf(parts_.view), scale);
-    if (area.width == 0 || area.height == 0) {
-        return;
+    for (const std::vector<DrapedLine>& lines : lines_) {
+        const PixelArea area = areaOf(lines, camera, viewportOf(parts_.view), scale);
+        if (area.width > 0 && area.height > 0) {
+            renderer_->presentDepth(parts_.view.defaultFramebufferObject(), area);
+            line_renderer_->draw(lines, camera, viewportOf(parts_.view),
+                                 renderer_->clip(camera, parts_.scene.style.exaggeration), scale);
+        }
     }
-    renderer_->presentDepth(parts_.view.defaultFramebufferObject(), area);
-    line_renderer_->draw(lines_, camera, viewportOf(parts_.view),
-                         renderer_->clip(camera, parts_.scene.style.exaggeration), scale);
 }
 
 void TerrainCanvas::paintCursor()

@@ -18,7 +18,10 @@
 #include <QString>
 #include <QTimer>
 
+#include <array>
 #include <chrono>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -27,6 +30,10 @@ class QOpenGLWidget;
 class QRect;
 
 namespace marsview {
+
+/// Lines that are set together. The later ones are drawn over the others.
+enum class LineSet : std::uint8_t { Graticule, Measurements };
+inline constexpr std::size_t kLineSets = 2;
 
 /// The parts of the view that are drawn. All outlive the canvas.
 struct CanvasParts {
@@ -60,8 +67,8 @@ public:
     void setAntialiasing(bool is_wanted);
     /// The time that a frame may take while something moves.
     void setFrameTarget(std::chrono::milliseconds target);
-    /// Lines on the terrain, drawn over every picture.
-    void setLines(std::vector<DrapedLine> lines);
+    /// Lines on the terrain, drawn over every picture, the sets in their order.
+    void setLines(std::vector<DrapedLine> lines, LineSet set);
 
     /// The picture shows all there is, as well as can be.
     bool isComplete() const noexcept { return is_completion_reported_ && is_terrain_current_; }
@@ -100,7 +107,7 @@ private:
     std::unique_ptr<GovernedPicture> picture_;
     std::unique_ptr<CursorRenderer> cursor_;
     std::unique_ptr<LineRenderer> line_renderer_;
-    std::vector<DrapedLine> lines_;
+    std::array<std::vector<DrapedLine>, kLineSets> lines_;
     std::chrono::milliseconds frame_target_{33};
     bool has_antialiasing_ = true;
     bool are_layers_sent_ = true;

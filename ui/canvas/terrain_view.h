@@ -83,7 +83,10 @@ public:
     /// outlives the view or is taken back before.
     void setPlaceTool(PlaceTool* tool) { mouse_.setPlaceTool(tool); }
     /// Lines on the terrain, drawn over every picture.
-    void setLines(std::vector<DrapedLine> lines) { canvas_.setLines(std::move(lines)); }
+    void setLines(std::vector<DrapedLine> lines, LineSet set = LineSet::Measurements)
+    {
+        canvas_.setLines(std::move(lines), set);
+    }
 
     void step(NavigationStep step);
     /// Moves as a cap is pushed, for the time since it was asked last: once a frame while the cap

@@ -10,6 +10,7 @@
 #include "ui/overlay/gesture_hint.h"
 #include "ui/overlay/hand_pointer.h"
 #include "ui/overlay/legend.h"
+#include "ui/overlay/map_labels.h"
 #include "ui/overlay/minimap.h"
 #include "ui/overlay/overlay_layout.h"
 #include "ui/overlay/overview_picture.h"
@@ -41,6 +42,7 @@ constexpr PictureProbes kProbes{.columns = 24, .rows = 16};
 MapOverlays::MapOverlays(TerrainView& view)
     : QObject(&view)
     , view_(view)
+    , labels_(new MapLabels(view))
     , minimap_(new Minimap(&view))
     , compass_(new Compass(&view))
     , crosshair_(new Crosshair(&view))
@@ -78,6 +80,18 @@ MapOverlays::MapOverlays(TerrainView& view)
     connect(&view_, &TerrainView::sightChanged, this, &MapOverlays::showMark);
     place_mark_->lower();
     crosshair_->lower();
+    labels_->lower();
+    labels_->setObstacles({minimap_, compass_, scale_bar_, legend_, hint_, force_meter_});
+    const auto add = [this](const QString& text, const QString& name, bool is_on, auto show) {
+        auto* action = new QAction(text, this);
+        action->setObjectName(name);
+        action->setCheckable(true);
+        action->setChecked(is_on);
+        connect(action, &QAction::toggled, labels_, show);
+        terrain_actions_.append(action);
+    };
+    add(tr("N&ames"), QStringLiteral("names"), true, &MapLabels::setNamesShown);
+    add(tr("Grat&icule"), QStringLiteral("graticule"), false, &MapLabels::setGraticuleShown);
     for (QWidget* plate : std::initializer_list<QWidget*>{legend_, scale_bar_}) {
         plate->setProperty(kHidesTerrain, true);
     }

@@ -26,6 +26,7 @@ class ForceMeter;
 class GestureHint;
 class HandPointer;
 class Legend;
+class MapLabels;
 class Minimap;
 class OverlayLayout;
 class PlaceMark;
@@ -49,6 +50,7 @@ public:
     HandPointer* handPointer() const noexcept { return hand_pointer_; }
 
     GestureHint* hint() const noexcept { return hint_; }
+    MapLabels* labels() const noexcept { return labels_; }
 
     /// Shows the gestures to a newcomer, from the first map on, until they are dismissed.
     void offerHint();
@@ -85,6 +87,8 @@ public:
     /// Checkable actions that show and hide the overlays which people may not want; each has an
     /// object name to be remembered by.
     const QList<QAction*>& visibilityActions() const noexcept { return actions_; }
+    /// The same for what lies on the terrain: names and graticule.
+    const QList<QAction*>& terrainActions() const noexcept { return terrain_actions_; }
 
 Q_SIGNALS:
     /// By the user.
@@ -107,9 +111,10 @@ private:
     void clearMarkOnClick(const QMouseEvent& event);
 
     TerrainView& view_;
+    MapLabels* labels_ = nullptr; // below all others
     Minimap* minimap_ = nullptr;
     Compass* compass_ = nullptr;
-    Crosshair* crosshair_ = nullptr; // below all others
+    Crosshair* crosshair_ = nullptr; // below those that follow
     PlaceMark* place_mark_ = nullptr;
     ScaleBarView* scale_bar_ = nullptr;
     Legend* legend_ = nullptr;
@@ -130,6 +135,7 @@ private:
     QPoint pressed_at_; // by the left button
     int covered_height_ = 0;
     QList<QAction*> actions_;
+    QList<QAction*> terrain_actions_;
 };
 
 } // namespace marsview

@@ -273,8 +273,10 @@ void LineRenderer::draw(std::span<const DrapedLine> lines,
 {
     const Screen screen(camera, viewport, clip);
     const double border_px = kBorderPoints * pixels_per_point;
+    // Lines with faint parts first, since only these are drawn where the terrain hides them.
     std::vector<Vertex> triangles;
-    for (const DrapedLine& line : lines) {
+    std::size_t faint_count = 0;
+    const auto add = [&](const DrapedLine& line) {
         const double half_width = 0.5 * line.width_points * pixels_per_point;
         const Vertex paint{.device = {},
                            .ends = {},
@@ -286,6 +288,16 @@ void LineRenderer::draw(std::span<const DrapedLine> lines,
             if (const auto segment = screen.segment(line.points[i - 1], line.points[i])) {
                 addSegment(triangles, screen, *segment, half_width + border_px + 1.0, paint);
             }
+        }
+    };
+    for (const HiddenParts hidden_parts : {HiddenParts::Faint, HiddenParts::Invisible}) {
+        for (const DrapedLine& line : lines) {
+            if (line.hidden_parts == hidden_parts) {
+                add(line);
+            }
+        }
+        if (hidden_parts == HiddenParts::Faint) {
+            faint_count = triangles.size();
         }
     }
     if (triangles.empty()) {
@@ -301,7 +313,9 @@ void LineRenderer::draw(std::span<const DrapedLine> lines,
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
     glEnable(GL_DEPTH_TEST);
     glDepthMask(GL_FALSE);
-    impl_->drawHidden(triangles.size());
+    if (faint_count > 0) {
+        impl_->drawHidden(faint_count);
+    }
     glDepthFunc(GL_LEQUAL);
     impl_->draw({.border_px = border_px, .alpha = kBorderAlpha, .has_own_color = false},
                 triangles.size());

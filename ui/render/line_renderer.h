@@ -11,12 +11,16 @@
 
 namespace marsview {
 
+/// How parts of a line are drawn that the terrain hides.
+enum class HiddenParts { Faint, Invisible };
+
 /// A line through points of the scene. It has the same width on screen at every distance.
 struct DrapedLine {
     std::vector<ScenePoint>
         points; // close enough that a straight line between two is on the ground
     Rgb8 color{255, 255, 255};
     double width_points = 2.0; // of the screen, > 0
+    HiddenParts hidden_parts = HiddenParts::Faint;
 };
 
 /// Every call needs the context current in which it was created, the destructor included. Leaves no
@@ -30,7 +34,8 @@ public:
 
     /// Draws over a picture of the terrain in the bound frame buffer, which has that picture's
     /// depths and a stencil of 8 bits where the lines are; see areaOf(). A dark border keeps lines
-    /// visible over any color. Parts that the terrain hides are faint and have no border.
+    /// visible over any color. Parts that the terrain hides have no border; they are faint, or not
+    /// drawn.
     void draw(std::span<const DrapedLine> lines,
               const OrbitCamera& camera,
               const Viewport& viewport,

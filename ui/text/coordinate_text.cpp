@@ -214,6 +214,17 @@ QString plainPositionText(const CoordinateFormat& format,
                                         QString::number(point.y, 'f', decimals));
 }
 
+QString latitudeText(Angle latitude, const CoordinateFormat& format, int digits)
+{
+    return leftToRight(degreesText(latitudeParts(latitude, format.angles, digits)));
+}
+
+QString longitudeText(Angle longitude, const CoordinateFormat& format, const Body* body, int digits)
+{
+    return leftToRight(
+        degreesText(longitudeParts(longitude, format.longitudesOn(body), format.angles, digits)));
+}
+
 QString geographicText(const GeographicPoint& point,
                        const CoordinateFormat& format,
                        const RasterInfo& info,

@@ -55,6 +55,12 @@ QString geographicText(const GeographicPoint& point,
                        const RasterInfo& info,
                        int digits);
 
+/// One coordinate: a latitude of the kind that `format` has, or an east-positive longitude, with so
+/// many digits as the notation has them. `body` is null if unknown.
+QString latitudeText(Angle latitude, const CoordinateFormat& format, int digits);
+QString
+longitudeText(Angle longitude, const CoordinateFormat& format, const Body* body, int digits);
+
 /// "72° W – 71° W" and "18° S – 17° S".
 struct ExtentText {
     QString longitudes;

@@ -1,0 +1,331 @@
+#include "ui/overlay/map_labels.h"
+
+#include "core/view/label_placement.h"
+#include "ui/canvas/terrain_view.h"
+#include "ui/text/coordinate_text.h"
+#include "ui/widgets/plate.h"
+
+#include <QEvent>
+#include <QFontMetricsF>
+#include <QPainter>
+#include <QPainterPath>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace marsview {
+namespace {
+
+constexpr double kRim = 3.0; // points around letters, half of it visible
+constexpr double kLargeFont = 1.25;
+constexpr double kLargeShare = 0.25; // of the picture's height, across what has a large label
+constexpr double kDotRadius = 2.5;
+constexpr double kEdge = 4.0; // points between the edge of the picture and a label
+constexpr qsizetype kPicturesMax = 600;
+constexpr qint64 kRestShare = 9;   // at most a tenth of the time goes into lines while moving
+constexpr double kGridWidth = 1.0; // points
+constexpr Rgb8 kGridColor{225, 225, 225};
+
+const QColor kRimColor(0, 0, 0, 200);
+
+LabelBox scaled(const QRectF& box, double scale)
+{
+    return {box.left() * scale, box.top() * scale, box.right() * scale, box.bottom() * scale};
+}
+
+QRectF points(const LabelBox& box, double scale)
+{
+    return {QPointF(box.left, box.top) / scale, QPointF(box.right, box.bottom) / scale};
+}
+
+} // namespace
+
+MapLabels::MapLabels(TerrainView& view)
+    : QWidget(&view)
+    , view_(view)
+{
+    setAttribute(Qt::WA_TransparentForMouseEvents);
+    setFocusPolicy(Qt::NoFocus);
+    setAccessibleName(tr("Names and graticule"));
+    setGeometry(view.rect());
+    view.installEventFilter(this);
+    connect(&view, &TerrainView::layersChanged, this, &MapLabels::showScene);
+    connect(&view, &TerrainView::mapShown, this, &MapLabels::showScene);
+    connect(&view, &TerrainView::exaggerationChanged, this, &MapLabels::showSight);
+    connect(&view, &TerrainView::sightChanged, this, &MapLabels::showSight);
+    // Finer tiles may have arrived.
+    connect(&view, &TerrainView::pictureCompleted, this, &MapLabels::showSight);
+}
+
+void MapLabels::setNames(std::shared_ptr<const Gazetteer> names)
+{
+    if (names != gazetteer_) {
+        gazetteer_ = std::move(names);
+        names_.reset();
+        maps_.clear();
+        pictures_.clear();
+        showScene();
+    }
+}
+
+void MapLabels::setNamesShown(bool is_shown)
+{
+    are_names_shown_ = is_shown;
+    showScene();
+}
+
+void MapLabels::setGraticuleShown(bool is_shown)
+{
+    is_graticule_shown_ = is_shown;
+    showSight();
+}
+
+void MapLabels::setCoordinateFormat(const CoordinateFormat& format)
+{
+    format_ = format;
+    showSight();
+}
+
+void MapLabels::setObstacles(std::vector<const QWidget*> obstacles)
+{
+    obstacles_ = std::move(obstacles);
+}
+
+bool MapLabels::eventFilter(QObject* watched, QEvent* event)
+{
+    if (watched == parent() && event->type() == QEvent::Resize) {
+        setGeometry(parentWidget()->rect());
+    }
+    return QWidget::eventFilter(watched, event);
+}
+
+void MapLabels::changeEvent(QEvent* event)
+{
+    if (event->type() == QEvent::FontChange || event->type() == QEvent::StyleChange) {
+        pictures_.clear();
+    }
+    QWidget::changeEvent(event);
+}
+
+// Looks do not move names: only other maps do.
+void MapLabels::showScene()
+{
+    const auto& maps = view_.ground().maps();
+    const bool is_same =
+        maps.size() == maps_.size() &&
+        std::equal(maps.begin(), maps.end(), maps_.begin(),
+                   [](const SceneMap& map, const auto& known) { return map.map == known.lock(); });
+    if (!gazetteer_ || !are_names_shown_ || maps.empty()) {
+        names_.reset();
+        maps_.clear();
+    } else if (!names_ || !is_same) {
+        names_ = std::make_unique<NameLabels>(gazetteer_, view_.ground());
+        maps_.assign(maps.size(), {});
+        std::transform(maps.begin(), maps.end(), maps_.begin(),
+                       [](const SceneMap& map) { return map.map; });
+    }
+    showSight();
+}
+
+void MapLabels::showSight()
+{
+    const bool had_marks = !marks_.empty();
+    marks_.clear();
+    names_shown_.clear();
+    values_shown_.clear();
+    drawGraticule();
+    if (view_.map()) {
+        const double scale = view_.devicePixelRatioF();
+        std::vector<LabelBox> taken;
+        for (const QWidget* obstacle : obstacles_) {
+            if (obstacle->isVisible()) {
+                taken.push_back(scaled(obstacle->geometry(), scale));
+            }
+        }
+        placeValues(taken);
+        placeNames(taken);
+    }
+    if (had_marks || !marks_.empty()) {
+        update();
+    }
+}
+
+void MapLabels::drawGraticule()
+{
+    const bool was_drawn = !graticule_.lines.empty();
+    // Where the projection makes lines slow, those of a moment ago do while the camera moves.
+    if (was_drawn && is_graticule_shown_ && view_.isMoving() && drawn_at_.isValid() &&
+        drawn_at_.nsecsElapsed() < kRestShare * drawing_ns_) {
+        return;
+    }
+    drawn_at_.start();
+    graticule_ = {};
+    if (is_graticule_shown_ && view_.map()) {
+        graticule_ = graticuleOf(view_.ground(), view_.camera(),
+                                 {.viewport = view_.viewport(),
+                                  .pixels_per_point = view_.devicePixelRatioF(),
+                                  .exaggeration = view_.exaggeration(),
+                                  .notation = format_.angles,
+                                  .latitudes = format_.latitudesOn(view_.map()->info().body)});
+    }
+    if (!was_drawn && graticule_.lines.empty()) {
+        return;
+    }
+    std::vector<DrapedLine> lines;
+    lines.reserve(graticule_.lines.size());
+    for (const GraticuleLine& line : graticule_.lines) {
+        lines.push_back({.points = line.points,
+                         .color = kGridColor,
+                         .width_points = kGridWidth,
+                         .hidden_parts = HiddenParts::Invisible});
+    }
+    view_.setLines(std::move(lines), LineSet::Graticule);
+    drawing_ns_ = drawn_at_.nsecsElapsed();
+    drawn_at_.start();
+}
+
+QString MapLabels::valueText(const GraticuleLine& line) const
+{
+    const Body* const body = view_.map()->info().body;
+    return line.axis == GraticuleAxis::Meridian
+               ? longitudeText(line.value, format_, body,
+                               digitsFor(format_.angles, graticule_.longitude_step))
+               : latitudeText(line.value, format_,
+                              digitsFor(format_.angles, graticule_.latitude_step));
+}
+
+// At the lower and the left edge, or where lines end.
+void MapLabels::placeValues(std::vector<LabelBox>& taken)
+{
+    const double scale = view_.devicePixelRatioF();
+    const Viewport viewport = view_.viewport();
+    std::vector<LabelRequest> requests;
+    std::vector<QString> texts;
+    std::vector<ScenePoint> places;
+    for (const GraticuleLine& line : graticule_.lines) {
+        const auto end = labelEnd(line, view_.camera(), viewport);
+        if (!end) {
+            continue;
+        }
+        const QString text = valueText(line);
+        const QSizeF size = sizeOf(text, Size::Small) * scale;
+        const double edge = kEdge * scale;
+        const auto inside = [edge](double middle, double length, int side) {
+            const double low = edge + 0.5 * length;
+            return std::clamp(middle, low, std::max(low, side - low));
+        };
+        requests.push_back({.place = {inside(end->pixel.x, size.width(), viewport.width),
+                                      inside(end->pixel.y, size.height(), viewport.height)},
+                            .width_px = size.width(),
+                            .height_px = size.height()});
+        texts.push_back(text);
+        places.push_back(end->place);
+    }
+    const auto placed = placeLabels(
+        requests,
+        {.viewport = viewport, .gap_px = kEdge * scale, .count_max = 60, .obstacles = taken},
+        [&](std::size_t index) {
+            return marsview::isVisible(view_.ground(), view_.camera(), viewport,
+                                       view_.exaggeration(), places[index]);
+        });
+    for (const PlacedLabel& label : placed) {
+        taken.push_back(label.box);
+        values_shown_.push_back({.text = texts[label.request], .box = points(label.box, scale)});
+        marks_.push_back({.label = values_shown_.back(), .size = Size::Small, .point = {}});
+    }
+}
+
+void MapLabels::placeNames(const std::vector<LabelBox>& taken)
+{
+    if (!names_) {
+        return;
+    }
+    const double scale = view_.devicePixelRatioF();
+    const auto size_of_label = [this, large_px =
+                                          kLargeShare * view_.viewport().height](double across_px) {
+        return across_px >= large_px ? Size::Large : Size::Small;
+    };
+    const auto text_of = [this](std::size_t name) {
+        return QString::fromStdString(gazetteer_->names()[name].name);
+    };
+    const auto labels = names_->inPicture(
+        view_.camera(),
+        {.viewport = view_.viewport(),
+         .pixels_per_point = scale,
+         .exaggeration = view_.exaggeration(),
+         .obstacles = taken},
+        [&](std::size_t name, double across_px) {
+            const QSizeF size = sizeOf(text_of(name), size_of_label(across_px)) * scale;
+            return LabelSize{.width_px = size.width(), .height_px = size.height()};
+        });
+    for (const NameLabel& label : labels) {
+        names_shown_.push_back({.text = text_of(label.name), .box = points(label.box, scale)});
+        Mark mark{
+            .label = names_shown_.back(), .size = size_of_label(label.across_px), .point = {}};
+        if (label.anchor == LabelAnchor::Point) {
+            mark.point = QPointF(label.place.x, label.place.y) / scale;
+        }
+        marks_.push_back(std::move(mark));
+    }
+}
+
+QFont MapLabels::fontOf(Size size) const
+{
+    QFont result = font();
+    result.setWeight(QFont::DemiBold);
+    if (size == Size::Large) {
+        result.setPointSizeF(result.pointSizeF() * kLargeFont);
+    }
+    return result;
+}
+
+QSizeF MapLabels::sizeOf(const QString& text, Size size) const
+{
+    const QFontMetricsF metrics(fontOf(size));
+    return {std::ceil(metrics.horizontalAdvance(text) + 2.0 * kRim),
+            std::ceil(metrics.height() + kRim)};
+}
+
+const QPixmap& MapLabels::picture(const QString& text, Size size)
+{
+    const QString key = text + (size == Size::Large ? QLatin1Char('+') : QLatin1Char('-'));
+    auto found = pictures_.find(key);
+    const double scale = devicePixelRatioF();
+    if (found != pictures_.end() && found->devicePixelRatio() == scale) {
+        return *found;
+    }
+    if (pictures_.size() > kPicturesMax) {
+        pictures_.clear();
+    }
+    const QSizeF box = sizeOf(text, size);
+    QPixmap pixmap((box * scale).toSize());
+    pixmap.setDevicePixelRatio(scale);
+    pixmap.fill(Qt::transparent);
+    const QFont letters = fontOf(size);
+    QPainterPath path;
+    path.addText(kRim, 0.5 * kRim + QFontMetricsF(letters).ascent(), letters, text);
+    QPainter painter(&pixmap);
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.strokePath(path, QPen(kRimColor, kRim, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+    painter.fillPath(path, Qt::white);
+    painter.end();
+    return *pictures_.insert(key, pixmap);
+}
+
+void MapLabels::paintEvent(QPaintEvent* /*event*/)
+{
+    QPainter painter(this);
+    for (const Mark& mark : marks_) {
+        if (mark.point) {
+            QPainterPath dot;
+            dot.addEllipse(*mark.point, kDotRadius, kDotRadius);
+            painter.setRenderHint(QPainter::Antialiasing);
+            painter.strokePath(dot, QPen(kRimColor, kRim));
+            painter.fillPath(dot, Qt::white);
+        }
+        painter.drawPixmap(mark.label.box.topLeft().toPoint(), picture(mark.label.text, mark.size));
+    }
+}
+
+} // namespace marsview

@@ -1,0 +1,85 @@
+// Names of places and the graticule on the map.
+#pragma once
+
+#include "core/geo/coordinate_format.h"
+#include "core/session/graticule.h"
+#include "core/session/name_labels.h"
+
+#include <QElapsedTimer>
+#include <QHash>
+#include <QPixmap>
+#include <QWidget>
+
+#include <memory>
+#include <vector>
+
+namespace marsview {
+
+class TerrainView;
+
+/// Covers the view and is transparent to the mouse. Labels are white with a dark rim, so that they
+/// can be read over any color; none lies over another, over another overlay, or names what the
+/// terrain hides. The lines of the graticule are drawn by the view.
+class MapLabels final : public QWidget {
+    Q_OBJECT
+
+public:
+    explicit MapLabels(TerrainView& view);
+
+    /// Null: none.
+    void setNames(std::shared_ptr<const Gazetteer> names);
+    void setNamesShown(bool is_shown);
+    void setGraticuleShown(bool is_shown);
+    void setCoordinateFormat(const CoordinateFormat& format);
+    /// Widgets that labels keep clear of while they are visible.
+    void setObstacles(std::vector<const QWidget*> obstacles);
+
+    struct Label {
+        QString text;
+        QRectF box; // in points of the screen
+    };
+    /// As they are painted now.
+    const std::vector<Label>& nameLabels() const noexcept { return names_shown_; }
+    const std::vector<Label>& graticuleLabels() const noexcept { return values_shown_; }
+
+protected:
+    void paintEvent(QPaintEvent* event) override;
+    void changeEvent(QEvent* event) override;
+    bool eventFilter(QObject* watched, QEvent* event) override;
+
+private:
+    enum class Size { Small, Large };
+    struct Mark {
+        Label label;
+        Size size = Size::Small;
+        std::optional<QPointF> point; // that the label lies beside
+    };
+
+    void showScene();
+    void showSight();
+    void drawGraticule();
+    void placeValues(std::vector<LabelBox>& taken);
+    void placeNames(const std::vector<LabelBox>& taken);
+    QFont fontOf(Size size) const;
+    QSizeF sizeOf(const QString& text, Size size) const;
+    const QPixmap& picture(const QString& text, Size size);
+    QString valueText(const GraticuleLine& line) const;
+
+    TerrainView& view_;
+    std::shared_ptr<const Gazetteer> gazetteer_;
+    std::unique_ptr<NameLabels> names_;          // on the terrain that is shown
+    std::vector<std::weak_ptr<const Map>> maps_; // that it was made for
+    CoordinateFormat format_;
+    std::vector<const QWidget*> obstacles_;
+    bool are_names_shown_ = true;
+    bool is_graticule_shown_ = false;
+    Graticule graticule_;
+    QElapsedTimer drawn_at_; // since its lines were made last
+    qint64 drawing_ns_ = 0;  // for that
+    std::vector<Mark> marks_;
+    std::vector<Label> names_shown_;
+    std::vector<Label> values_shown_;
+    QHash<QString, QPixmap> pictures_; // of texts, by text and size
+};
+
+} // namespace marsview
