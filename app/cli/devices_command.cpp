@@ -6,6 +6,7 @@
 #include "app/console/text_output.h"
 #include "haptics/device/device_registry.h"
 #include "haptics/device/plugin_call.h"
+#include "haptics/device/plugin_check.h"
 #include "haptics/drivers/built_in_drivers.h"
 
 #include <CLI/CLI.hpp>
@@ -14,6 +15,8 @@
 #include <fmt/format.h>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 namespace marsview {
 namespace {
@@ -23,6 +26,8 @@ using Json = nlohmann::ordered_json;
 struct DevicesOptions {
     bool is_json = false;
     bool tries_again = false;
+    std::string plugin; // to check
+    std::string device; // of it
 };
 
 // Names come from devices and files, and may not be valid UTF-8.
@@ -59,6 +64,38 @@ Status runDevices(const DevicesOptions& options)
         printJson(withSchema(devicesAsJson(devices, registry.schemes())), JsonLayout::OneLine);
     } else {
         printLine(devicesAsTable(devices));
+    }
+    return Done{};
+}
+
+Status runCheck(const DevicesOptions& options)
+{
+    const Result<std::vector<PluginCheckStep>> steps = checkPlugin(options.plugin, options.device);
+    if (!steps) {
+        return steps.error();
+    }
+    Json list = Json::array();
+    std::size_t faults = 0;
+    for (const PluginCheckStep& step : *steps) {
+        const bool has_passed = step.fault.empty();
+        faults += has_passed ? 0 : 1;
+        const std::string& text = has_passed ? step.remark : step.fault;
+        if (!options.is_json) {
+            printLine(fmt::format("{}  {}{}", has_passed ? "passed" : "FAILED", step.what,
+                                  text.empty() ? "" : ": " + shown(text)));
+        }
+        list.push_back(
+            {{"check", step.what},
+             {"passed", has_passed},
+             {"reason", has_passed ? Json(nullptr) : Json(shown(step.fault))},
+             {"remark", step.remark.empty() ? Json(nullptr) : Json(shown(step.remark))}});
+    }
+    if (options.is_json) {
+        printJson(withSchema({{"plugin", options.plugin}, {"checks", list}}));
+    }
+    if (faults > 0) {
+        return Error{ErrorCode::Invalid, fmt::format("{}: {} of {} checks failed", options.plugin,
+                                                     faults, steps->size())};
     }
     return Done{};
 }
@@ -113,7 +150,21 @@ void addDevicesCommand(CLI::App& app, CommandAction& run)
     command->add_flag("--retry", options->tries_again,
                       "try plugins again that are skipped because the program ended during one of "
                       "their calls");
-    command->callback([options, &run] { run = [options] { return runDevices(*options); }; });
+    auto* check = command
+                      ->add_option("--check", options->plugin,
+                                   "test whether a device plugin conforms to the interface, on its "
+                                   "device, without force")
+                      ->type_name("FILE");
+    command
+        ->add_option("--device", options->device,
+                     "id of the device to test; by default the first one that is ready")
+        ->type_name("ID")
+        ->needs(check);
+    command->callback([options, &run] {
+        run = [options] {
+            return options->plugin.empty() ? runDevices(*options) : runCheck(*options);
+        };
+    });
 }
 
 } // namespace marsview

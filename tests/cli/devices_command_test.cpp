@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 namespace marsview::test {
 namespace {
@@ -121,6 +122,43 @@ TEST(DevicesTable, AlignsColumnsWithOneDevicePerLine)
     EXPECT_EQ(devicesAsTable({{"x:", "A h\xe4nd", ""}}),
               "URI  name    state\n"
               "x:   A h\xef\xbf\xbdnd  ready");
+}
+
+// The outcome of the last check that `devices --check` began.
+nlohmann::json lastCheck(const std::string& behaviour, int exit_status)
+{
+    const fs::path plugin = fs::path(MARSVIEW_TEST_PLUGINS) / (behaviour + ".so");
+    const ProgramOutput output = runCli({"devices", "--check", plugin.string(), "--json"});
+    EXPECT_EQ(output.exit_status, exit_status) << behaviour << ": " << output.out << output.err;
+    return nlohmann::json::parse(output.out)["checks"].back();
+}
+
+TEST(PluginCheck, PassesAPluginWithoutFaults)
+{
+    EXPECT_EQ(lastCheck("is_good", 0)["check"], "can be closed");
+    EXPECT_EQ(lastCheck("is_first", 0)["check"], "can be closed"); // against the first header
+    EXPECT_THAT(lastCheck("has_none", 0)["check"], "refuses an unknown device");
+}
+
+TEST(PluginCheck, NamesTheFault)
+{
+    for (const auto& [behaviour, check, reason] :
+         {std::tuple{"lacks_read", "loads", "lacks the function \"read\""},
+          std::tuple{"has_other_version", "loads", "version"},
+          std::tuple{"crashes_listing", "lists", "crashes: "},
+          std::tuple{"crashes_reading", "delivers", "crashes: "},
+          std::tuple{"is_negative", "opens", "peak force of -"},
+          std::tuple{"says_nan", "delivers", "not finite"},
+          std::tuple{"is_lost", "delivers", "its cable is out"},
+          std::tuple{"says_unready", "delivers", "gives no reason"}}) {
+        const nlohmann::json last = lastCheck(behaviour, 1);
+        EXPECT_FALSE(last["passed"]) << behaviour;
+        EXPECT_THAT(last["check"].get<std::string>(), StartsWith(check)) << behaviour;
+        EXPECT_THAT(last["reason"].get<std::string>(), HasSubstr(reason)) << behaviour;
+    }
+    const ProgramOutput missing = runCli({"devices", "--check", "no/such.so"});
+    EXPECT_EQ(missing.exit_status, 1);
+    EXPECT_EQ(missing.err, "marsview-cli: no/such.so: there is no such file\n");
 }
 
 // As a plugin author would build it: against an installed program, with CMake and with pkg-config.

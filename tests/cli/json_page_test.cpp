@@ -151,6 +151,8 @@ TEST(JsonPage, ListsTheFieldsOfPrepareAndDevices)
     expectDocumented("prepare",
                      printed({"prepare", bundledMars(), "-o", folder.file("mars.tif"), "--json"}));
     expectDocumented("devices", printed({"devices", "--json"}));
+    const std::string plugin = std::string(MARSVIEW_TEST_PLUGINS) + "/has_none.so";
+    expectDocumented("devices --check", printed({"devices", "--check", plugin, "--json"}));
 }
 
 TEST(JsonPage, ListsTheFieldsOfBenchmarks)
