@@ -41,6 +41,8 @@ const std::vector<Layer>& layers()
          {"core/base/", "core/geo/", "core/raster/", "core/tiles/", "core/terrain/",
           "core/measure/"}},
         {"core/vector/", {"core/base/", "core/geo/", "core/files/", "core/vector/"}},
+        {"core/contours/",
+         {"core/base/", "core/geo/", "core/files/", "core/raster/", "core/contours/"}},
         {"core/names/", {"core/base/", "core/geo/", "core/vector/", "core/names/"}},
         {"core/view/", {"core/base/", "core/geo/", "core/raster/", "core/terrain/", "core/view/"}},
         {"core/session/", {"core/"}},
@@ -123,11 +125,12 @@ bool mayUseQt(std::string_view path)
 
 bool mayUseGdal(std::string_view path)
 {
-    constexpr std::array<std::string_view, 7> kFolders{"core/geo/",
+    constexpr std::array<std::string_view, 8> kFolders{"core/geo/",
                                                        "core/files/",
                                                        "core/raster/",
                                                        "core/prepare/",
                                                        "core/vector/",
+                                                       "core/contours/",
                                                        "app/bench/reference/computed_raster.",
                                                        "tests/support/faulty_driver/"};
     return startsWithAny(path, kFolders);
