@@ -2,6 +2,7 @@
 
 #include "app/bench/bench_commands.h"
 #include "app/bench/stability_case.h"
+#include "app/bench/touch_sessions.h"
 #include "app/console/long_job.h"
 #include "app/console/number_checks.h"
 #include "app/console/text_output.h"
@@ -30,6 +31,7 @@ struct BenchStabilityOptions {
     double most_n_per_m = 4000.0;
     double jitter_ms = 0.2;
     std::uint64_t seed = 1;
+    std::uint64_t sessions = 0;
     bool is_json = false;
 };
 
@@ -115,8 +117,59 @@ std::string tableOf(const std::vector<Row>& rows, const BenchStabilityOptions& o
     return text;
 }
 
+// Random sessions instead of the scenes.
+Status runSessions(const BenchStabilityOptions& options)
+{
+    TouchSessionResult sum;
+    LongJob job("touching");
+    std::uint64_t failed = 0;
+    std::uint64_t first_failed = 0;
+    for (std::uint64_t i = 0; i < options.sessions; ++i) {
+        job.monitor().report(static_cast<double>(i) / static_cast<double>(options.sessions));
+        if (job.monitor().isCanceled()) {
+            return Error{ErrorCode::Canceled, "measuring was canceled"};
+        }
+        const TouchSessionResult result = runTouchSession({.seed = options.seed + i});
+        if (result.violationCount() > 0 && ++failed == 1) {
+            first_failed = options.seed + i;
+        }
+        sum.add(result);
+    }
+    Json json = {{"sessions", options.sessions},
+                 {"seed", options.seed},
+                 {"ticks", sum.ticks},
+                 {"contact_ticks", sum.contact_ticks},
+                 {"pan_ticks", sum.pan_ticks},
+                 {"zoom_ticks", sum.zoom_ticks},
+                 {"gliding_ticks", sum.gliding_ticks},
+                 {"force_n_max", sum.force_n_max},
+                 {"energy_j_max", sum.energy_j_max},
+                 {"sink_m_max", sum.sink_m_max},
+                 {"failed_sessions", failed},
+                 {"violations", Json::object()}};
+    for (std::size_t i = 0; i < kTouchInvariantCount; ++i) {
+        json["violations"][touchInvariantName(static_cast<TouchInvariant>(i))] = sum.violations[i];
+    }
+    if (options.is_json) {
+        printJson(withSchema(json));
+    } else {
+        for (const auto& [name, value] : json.items()) {
+            printLine(fmt::format("{}: {}", name, value.dump()));
+        }
+    }
+    if (failed > 0) {
+        return Error{ErrorCode::Invalid,
+                     fmt::format("{} of {} sessions failed; the first has the seed {}: {}", failed,
+                                 options.sessions, first_failed, sum.first)};
+    }
+    return Done{};
+}
+
 Status runBench(const BenchStabilityOptions& options)
 {
+    if (options.sessions > 0) {
+        return runSessions(options);
+    }
     std::vector<Row> rows;
     for (const Variant& variant : kVariants) {
         for (const ContactModelKind model : kContactModelKinds) {
@@ -182,6 +235,10 @@ void addBenchStabilityCommand(CLI::App& bench, CommandAction& run)
     command->add_option("--seed", options->seed, "of the jitter")
         ->capture_default_str()
         ->check(wholeNumberFrom(0, std::numeric_limits<std::uint64_t>::max()));
+    command
+        ->add_option("--sessions", options->sessions,
+                     "test so many random sessions with a camera instead")
+        ->check(wholeNumberFrom(1, 100'000'000));
     command->add_flag("--json", options->is_json, "print JSON");
     command->callback([options, &run] { run = [options] { return runBench(*options); }; });
 }

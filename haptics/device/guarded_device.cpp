@@ -59,9 +59,9 @@ DeviceStatus GuardedDevice::write(const Vec3& force_n) noexcept
     return status;
 }
 
-bool GuardedDevice::recordedGoal(TracePoint& goal) const noexcept
+bool GuardedDevice::recordedTick(RecordedTick& tick) const noexcept
 {
-    return device_->recordedGoal(goal);
+    return device_->recordedTick(tick);
 }
 
 bool GuardedDevice::startClock(ClockTick tick, void* self) noexcept

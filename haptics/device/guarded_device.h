@@ -46,7 +46,7 @@ public:
     const DeviceCapabilities& capabilities() const noexcept override;
     DeviceStatus read(DeviceSample& sample) noexcept override;
     DeviceStatus write(const Vec3& force_n) noexcept override;
-    bool recordedGoal(TracePoint& goal) const noexcept override;
+    bool recordedTick(RecordedTick& tick) const noexcept override;
     bool startClock(ClockTick tick, void* self) noexcept override;
     void stopClock() noexcept override;
     std::string trouble() const override;

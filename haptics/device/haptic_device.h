@@ -1,8 +1,8 @@
 // The haptic device as the servo loop uses it: position in, force out.
 #pragma once
 
-#include "core/contact/goal_frame.h"
 #include "haptics/device/orientation.h"
+#include "haptics/device/recorded_tick.h"
 #include "haptics/device/workspace.h"
 
 #include <chrono>
@@ -83,9 +83,9 @@ public:
     virtual DeviceStatus write(const Vec3& force_n) noexcept = 0;
 
     /// A device that plays back a recording provides goals in map coordinates instead of stylus
-    /// positions. If this returns true, `goal` is the goal of the last sample, and the sample's
+    /// positions. If this returns true, `tick` is that of the last sample, and the sample's
     /// position has no meaning.
-    virtual bool recordedGoal(TracePoint& /*goal*/) const noexcept { return false; }
+    virtual bool recordedTick(RecordedTick& /*tick*/) const noexcept { return false; }
     /// The fraction of a recording that has been played back, 0 to 1. Any thread.
     virtual double playedShare() const noexcept { return 0.0; }
 

@@ -72,9 +72,9 @@ public:
         reading_.force_n = force_n;
         return device_->write(force_n);
     }
-    bool recordedGoal(TracePoint& goal) const noexcept override
+    bool recordedTick(RecordedTick& tick) const noexcept override
     {
-        return device_->recordedGoal(goal);
+        return device_->recordedTick(tick);
     }
     double playedShare() const noexcept override { return device_->playedShare(); }
     void strokeWithin(const WorkspaceBox& box) noexcept override { device_->strokeWithin(box); }

@@ -23,6 +23,13 @@ bool isSomewhere(const TracePoint& goal)
     return std::isfinite(goal.x) && std::isfinite(goal.y) && std::isfinite(goal.z);
 }
 
+GoalRecording recordingOf(std::vector<TracePoint> goals)
+{
+    GoalRecording recording;
+    recording.goals = std::move(goals);
+    return recording;
+}
+
 class ReplayDriver final : public DeviceDriver {
 public:
     std::string_view scheme() const noexcept override { return "replay"; }
@@ -40,31 +47,36 @@ public:
         if (!text) {
             return Error{text.error().code, "replay:" + text.error().message};
         }
-        Result<std::vector<TracePoint>> goals = readGoals(*text, "replay:" + path);
-        if (!goals) {
-            return std::move(goals).error();
+        Result<GoalRecording> recording = readGoalRecording(*text, "replay:" + path);
+        if (!recording) {
+            return std::move(recording).error();
         }
-        const auto nowhere = std::find_if_not(goals->begin(), goals->end(), isSomewhere);
-        if (nowhere != goals->end()) {
+        const std::vector<TracePoint>& goals = recording->goals;
+        const auto nowhere = std::find_if_not(goals.begin(), goals.end(), isSomewhere);
+        if (nowhere != goals.end()) {
             return Error{ErrorCode::Invalid,
                          fmt::format("replay:{}: goal {} of {} is at {}, {}, {}, which is not a "
                                      "position; remove it",
-                                     path, nowhere - goals->begin() + 1, goals->size(), nowhere->x,
+                                     path, nowhere - goals.begin() + 1, goals.size(), nowhere->x,
                                      nowhere->y, nowhere->z)};
         }
-        if (goals->empty()) {
+        if (goals.empty()) {
             return Error{ErrorCode::Invalid,
                          fmt::format("replay:{}: has no goals after its header", path)};
         }
         return std::unique_ptr<HapticDevice>(new ReplayDevice(
-            std::move(goals).value(), is_loop ? ReplayEnd::BeginAnew : ReplayEnd::Finish));
+            std::move(recording).value(), is_loop ? ReplayEnd::BeginAnew : ReplayEnd::Finish));
     }
 };
 
 } // namespace
 
 ReplayDevice::ReplayDevice(std::vector<TracePoint> goals, ReplayEnd end)
-    : goals_(std::move(goals))
+    : ReplayDevice(recordingOf(std::move(goals)), end)
+{}
+
+ReplayDevice::ReplayDevice(GoalRecording recording, ReplayEnd end)
+    : recording_(std::move(recording))
     , end_(end)
 {
     capabilities_.name = "Replay";
@@ -76,11 +88,16 @@ ReplayDevice::ReplayDevice(std::vector<TracePoint> goals, ReplayEnd end)
 DeviceStatus ReplayDevice::read(DeviceSample& sample) noexcept
 {
     std::size_t next = next_.load(std::memory_order_relaxed);
-    if (next == goals_.size()) {
-        if (end_ == ReplayEnd::Finish || goals_.empty()) {
+    if (next == recording_.goals.size()) {
+        if (end_ == ReplayEnd::Finish || recording_.goals.empty()) {
             return DeviceStatus::Finished;
         }
         next = 0;
+        next_motion_ = 0;
+    }
+    const auto& motions = recording_.motions;
+    while (next_motion_ < motions.size() && motions[next_motion_].goal < next) {
+        ++next_motion_;
     }
     next_.store(next + 1, std::memory_order_relaxed);
     sample = {.time = std::chrono::steady_clock::now()};
@@ -92,21 +109,30 @@ DeviceStatus ReplayDevice::write(const Vec3& /*force_n*/) noexcept
     return DeviceStatus::Fine;
 }
 
-bool ReplayDevice::recordedGoal(TracePoint& goal) const noexcept
+bool ReplayDevice::recordedTick(RecordedTick& tick) const noexcept
 {
     const std::size_t next = next_.load(std::memory_order_relaxed);
     if (next == 0) {
         return false;
     }
-    goal = goals_[next - 1];
+    const std::size_t at = next - 1;
+    tick = {.goal = recording_.goals[at]};
+    if (at < recording_.forces.size()) {
+        tick.force_n = recording_.forces[at].force_n;
+        tick.mode = recording_.forces[at].mode;
+    }
+    const auto& motions = recording_.motions;
+    if (next_motion_ < motions.size() && motions[next_motion_].goal == at) {
+        tick.motion = motions[next_motion_].motion;
+    }
     return true;
 }
 
 double ReplayDevice::playedShare() const noexcept
 {
-    return goals_.empty() ? 1.0
-                          : static_cast<double>(next_.load(std::memory_order_relaxed)) /
-                                static_cast<double>(goals_.size());
+    return recording_.goals.empty() ? 1.0
+                                    : static_cast<double>(next_.load(std::memory_order_relaxed)) /
+                                          static_cast<double>(recording_.goals.size());
 }
 
 bool isReplay(std::string_view uri) noexcept

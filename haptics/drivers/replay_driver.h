@@ -1,8 +1,8 @@
 // A recording of goals as a device: it plays back one goal per update.
 #pragma once
 
-#include "core/contact/goal_frame.h"
 #include "haptics/device/device_driver.h"
+#include "haptics/trace/goal_file.h"
 
 #include <atomic>
 #include <cstddef>
@@ -15,21 +15,24 @@ namespace marsview {
 
 enum class ReplayEnd { Finish, BeginAnew };
 
-/// Goals are in map coordinates, so they are returned by recordedGoal(); positions stay in the
+/// Goals are in map coordinates, so they are returned by recordedTick(); positions stay in the
 /// middle of the workspace. It has no force output.
 class ReplayDevice final : public HapticDevice {
 public:
     explicit ReplayDevice(std::vector<TracePoint> goals, ReplayEnd end = ReplayEnd::Finish);
+    /// With the forces, modes and motions of the map that the recording has.
+    explicit ReplayDevice(GoalRecording recording, ReplayEnd end = ReplayEnd::Finish);
 
     const DeviceCapabilities& capabilities() const noexcept override { return capabilities_; }
     DeviceStatus read(DeviceSample& sample) noexcept override;
     DeviceStatus write(const Vec3& force_n) noexcept override;
-    bool recordedGoal(TracePoint& goal) const noexcept override;
+    bool recordedTick(RecordedTick& tick) const noexcept override;
     double playedShare() const noexcept override;
 
 private:
     DeviceCapabilities capabilities_;
-    std::vector<TracePoint> goals_;
+    GoalRecording recording_;
+    std::size_t next_motion_ = 0; // of the ticking thread
     ReplayEnd end_;
     std::atomic<std::size_t> next_{0}; // written by the ticking thread
 };

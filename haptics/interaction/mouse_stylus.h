@@ -3,17 +3,9 @@
 
 #include "core/base/vec.h"
 #include "core/geo/frames.h"
+#include "haptics/device/recorded_tick.h"
 
 namespace marsview {
-
-/// The interaction mode. As in section 4.2 of the paper "Large Haptic Topographic Maps", the effect
-/// of a grab depends on whether the stylus touches the surface.
-enum class StylusMode {
-    Hover, // in free space above the surface
-    Press, // into the surface
-    Pan,   // grabbed in contact: the map moves with the hand
-    Zoom,  // grabbed in free space
-};
 
 /// The pressed buttons.
 struct StylusButtons {

@@ -5,16 +5,20 @@
 
 namespace marsview {
 
+double fitShare(const FitOptions& options, double clearance_m) noexcept
+{
+    const double share = (clearance_m - options.clearance_min_m) / options.clearance_fade_m;
+    return share > 0.0 ? std::min(share, 1.0) : 0.0; // also for NaN
+}
+
 WorkspaceFrame fitted(const FitOptions& options,
                       const WorkspaceFit& fit,
                       const WorkspaceFrame& frame,
                       const WorkspaceFrame& seen,
                       const WorkspacePoint& hand,
-                      double clearance_m,
+                      double share,
                       double dt_s) noexcept
 {
-    const double share =
-        std::clamp((clearance_m - options.clearance_min_m) / options.clearance_fade_m, 0.0, 1.0);
     if (!(share > 0.0) || !(dt_s > 0.0)) {
         return frame;
     }

@@ -15,21 +15,23 @@ struct WorkspaceFit {
 struct FitOptions {
     double speed_m_per_s = 0.015; // of the surface in the workspace
     double octaves_per_s = 0.3;   // of the scale
-    /// The fit slows down as the hand comes closer to the surface than the sum of both, and rests
-    /// from the first on.
+    /// Where it brings the surface closer to the hand, it slows down from the sum of both on, and
+    /// rests from the first on.
     double clearance_min_m = 0.003;
     double clearance_fade_m = 0.01;
 };
 
-/// `frame` after `dt_s` on its way to `fit`, for a hand in free space at `clearance_m` over the
-/// surface. `seen` is the frame that the camera follows now. Returns `frame` if it fits. Servo
-/// thread.
+/// The share of the speed that remains at that clearance: 0 to 1.
+double fitShare(const FitOptions& options, double clearance_m) noexcept;
+
+/// `frame` after `dt_s` on its way to `fit`, at a share of the speed, for a hand in free space.
+/// `seen` is the frame that the camera follows now. Returns `frame` if it fits. Servo thread.
 WorkspaceFrame fitted(const FitOptions& options,
                       const WorkspaceFit& fit,
                       const WorkspaceFrame& frame,
                       const WorkspaceFrame& seen,
                       const WorkspacePoint& hand,
-                      double clearance_m,
+                      double share,
                       double dt_s) noexcept;
 
 } // namespace marsview

@@ -108,6 +108,23 @@ WorkspaceFrame WorkspaceFrame::moved(const WorkspaceFrame& from,
             .turn = turn + to.turn + -from.turn};
 }
 
+SceneMotion WorkspaceFrame::motionFrom(const WorkspaceFrame& from) const noexcept
+{
+    return {.from = from.place,
+            .to = toScene(from.anchor),
+            .scale = scene_per_meter / from.scene_per_meter,
+            .turn_rad = (turn + -from.turn).radians()};
+}
+
+WorkspaceFrame WorkspaceFrame::after(const SceneMotion& motion) const noexcept
+{
+    const Angle by = Angle::radians(motion.turn_rad);
+    return {.anchor = anchor,
+            .place = motion.to + turnedBy(place - motion.from, by) * motion.scale,
+            .scene_per_meter = scene_per_meter * motion.scale,
+            .turn = turn + by};
+}
+
 bool WorkspaceFrame::isSound() const noexcept
 {
     const double sum = anchor.x + anchor.y + anchor.z + place.x + place.y + place.z +

@@ -6,6 +6,7 @@
 #include "core/view/camera.h"
 #include "core/view/footprint.h"
 #include "core/view/scene_box.h"
+#include "haptics/device/recorded_tick.h"
 #include "haptics/device/workspace.h"
 
 namespace marsview {
@@ -35,6 +36,10 @@ struct WorkspaceFrame {
     /// The frame after the scene has moved in the workspace as it does from `from` to `to`: `to`,
     /// if this frame is `from`.
     WorkspaceFrame moved(const WorkspaceFrame& from, const WorkspaceFrame& to) const noexcept;
+    /// The motion of the camera that this frame's motion from `from` is.
+    SceneMotion motionFrom(const WorkspaceFrame& from) const noexcept;
+    /// The frame after that motion.
+    WorkspaceFrame after(const SceneMotion& motion) const noexcept;
     /// Whether all numbers are finite and the scale is valid.
     bool isSound() const noexcept;
 };

@@ -112,7 +112,7 @@ private:
         if (is_limit) {
             state_.modes.pan.velocity_m_per_s = {};
         }
-        if (input_.recorded_goal != nullptr) {
+        if (input_.recorded != nullptr) {
             state_.has_hand = false; // the recorded goal does not depend on the view
         } else if (state_.has_frame && !is_limit && !(length(moved_m) < kJumpM)) {
             has_jumped_ = true;
@@ -160,8 +160,8 @@ private:
             return false;
         }
         WorkspacePoint at = input_.sample.position;
-        if (input_.recorded_goal != nullptr && map_ != nullptr) {
-            at = state_.frame.toWorkspace(map_->frame.toScene(*input_.recorded_goal));
+        if (input_.recorded != nullptr && map_ != nullptr) {
+            at = state_.frame.toWorkspace(map_->frame.toScene(input_.recorded->goal));
         } else {
             note(ageReason());
             if (!isFinite(asVector(at)) || isBeyond(input_.device->workspace, at) ||
@@ -209,7 +209,7 @@ private:
                                                options_.period_s, state_.period_s);
         result_.stiffness_n_per_m = stiffness;
         WallContact walls;
-        if (settings_.has_walls && input_.recorded_goal == nullptr) {
+        if (settings_.has_walls && input_.recorded == nullptr) {
             walls = wallsAt(input_.device->workspace, state_.hand, stiffness);
         }
         const double share = options_.mixing == ForceMixing::Fade ? walls.ground_share : 1.0;
@@ -217,6 +217,8 @@ private:
 
         const bool is_grabbing =
             (input_.sample.buttons & kGrabbingButtons) != 0 || settings_.is_grabbing;
+        const WorkspaceFrame seen = state_.seen_frame;
+        moveAsRecorded();
         const double clearance_m = clearance();
         const ModeStep mode = stepModes(modeOptions(),
                                         {.hand = state_.hand,
@@ -238,9 +240,11 @@ private:
             keepWithinView(share);
             keepHandOnMap(before);
         } else if (settings_.fit && !isHolding(state_.modes.mode) &&
-                   !state_.contact.is_in_contact && input_.recorded_goal == nullptr) {
-            state_.frame = fitted({}, *settings_.fit, state_.frame, state_.seen_frame, state_.hand,
-                                  clearance_m, dt_s_);
+                   !state_.contact.is_in_contact && input_.recorded == nullptr) {
+            fitWorkspace();
+        }
+        if (!(state_.seen_frame == seen)) {
+            result_.motion = state_.seen_frame.motionFrom(seen);
         }
         refreshTerrain(stiffness);
         Vec3 force_n = mode.force_n + walls.force_n;
@@ -260,6 +264,34 @@ private:
             keepPassive(options_.passivity, force_n, shift_m_, state_.passivity, dt_s_);
         result_.damping_n_s_per_m = passive.damping_n_s_per_m;
         return passive.force_n;
+    }
+
+    // Slowly where that brings the surface closer to the hand.
+    void fitWorkspace() noexcept
+    {
+        const FitOptions options;
+        const WorkspaceFrame before = state_.frame;
+        const double clearance_m = clearance();
+        const auto move = [&](double share) {
+            state_.frame = fitted(options, *settings_.fit, before, state_.seen_frame, state_.hand,
+                                  share, dt_s_);
+        };
+        move(1.0);
+        if (!(clearance() >= clearance_m)) {
+            move(fitShare(options, clearance_m));
+        }
+    }
+
+    void moveAsRecorded() noexcept
+    {
+        if (input_.recorded == nullptr || !input_.recorded->motion) {
+            return;
+        }
+        const WorkspaceFrame moved = state_.seen_frame.after(*input_.recorded->motion);
+        if (moved.isSound()) {
+            state_.frame = state_.frame.moved(state_.seen_frame, moved);
+            state_.seen_frame = moved;
+        }
     }
 
     // The limits of the zoom are those of the frame that the camera follows.
@@ -387,7 +419,7 @@ private:
     // the map there is nothing to touch until the hand comes over it.
     bool isOverMap() noexcept
     {
-        if (input_.recorded_goal != nullptr) {
+        if (input_.recorded != nullptr) {
             return true;
         }
         const ScenePoint at = state_.frame.toScene(state_.hand);
@@ -415,7 +447,7 @@ private:
         if (!isOverMap()) {
             return {};
         }
-        const TracePoint aimed = input_.recorded_goal != nullptr ? *input_.recorded_goal : aim();
+        const TracePoint aimed = input_.recorded != nullptr ? input_.recorded->goal : aim();
         if (is_other_model_) {
             goOnAtProxy();
         } else if (map_->is_touched && (has_jumped_ || is_entering_ || !state_.has_touched)) {
@@ -531,6 +563,12 @@ private:
     void publish() noexcept
     {
         result_.mode = state_.modes.mode;
+        if (input_.recorded != nullptr) {
+            result_.mode = input_.recorded->mode.value_or(result_.mode);
+            if (result_.motion) {
+                result_.motion = input_.recorded->motion; // to the bit
+            }
+        }
         result_.hand = state_.hand;
         result_.goal = state_.goal + (state_.is_on_map ? beyond_m_ : Vec3{}); // where the hand is
         result_.contact = state_.contact;

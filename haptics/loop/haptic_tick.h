@@ -77,8 +77,9 @@ struct TickInput {
     const DeviceCapabilities* device = nullptr;
     DeviceStatus status = DeviceStatus::Fine;
     DeviceSample sample;
-    /// For a device that plays back a recording: replaces the sample's position.
-    const TracePoint* recorded_goal = nullptr;
+    /// For a device that plays back a recording: replaces the sample's position. The map moves, and
+    /// the mode changes, as recorded.
+    const RecordedTick* recorded = nullptr;
     std::chrono::steady_clock::time_point now{};
     bool has_missed_deadline = false; // the last tick ended, or this one began, too late
     /// Seconds since the last force was written, for the limiter; empty: dt_s. A value above
@@ -133,7 +134,8 @@ struct StepResult {
     WorkspacePoint hand{};
     ScenePoint goal{};
     ContactState contact;
-    bool is_at_edge = false; // beyond the edge of the map, which holds the hand back
+    std::optional<SceneMotion> motion{}; // of the map by the hand
+    bool is_at_edge = false;             // beyond the edge of the map, which holds the hand back
     TracePoint proxy{};
     TickGoals goals;                  // passed to the contact model, in order
     double ground_share = 1.0;        // fraction of the surface force that the walls let through

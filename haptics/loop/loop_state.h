@@ -34,7 +34,7 @@ struct LoopState {
     ContactState contact;
     StylusMode mode = StylusMode::Hover;
     ForceOffReason reason = ForceOffReason::NoTouch;
-    Vec3 force_n{};
+    Vec3 force_n{};          // in a replay the recorded one, which no device gets
     bool is_at_edge = false; // of the map
     double ground_share = 1.0;
     double stiffness_n_per_m = 0.0;
@@ -83,6 +83,8 @@ struct TickRecord {
     ForceOffReason reason = ForceOffReason::None;
     bool is_in_contact = false;
     bool has_goal = false; // false: the contact model was not updated in this tick
+    bool has_motion = false;
+    SceneMotion motion{}; // of the map by the hand, since the last update that was recorded
     float tick_us = 0.0F;
     TouchedGround ground{};
     std::uint32_t ground_records = 0; // number of terrain records since the last update

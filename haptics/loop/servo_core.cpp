@@ -154,13 +154,13 @@ LoopOutcome ServoCore::turnInside(LoopTime begin, bool has_missed_deadline) noex
     const LoopTime now = steady_clock::now();
     const double dt_s = read_at_ == LoopTime{} ? 0.0 : secondsBetween(read_at_, now);
     read_at_ = now;
-    TracePoint goal;
-    const bool is_recorded = device_->recordedGoal(goal);
+    RecordedTick recorded;
+    const bool is_recorded = device_->recordedTick(recorded);
     TickInput input{.settings = &settings_.front(),
                     .device = &device_->capabilities(),
                     .status = status,
                     .sample = sample_,
-                    .recorded_goal = is_recorded ? &goal : nullptr,
+                    .recorded = is_recorded ? &recorded : nullptr,
                     .now = now,
                     .has_missed_deadline = has_missed_deadline || was_too_long_,
                     .since_write_s =
@@ -178,7 +178,9 @@ LoopOutcome ServoCore::turnInside(LoopTime begin, bool has_missed_deadline) noex
     ++ticks_;
     const bool is_over = is_finished_ || (options_.ticks_max != 0 && ticks_ >= options_.ticks_max);
     const bool is_at_rest = result.force_n == Vec3{} || written == DeviceStatus::Lost;
-    publish(result, secondsBetween(begin, steady_clock::now()));
+    StepResult told = result;
+    told.force_n = recorded.force_n.value_or(result.force_n);
+    publish(told, secondsBetween(begin, steady_clock::now()));
     if ((is_over || is_ending) && is_at_rest) {
         if (is_over) {
             has_ended_.store(true, std::memory_order_release);
@@ -286,7 +288,13 @@ void ServoCore::record(const StepResult& result, double tick_s) noexcept
     if (!has_room && result.goals.count == 0) {
         ++counts_.not_recorded;
     }
+    if (result.motion) {
+        noteMotion(*result.motion);
+    }
     for (std::size_t i = 0; i < result.goals.count; ++i) {
+        record.has_motion = has_motion_;
+        record.motion = motion_;
+        has_motion_ = false;
         record.goal = result.goals.goals[i];
         record.proxy = result.goals.proxies[i];
         record.is_in_contact = result.goals.are_in_contact[i];
@@ -298,6 +306,15 @@ void ServoCore::record(const StepResult& result, double tick_s) noexcept
         }
     }
     flight_.add(record);
+}
+
+// Together with motions of ticks without an update.
+void ServoCore::noteMotion(const SceneMotion& motion) noexcept
+{
+    const WorkspaceFrame moved =
+        has_motion_ ? WorkspaceFrame{}.after(motion_).after(motion) : WorkspaceFrame{};
+    motion_ = has_motion_ ? moved.motionFrom({}) : motion;
+    has_motion_ = true;
 }
 
 // Whether updates are recorded. A new recording gets all terrain records.

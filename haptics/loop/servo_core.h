@@ -105,6 +105,7 @@ private:
     DeviceStatus writeForce(const Vec3& force_n) noexcept;
     void publish(const StepResult& result, double tick_s) noexcept;
     void record(const StepResult& result, double tick_s) noexcept;
+    void noteMotion(const SceneMotion& motion) noexcept;
     bool takeRecording() noexcept;
     bool tellGround(bool was_told) noexcept;
 
@@ -137,6 +138,8 @@ private:
     LoopTime read_at_{};  // when the last sample was read; 0: none
     LoopTime wrote_at_{}; // when the last force was written
     bool was_too_long_ = false;
+    bool has_motion_ = false; // of the map, not yet in a record
+    SceneMotion motion_{};
     ForceOffReason last_reason_ = ForceOffReason::NoTouch;
     GroundLog ground_log_;
     std::uint64_t told_recording_ = 0;       // of the recording that ground_log_ reports to

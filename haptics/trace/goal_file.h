@@ -4,6 +4,7 @@
 #include "core/base/result.h"
 #include "core/contact/contact_model.h"
 #include "core/contact/goal_frame.h"
+#include "haptics/device/recorded_tick.h"
 #include "haptics/terrain/ground_record.h"
 
 #include <cstddef>
@@ -52,19 +53,34 @@ struct RecordedUpdate {
     bool operator==(const RecordedUpdate&) const = default;
 };
 
+/// The recorded force on the hand, in the workspace, and the mode.
+struct RecordedForce {
+    Vec3 force_n{};
+    StylusMode mode = StylusMode::Hover;
+};
+
+/// The hand has moved the map in the tick of a goal.
+struct GoalMotion {
+    std::size_t goal = 0;
+    SceneMotion motion;
+};
+
 /// Goals and the other data of a recording.
 struct GoalRecording {
     std::vector<TracePoint> goals;
     std::vector<GoalPart> parts;         // in order; none if the file contains only goals
     std::vector<GoalGround> ground;      // in order; none if all terrain was resident
     std::vector<RecordedUpdate> updates; // one per goal; none if not stored in the file
+    std::vector<RecordedForce> forces;   // the same
+    std::vector<GoalMotion> motions;     // in order
     /// The last line of a recording was incomplete, for example because the program was killed or
     /// the disk was full, and is skipped.
     bool is_cut_short = false;
 };
 
 /// As readGoals(), and also reads the columns "map,part,model,radius_m,exaggeration", and with them
-/// "ground" and "contact,proxy_x,proxy_y,proxy_z", if the header has them.
+/// "ground", "contact,proxy_x,proxy_y,proxy_z", "force_x_n,force_y_n,force_z_n,mode" and "motion",
+/// if the header has them.
 Result<GoalRecording> readGoalRecording(const std::string& text,
                                         const std::string& name,
                                         GoalColumns columns = GoalColumns::Map);

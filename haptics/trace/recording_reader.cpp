@@ -2,6 +2,7 @@
 
 #include "core/base/plain_number.h"
 #include "haptics/trace/ground_text.h"
+#include "haptics/trace/motion_text.h"
 
 #include <algorithm>
 #include <charconv>
@@ -60,6 +61,10 @@ std::optional<RecordingReader> RecordingReader::forHeader(const TableWords& head
     RecordingReader reader;
     reader.part_at_ = *part_at;
     reader.update_at_ = placesOf(kUpdateNames, header);
+    reader.force_at_ = placesOf(kForceNames, header);
+    if (const auto motion = placesOf(std::array{kMotionColumn}, header)) {
+        reader.motion_at_ = motion->front();
+    }
     if (const auto ground = placesOf(std::array{kGroundColumn}, header)) {
         reader.ground_at_ = ground->front();
     }
@@ -87,6 +92,20 @@ RecordingReader::read(const TableWords& words, std::size_t number, GoalRecording
             return "has no valid contact, proxy_x, proxy_y and proxy_z";
         }
         recording.updates.push_back(*update);
+    }
+    if (force_at_) {
+        const auto force = forceIn(words);
+        if (!force) {
+            return "has no valid force_x_n, force_y_n, force_z_n and mode";
+        }
+        recording.forces.push_back(*force);
+    }
+    if (motion_at_ && !words[*motion_at_].empty()) {
+        const auto motion = parseMotion(words[*motion_at_]);
+        if (!motion) {
+            return fmt::format("has the invalid motion \"{}\"", quotedWord(words[*motion_at_]));
+        }
+        recording.motions.push_back({.goal = recording.goals.size(), .motion = *motion});
     }
     if (recording.parts.empty() || !isSamePart(recording.parts.back(), *part)) {
         part->first = recording.goals.size();
@@ -117,6 +136,18 @@ std::optional<GoalPart> RecordingReader::partIn(const TableWords& words) const
                     .kind = *kind,
                     .radius_m = *radius,
                     .exaggeration = *exaggeration};
+}
+
+std::optional<RecordedForce> RecordingReader::forceIn(const TableWords& words) const
+{
+    const auto x = parseNumber(words[(*force_at_)[0]]);
+    const auto y = parseNumber(words[(*force_at_)[1]]);
+    const auto z = parseNumber(words[(*force_at_)[2]]);
+    const auto mode = stylusMode(words[(*force_at_)[3]]);
+    if (!x || !y || !z || !isFinite(Vec3{*x, *y, *z}) || !mode) {
+        return std::nullopt;
+    }
+    return RecordedForce{.force_n = {*x, *y, *z}, .mode = *mode};
 }
 
 std::optional<RecordedUpdate> RecordingReader::updateIn(const TableWords& words) const

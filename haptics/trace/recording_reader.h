@@ -30,15 +30,20 @@ private:
                                                                 "exaggeration"};
     static constexpr std::array<std::string_view, 4> kUpdateNames{"contact", "proxy_x", "proxy_y",
                                                                   "proxy_z"};
+    static constexpr std::array<std::string_view, 4> kForceNames{"force_x_n", "force_y_n",
+                                                                 "force_z_n", "mode"};
 
     std::optional<GoalPart> partIn(const TableWords& words) const;
+    std::optional<RecordedForce> forceIn(const TableWords& words) const;
     std::optional<RecordedUpdate> updateIn(const TableWords& words) const;
     void addGround(const std::vector<GroundRecord>& records, GoalRecording& recording);
 
     // Column positions; older recordings do not have all of these columns.
     std::array<std::size_t, kPartNames.size()> part_at_{};
     std::optional<std::array<std::size_t, kUpdateNames.size()>> update_at_;
+    std::optional<std::array<std::size_t, kForceNames.size()>> force_at_;
     std::optional<std::size_t> ground_at_;
+    std::optional<std::size_t> motion_at_;
     std::size_t count_ = 0; // of all columns
     std::map<std::uint64_t, GroundPart> ground_parts_;
 };

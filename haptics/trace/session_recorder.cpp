@@ -2,8 +2,8 @@
 
 #include "core/base/plain_number.h"
 #include "haptics/trace/ground_text.h"
+#include "haptics/trace/motion_text.h"
 
-#include <array>
 #include <chrono>
 #include <fmt/format.h>
 #include <limits>
@@ -14,12 +14,6 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-std::string_view nameOf(StylusMode mode)
-{
-    constexpr std::array<std::string_view, 4> kNames{"hover", "press", "pan", "zoom"};
-    return kNames[static_cast<std::size_t>(mode)];
-}
-
 } // namespace
 
 std::string sessionLine(const TickRecord& record, std::int64_t begin_ns)
@@ -29,7 +23,7 @@ std::string sessionLine(const TickRecord& record, std::int64_t begin_ns)
                        static_cast<double>(record.time_ns - begin_ns) * 1e-9, record.tick,
                        record.is_in_contact ? 1 : 0, asText(record.proxy.x), asText(record.proxy.y),
                        asText(record.proxy.z), asText(record.force_n.x), asText(record.force_n.y),
-                       asText(record.force_n.z), nameOf(record.mode),
+                       asText(record.force_n.z), stylusModeName(record.mode),
                        forceOffReasonName(record.reason), record.ground.map_id,
                        record.ground.serial, contactModelName(record.ground.kind),
                        asText(record.ground.radius_m), asText(record.ground.exaggeration));
@@ -38,8 +32,8 @@ std::string sessionLine(const TickRecord& record, std::int64_t begin_ns)
 Result<std::unique_ptr<SessionRecorder>>
 SessionRecorder::begin(ServoLoop& loop, const std::string& path, std::uint64_t first_serial)
 {
-    Result<TraceFile> file =
-        TraceFile::begin(path, fmt::format("{},{}", kSessionColumns, kGroundColumn));
+    Result<TraceFile> file = TraceFile::begin(
+        path, fmt::format("{},{},{}", kSessionColumns, kGroundColumn, kMotionColumn));
     if (!file) {
         return std::move(file).error();
     }
@@ -119,7 +113,11 @@ void SessionRecorder::drain()
         ++updates_;
         std::string line = sessionLine(record, begin_ns_);
         line.back() = ',';
-        file_.write(line + ground_ + '\n');
+        line += ground_ + ',';
+        if (record.has_motion) {
+            line += motionText(record.motion);
+        }
+        file_.write(line + '\n');
         ground_.clear();
     }
 }

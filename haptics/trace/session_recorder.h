@@ -18,7 +18,8 @@ namespace marsview {
 /// One line per contact update. The first three columns are those of a file of goals: `trace
 /// --goals` gives the same proxies again, to the bit, and "replay:" aims at the same positions. The
 /// last five describe the map and the contact model: `map` and `part` are numbers that the program
-/// assigns, unique per map and per contact model. A session's file appends kGroundColumn.
+/// assigns, unique per map and per contact model. A session's file appends kGroundColumn and
+/// kMotionColumn.
 inline constexpr std::string_view kSessionColumns =
     "x,y,z,time_s,tick,contact,proxy_x,proxy_y,proxy_z,force_x_n,force_y_n,force_z_n,mode,reason,"
     "map,part,model,radius_m,exaggeration";

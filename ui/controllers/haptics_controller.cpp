@@ -693,9 +693,16 @@ void HapticsController::followHand(const LoopState& state)
     }
     is_fitted_ = false;
     const OrbitCamera wanted = cameraFollowing(hand_view_, state.seen_frame);
+    const bool is_replay = isReplaying();
+    if (is_replay && (!excursion_ || excursion_->sent_to != view_.cameraGoal())) {
+        excursion_ = Excursion{.before = view_.cameraGoal(), .sent_to = {}};
+    }
     is_following_ = true;
     view_.setCamera(wanted);
     is_following_ = false;
+    if (is_replay) {
+        excursion_->sent_to = view_.cameraGoal();
+    }
     const LimitedView limited =
         limitedView({.camera = wanted, .frame = state.seen_frame}, view_.camera());
     hand_view_ = limited.view;
@@ -724,7 +731,7 @@ void HapticsController::showHand(const LoopState& state)
                                 .force_n_max = loop_->device().force_n_peak});
 }
 
-// A recording contains the device's positions, but not the camera.
+// A recording contains the device's positions and what it did to the map, but not the camera.
 void HapticsController::keepReplayInPicture(const LoopState& state)
 {
     const bool is_user_moving = view_.isMoving() || QGuiApplication::mouseButtons() != Qt::NoButton;

@@ -524,15 +524,17 @@ void HapticsPanel::showState(const LoopState& state)
     if (!isVisible()) {
         return;
     }
-    const double most_n = controller_.loop()->device().force_n_peak;
+    const bool is_replay = controller_.isReplaying();
+    const double most_n = is_replay ? kForceNMax : controller_.loop()->device().force_n_peak;
     // The force of a stalled loop is unknown.
     const double force_n =
         state.reason == ForceOffReason::LoopStalled ? 0.0 : length(state.force_n);
     force_->setValue(
         most_n > 0.0 ? static_cast<int>(std::lround(std::min(1.0, force_n / most_n) * kForceSteps))
                      : 0);
-    const bool is_replay = controller_.isReplaying();
-    force_->setFormat(is_replay ? tr("no force in a replay") : forceText(force_n));
+    //: %1 is a force, like "0.45 N"
+    force_->setFormat(is_replay ? tr("%1 when recorded").arg(forceText(force_n))
+                                : forceText(force_n));
     if (is_replay) {
         replayed_->setValue(
             static_cast<int>(std::lround(controller_.replayedShare() * kReplaySteps)));
@@ -544,9 +546,10 @@ void HapticsPanel::showState(const LoopState& state)
                                ? letGoText(state.reason)
                                //: %1 is the device's error
                                : tr("Force off: %1").arg(QString::fromStdString(trouble));
-    const QString text = !reason.isEmpty() ? reason
-                         : is_replay       ? tr("Replaying")
-                                           : modeText(state.mode, state.contact.is_in_contact);
+    const QString text = !reason.isEmpty()  ? reason
+                         : is_replay        ? tr("Replaying")
+                         : state.is_at_edge ? tr("At the edge of the map")
+                                            : modeText(state.mode, state.contact.is_in_contact);
     if (text != reason_->text()) {
         reason_->setText(text);
     }

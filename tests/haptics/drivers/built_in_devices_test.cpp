@@ -165,14 +165,14 @@ TEST(ReplayDevice, ReplaysItsGoalsOnceAndEnds)
     const std::string path = folder.write("goals.csv", "x,y,z,time_s\n1,2,3,0\n4,5,6.5,0.001\n");
     const auto device = opened("replay:" + path);
     DeviceSample sample;
-    TracePoint goal;
-    EXPECT_FALSE(device->recordedGoal(goal));
+    RecordedTick tick;
+    EXPECT_FALSE(device->recordedTick(tick));
     EXPECT_EQ(device->read(sample), DeviceStatus::Fine);
-    ASSERT_TRUE(device->recordedGoal(goal));
-    EXPECT_EQ(goal, (TracePoint{1.0, 2.0, 3.0}));
+    ASSERT_TRUE(device->recordedTick(tick));
+    EXPECT_EQ(tick.goal, (TracePoint{1.0, 2.0, 3.0}));
     EXPECT_EQ(device->read(sample), DeviceStatus::Fine);
-    ASSERT_TRUE(device->recordedGoal(goal));
-    EXPECT_EQ(goal, (TracePoint{4.0, 5.0, 6.5}));
+    ASSERT_TRUE(device->recordedTick(tick));
+    EXPECT_EQ(tick.goal, (TracePoint{4.0, 5.0, 6.5}));
     EXPECT_EQ(device->read(sample), DeviceStatus::Finished);
     EXPECT_EQ(device->read(sample), DeviceStatus::Finished);
 }
@@ -183,11 +183,11 @@ TEST(ReplayDevice, RestartsOnRequest)
     const std::string path = folder.write("goals.csv", "x,y,z\n1,2,3\n4,5,6\n");
     const auto device = opened("replay:" + path + "#loop");
     DeviceSample sample;
-    TracePoint goal;
+    RecordedTick tick;
     for (int i = 0; i < 9; ++i) {
         ASSERT_EQ(device->read(sample), DeviceStatus::Fine);
-        ASSERT_TRUE(device->recordedGoal(goal));
-        EXPECT_EQ(goal.x, i % 2 == 0 ? 1.0 : 4.0);
+        ASSERT_TRUE(device->recordedTick(tick));
+        EXPECT_EQ(tick.goal.x, i % 2 == 0 ? 1.0 : 4.0);
     }
 }
 

@@ -558,8 +558,9 @@ TEST(HapticTick, WhatARecordingAimsAtDoesNotDependOnWhatIsSeen)
     Rig rig(servoMap(201, 201, bumps));
     const auto again = servoMap(201, 201, bumps);
     Random random;
-    TracePoint goal{100.0, -100.0, -1.0};
-    rig.input.recorded_goal = &goal;
+    RecordedTick tick{.goal = {100.0, -100.0, -1.0}};
+    TracePoint& goal = tick.goal;
+    rig.input.recorded = &tick;
     for (int i = 0; i < 2000; ++i) {
         goal.x = std::clamp(goal.x + random.uniform(-2.0, 2.0), 10.0, 190.0);
         goal.y = std::clamp(goal.y + random.uniform(-2.0, 2.0), -190.0, -10.0);

@@ -2,6 +2,7 @@
 #include "haptics/drivers/replay_driver.h"
 #include "haptics/terrain/clipmap_streamer.h"
 #include "haptics/trace/goal_file.h"
+#include "haptics/trace/motion_text.h"
 #include "haptics/trace/recorded_ground.h"
 #include "haptics/trace/session_recorder.h"
 #include "tests/haptics/loop/loop_fixture.h"
@@ -14,9 +15,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fcntl.h>
 #include <limits>
 #include <map>
+#include <sstream>
 #include <sys/stat.h>
 #include <thread>
 #include <unistd.h>
@@ -33,6 +36,125 @@ RecordedUpdate updateOf(MapContactModel& model, const GoalFrame& frame, const Tr
     const bool is_moved = state.is_in_contact || frame.isClamped(goal);
     return {.is_in_contact = state.is_in_contact,
             .proxy = is_moved ? frame.fromScene(state.proxy) : goal};
+}
+
+// Presses, pulls the map, lifts off, grabs the air, rises, sinks and twists, and presses again.
+class GrabbingDevice final : public HapticDevice {
+public:
+    GrabbingDevice()
+    {
+        capabilities_ = desktopDevice();
+        capabilities_.rate_hz = 5000.0;
+    }
+    const DeviceCapabilities& capabilities() const noexcept override { return capabilities_; }
+    DeviceStatus read(DeviceSample& sample) noexcept override
+    {
+        const double t = 2e-4 * static_cast<double>(reads_++); // seconds
+        const double phase = std::fmod(t, 1.0);
+        const bool is_down = phase < 0.4;
+        const bool is_grabbing = (phase > 0.1 && phase < 0.3) || (phase > 0.5 && phase < 0.9);
+        const double z_m = is_down ? -0.006 : 0.02 + 0.01 * std::sin(20.0 * t);
+        hand_.z += 0.01 * (z_m - hand_.z);
+        hand_.x = 0.02 * std::sin(7.0 * t);
+        hand_.y = 0.01 * std::cos(5.0 * t);
+        sample = {.position = hand_, .time = std::chrono::steady_clock::now()};
+        sample.twist_rad = std::sin(3.0 * t);
+        sample.buttons = is_grabbing ? kGrabbingButtons : 0;
+        return DeviceStatus::Fine;
+    }
+    DeviceStatus write(const Vec3& /*force_n*/) noexcept override { return DeviceStatus::Fine; }
+
+private:
+    std::uint64_t reads_ = 0;
+    WorkspacePoint hand_{0.0, 0.0, 0.03};
+    DeviceCapabilities capabilities_;
+};
+
+// The words of a recording's lines in some of its columns.
+std::vector<std::vector<std::string>> columnsOf(const std::string& path,
+                                                const std::vector<std::string>& names)
+{
+    std::istringstream text(readFile(path));
+    std::vector<std::size_t> places;
+    std::vector<std::vector<std::string>> lines;
+    for (std::string line; std::getline(text, line);) {
+        std::vector<std::string> words;
+        std::istringstream rest(line + ",");
+        for (std::string word; std::getline(rest, word, ',');) {
+            words.push_back(word);
+        }
+        if (places.empty()) {
+            for (const std::string& name : names) {
+                places.push_back(static_cast<std::size_t>(
+                    std::find(words.begin(), words.end(), name) - words.begin()));
+            }
+            continue;
+        }
+        std::vector<std::string>& kept = lines.emplace_back();
+        for (const std::size_t place : places) {
+            kept.push_back(words.at(place));
+        }
+    }
+    return lines;
+}
+
+TEST(SessionRecorder, PansZoomsAndTurnsAreRecordedAndRepeatToTheBit)
+{
+    const TempFolder folder;
+    const auto filled = filledTerrain(201, 201, bumps);
+    std::vector<WorkspaceFrame> moved;
+    const auto record = [&](std::unique_ptr<HapticDevice> device, const std::string& path,
+                            std::uint64_t ticks) {
+        ServoLoop loop(std::move(device), quick(ticks));
+        auto recorder = SessionRecorder::begin(loop, path);
+        ASSERT_TRUE(recorder);
+        loop.set(settingsFor(makeServoMap(meterFrame(201, 201), filled, {})));
+        waitFor(loop);
+        loop.stop();
+        ASSERT_TRUE((*recorder)->finish());
+        EXPECT_EQ(loop.state().counts.not_recorded, 0U);
+        moved.push_back(loop.state().seen_frame);
+    };
+    const std::vector<std::string> names{"x",         "y",         "z",       "contact",
+                                         "proxy_x",   "proxy_y",   "proxy_z", "force_x_n",
+                                         "force_y_n", "force_z_n", "mode",    "motion"};
+    const std::string first = folder.file("first.csv");
+    record(std::make_unique<GrabbingDevice>(), first, 8000);
+    const auto lines = columnsOf(first, names);
+    ASSERT_GE(lines.size(), 8000U);
+    std::map<std::string, int> modes;
+    bool has_turned = false;
+    bool has_zoomed = false;
+    for (const auto& line : lines) {
+        ++modes[line[10]];
+        if (const auto motion = parseMotion(line[11])) {
+            has_turned = has_turned || std::abs(motion->turn_rad) > 1e-5;
+            has_zoomed = has_zoomed || std::abs(motion->scale - 1.0) > 1e-5;
+        }
+    }
+    EXPECT_GT(modes["pan"], 500);
+    EXPECT_GT(modes["zoom"], 500);
+    EXPECT_GT(modes["press"], 500);
+    EXPECT_TRUE(has_turned);
+    EXPECT_TRUE(has_zoomed);
+
+    std::string last = first;
+    for (const char* again : {"second.csv", "third.csv"}) {
+        auto recording = readGoalRecording(*readGoalText(last), last);
+        ASSERT_TRUE(recording) << recording.error().message;
+        record(std::make_unique<ReplayDevice>(std::move(*recording)), folder.file(again), 0);
+        const auto repeated = columnsOf(folder.file(again), names);
+        ASSERT_EQ(repeated.size(), lines.size());
+        for (std::size_t i = 0; i < lines.size(); ++i) {
+            ASSERT_EQ(repeated[i], lines[i]) << i;
+        }
+        last = folder.file(again);
+    }
+    // What the camera follows has come to the same place.
+    ASSERT_EQ(moved.size(), 3U);
+    EXPECT_EQ(moved[1], moved[2]);
+    EXPECT_NEAR(moved[1].scene_per_meter, moved[0].scene_per_meter, 1e-6);
+    EXPECT_NEAR(length(moved[1].toScene({}) - moved[0].toScene({})), 0.0, 1e-6);
 }
 
 TEST(SessionRecorder, ARecordingReplaysToTheSameProxiesToTheBit)
