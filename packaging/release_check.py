@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Checks that every file that states the version agrees with CMake's.
+"""Checks that every file that states the version agrees with CMake's, and that the Debian packages
+are built with the libraries of packages.txt.
 
 Run it as `cmake --build BUILD --target release-check`. Exit status 0: all agree; 1: each
 disagreement is one line on stderr.
@@ -56,6 +57,15 @@ def disagreements(version, source, metainfo, documents):
     if debian.exists():
         found = first(r"^\S+ \(([^)-]+)(?:-[^)]*)?\)", debian.read_text(encoding="utf-8"))
         yield from differs("packaging/debian/changelog", "the upstream version", found, version)
+
+    control = source / "packaging/debian/control"
+    if control.exists():
+        needed = control.read_text(encoding="utf-8").split("Standards-Version")[0]
+        listed = (source / "packaging/packages.txt").read_text(encoding="utf-8")
+        for package in re.findall(r"^(\S+-dev)$", listed.split("[test]")[0], re.MULTILINE):
+            # zlib comes with others.
+            if package != "zlib1g-dev" and not re.search(rf"^ {re.escape(package)}\b", needed, re.MULTILINE):
+                yield f"packaging/debian/control: Build-Depends lacks {package} of packages.txt"
 
     pages = sorted(documents.glob("*/man1/*.1"))
     if not pages:
