@@ -1,7 +1,9 @@
 // The figures of the paper (Walker and Salisbury, I3D 2003) as claims about the models.
 #include "core/contact/continuous_walk.h"
+#include "core/contact/facet_steps.h"
 #include "core/contact/heightfield_surface.h"
 #include "core/contact/proxy_graph.h"
+#include "core/contact/proxy_graph_2003.h"
 #include "core/contact/surface_walk.h"
 #include "tests/core/contact/contact_judge.h"
 #include "tests/core/contact/contact_terrain.h"
@@ -21,6 +23,7 @@ namespace {
 using test::distance;
 
 using Graph = ProxyGraph<HeightfieldSurface>;
+using Published = ProxyGraph2003<HeightfieldSurface>;
 using Walk = SurfaceWalk<HeightfieldSurface>;
 using Continuous = ContinuousWalk<HeightfieldSurface>;
 
@@ -72,6 +75,87 @@ TEST(PaperFigures, Figure3TheProxySlidesFromTheCollisionToTheMinimum)
     slidesToTheMinimum<Graph>();
     slidesToTheMinimum<Walk>();
     slidesToTheMinimum<Continuous>();
+}
+
+// Figure 5: a) free motion and motion on the surface alternate within an update; b) on a flat
+// triangulation the proxy takes a zigzag of edges to the place that a straight path leads to.
+
+template <typename Model>
+void alternates()
+{
+    // z = 5 - x/5 up to a brink at x = 0, a cliff down to x = 1, then z = (x - 1) / 5.
+    std::vector<float> heights;
+    for (int r = 0; r < 21; ++r) {
+        for (int c = 0; c < 21; ++c) {
+            const double x = c - 10.0;
+            heights.push_back(static_cast<float>(x <= 0.0 ? 5.0 - x / 5.0 : (x - 1.0) / 5.0));
+        }
+    }
+    const HeightfieldSurface surface = surfaceOf(21, heights);
+    Model model(surface);
+    model.place({-4.0, 0.25, 8.0});
+    // Meets the upper slope, slides to the brink, falls straight to (26/11, 3/11) on the lower
+    // slope, and slides to the goal's foot there: ((4, -3) - (x, (x - 1) / 5)) is orthogonal to
+    // (1, 1/5).
+    const ContactState state = model.update({4.0, 0.25, -3.0});
+    const double x = 3.44 / 1.04;
+    EXPECT_NEAR(distance(state.proxy, {x, 0.25, (x - 1.0) / 5.0}), 0.0, 1e-6);
+    EXPECT_EQ(state.counters.casts, 2U) << "one to the upper slope, one over the cliff";
+}
+
+TEST(PaperFigures, Figure5aFreeAndConstrainedMotionAlternateWithinAnUpdate)
+{
+    alternates<Graph>();
+    alternates<Published>();
+    alternates<Walk>();
+}
+
+TEST(PaperFigures, Figure5bOnFlatGroundTheProxyFollowsEdgesToTheEndOfTheStraightPath)
+{
+    const HeightfieldSurface surface =
+        surfaceOf(41, std::vector<float>(std::size_t{41} * 41, 0.0F));
+    constexpr double kDepth = 3.0;
+    test::Random random;
+    int traced = 0;
+    for (int i = 0; i < 300; ++i) {
+        const ScenePoint p{random.uniform(-18.0, 18.0), random.uniform(-18.0, 18.0), 0.0};
+        // From vertex to vertex along the edge that makes the smallest angle with the way to p, as
+        // long as that is nearer; one column to the right is +x, one row down is -y.
+        ScenePoint at{};
+        double walked = 0.0;
+        std::uint32_t vertices = 1;
+        while (true) {
+            ScenePoint best = at;
+            double most = 0.0;
+            for (const Vec3& edge : {Vec3{1, 0, 0}, Vec3{1, -1, 0}, Vec3{0, -1, 0}, Vec3{-1, 0, 0},
+                                     Vec3{-1, 1, 0}, Vec3{0, 1, 0}}) {
+                const double cosine = dot(p - at, edge) / (length(p - at) * length(edge));
+                if (cosine > most) {
+                    most = cosine;
+                    best = at + edge;
+                }
+            }
+            if (!(distance(best, p) < distance(at, p))) {
+                break;
+            }
+            walked += distance(best, at);
+            at = best;
+            ++vertices;
+        }
+        Published published(surface);
+        Graph graph(surface);
+        published.place({0.0, 0.0, -kDepth});
+        graph.place({0.0, 0.0, -kDepth});
+        const ContactState end = published.update({p.x, p.y, -kDepth});
+        EXPECT_NEAR(distance(end.proxy, p), 0.0, 1e-11);
+        EXPECT_NEAR(distance(graph.update({p.x, p.y, -kDepth}).proxy, p), 0.0, 1e-11);
+        EXPECT_GE(walked + distance(at, p), length(p)) << "no shorter than the straight path";
+        if (end.counters.far_edges == 0) {
+            ++traced;
+            EXPECT_EQ(end.counters.vertices, vertices);
+        }
+    }
+    EXPECT_GT(traced, 250);
 }
 
 // Figure 6: a small error of vertex tracing leads to another local minimum.
@@ -174,6 +258,69 @@ TEST(PaperFigures, Figure6VertexTracingStillDiffersFromExactDescentNowAndThen)
     std::printf("figure 6: 3 is %.3f m from the goal, 4 %.3f m, the continuous walk ends %.3f m\n",
                 distance(figure.third, figure.goal), distance(state.proxy, figure.goal),
                 distance(limit, figure.goal));
+}
+
+// Figure 8: an edge's gradient is the cosine of the angle between the edge and the vector from the
+// goal to the vertex; the most negative one decreases the distance fastest.
+
+TEST(PaperFigures, Figure8TheSmallestEdgeGradientDecreasesTheDistanceFastest)
+{
+    const HeightfieldSurface surface = surfaceOf(12, test::fractalHeights(12, 12, 8));
+    using Steps = FacetSteps<HeightfieldSurface>;
+    test::Random random;
+    int minima = 0;
+    for (int i = 0; i < 3000; ++i) {
+        const HeightfieldVertex here{3 + static_cast<int>(random.below(6)),
+                                     3 + static_cast<int>(random.below(6))};
+        const auto at = [&](HeightfieldVertex v) {
+            return surface.frame().toScene(
+                {static_cast<double>(v.column), static_cast<double>(v.row)},
+                surface.terrain()->sample(static_cast<std::size_t>(v.column),
+                                          static_cast<std::size_t>(v.row)));
+        };
+        const ScenePoint a = at(here);
+        const ScenePoint goal =
+            a + Vec3{random.uniform(-2.5, 2.5), random.uniform(-2.5, 2.5), random.uniform(-4, 0)};
+        double smallest = 0.0;
+        double fastest = 0.0;
+        HeightfieldVertex by_gradient = here;
+        HeightfieldVertex by_distance = here;
+        for (const auto& [columns, rows] :
+             {std::pair{1, 0}, std::pair{1, 1}, std::pair{0, 1}, std::pair{-1, 0},
+              std::pair{-1, -1}, std::pair{0, -1}}) {
+            const HeightfieldVertex to{here.column + columns, here.row + rows};
+            const Vec3 edge = at(to) - a;
+            const double gradient = dot(edge, a - goal) / (length(edge) * length(a - goal));
+            if (gradient < smallest) {
+                smallest = gradient;
+                by_gradient = to;
+            }
+            // The change of the distance over a millionth of a meter.
+            constexpr double kStep = 1e-6;
+            const double change =
+                distance(a + edge * (kStep / length(edge)), goal) - distance(a, goal);
+            ASSERT_NEAR(change / kStep, gradient, 1e-5);
+            if (change < fastest) {
+                fastest = change;
+                by_distance = to;
+            }
+        }
+        const auto fan = surface.fan(here);
+        const Vec3 to_goal = surface.toGoal(fan, *surface.goal(goal));
+        const auto steepest = Steps::steepestSpoke(surface, fan, to_goal, dot(to_goal, to_goal));
+        if (smallest == 0.0) {
+            ++minima;
+            EXPECT_EQ(steepest.towards, 0.0) << "no edge has a negative gradient";
+            continue;
+        }
+        EXPECT_EQ(steepest.spoke.end, by_gradient);
+        if (smallest < -1e-3) {
+            EXPECT_EQ(steepest.spoke.end, by_distance);
+        }
+        EXPECT_NEAR(-steepest.towards / std::sqrt(steepest.length_squared) / length(to_goal),
+                    smallest, 1e-12);
+    }
+    EXPECT_GT(minima, 0);
 }
 
 // Figures 9 and 10: a triangle ABC with an obtuse angle at A and AB twice as long as AC, which
@@ -326,6 +473,55 @@ TEST(PaperFigures, Figure10EachAreaOfTheTriangleEndsAsThePaperSays)
     for (const int count : met) {
         EXPECT_GT(count, 20);
     }
+}
+
+// Figure 11: a) a cast visits only the cells along its path; b) cells and blocks that lie below the
+// path need no test.
+
+TEST(PaperFigures, Figure11aACastVisitsTheCellsAlongItsPathUpToTheHit)
+{
+    // One block, so that a single needle in a corner keeps it from being skipped as a whole.
+    std::vector<float> heights = test::fractalHeights(31, 31, 5);
+    heights[0] = 500.0F;
+    const HeightfieldSurface surface = surfaceOf(31, heights);
+    test::Random random;
+    int hits = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const auto above = [&](double low, double high) {
+            const GridPoint grid{random.uniform(2.0, 29.0), random.uniform(2.0, 29.0)};
+            return surface.frame().toScene(grid, surface.height(grid) + random.uniform(low, high));
+        };
+        const ScenePoint from = above(0.1, 4.0);
+        const ScenePoint to = above(-4.0, 4.0);
+        const auto cast = surface.castFree(*surface.goal(from), *surface.goal(to));
+        const ScenePoint end = cast.contact ? surface.point(*cast.contact) : to;
+        hits += cast.contact ? 1 : 0;
+        const GridPoint a = surface.frame().toGrid(from);
+        const GridPoint b = surface.frame().toGrid(end);
+        const double lines = std::abs(std::floor(a.column) - std::floor(b.column)) +
+                             std::abs(std::floor(a.row) - std::floor(b.row));
+        EXPECT_EQ(cast.cells, 1U + static_cast<std::uint32_t>(lines)) << i;
+    }
+    EXPECT_GT(hits, 500);
+}
+
+TEST(PaperFigures, Figure11bWhatLiesBelowThePathNeedsNoTest)
+{
+    // Flat ground of 8 × 8 blocks of 32 × 32 cells with one peak, of height 10.
+    std::vector<float> heights(std::size_t{257} * 257, 0.0F);
+    heights[std::size_t{136} * 257 + 140] = 10.0F;
+    const HeightfieldSurface surface = surfaceOf(257, heights);
+    const auto cells = [&](double z) {
+        const auto at = [&](double column) {
+            return *surface.goal(surface.frame().toScene({column, 136.3}, z));
+        };
+        const auto cast = surface.castFree(at(3.5), at(250.5));
+        EXPECT_EQ(cast.contact.has_value(), z < 7.0); // the surface below the path is 7 high
+        return cast.cells;
+    };
+    EXPECT_EQ(cells(10.5), 0U) << "above the whole map";
+    EXPECT_EQ(cells(8.5), 32U) << "only the block of the peak, from column 128 to 160";
+    EXPECT_LE(cells(5.0), 12U) << "up to the hit before column 140";
 }
 
 // Section 3.4: the distance never grows by more than the endpoint moves, because every update ends
