@@ -6,6 +6,7 @@
 #include "ui/action_icons.h"
 #include "ui/canvas/map_keys.h"
 #include "ui/canvas/terrain_view.h"
+#include "ui/contour_tools.h"
 #include "ui/controllers/contact_sounds.h"
 #include "ui/controllers/haptics_controller.h"
 #include "ui/controllers/measure_controller.h"
@@ -459,6 +460,20 @@ void MainWindow::connectProject()
 
 void MainWindow::connectNames()
 {
+    contour_tools_ = new ContourTools({.window = *this,
+                                       .session = *controller_,
+                                       .view = *view_,
+                                       .interval = *actions_->contour_interval,
+                                       .export_contours = *actions_->export_contours},
+                                      this);
+    connect(contour_tools_, &ContourTools::exported, this, [this](const QString& file) {
+        //: In the status bar, for a few seconds; %1 is a file
+        statusBar()->showMessage(tr("Saved %1").arg(isolated(QDir::toNativeSeparators(file))),
+                                 kMessageDuration);
+    });
+    connect(contour_tools_, &ContourTools::failed, this, [this](const QString& problem) {
+        reportFailure(tr("Cannot Export Contours"), problem);
+    });
     name_search_ = new NameSearch({.window = *this,
                                    .view = *view_,
                                    .overlays = *overlays_,

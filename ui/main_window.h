@@ -22,6 +22,7 @@ namespace marsview {
 class LayersPanel;
 class GeoreferencingPanel;
 class ContactSounds;
+class ContourTools;
 class GuideWindow;
 class HapticsController;
 class HapticsPanel;
@@ -112,6 +113,7 @@ public:
     ProjectController& project() noexcept { return *project_; }
     ProjectMenu& projectMenu() noexcept { return *project_menu_; }
     StretchControl& stretch() noexcept { return *stretch_; }
+    ContourTools& contourTools() noexcept { return *contour_tools_; }
     NameSearch& nameSearch() noexcept { return *name_search_; }
     MainToolBar* toolBar() const noexcept { return tool_bar_; }
     const Session& session() const noexcept { return controller_->session(); }
@@ -220,6 +222,7 @@ private:
     PictureSaver* picture_saver_ = nullptr;
     StretchControl* stretch_ = nullptr;
     NameSearch* name_search_ = nullptr;
+    ContourTools* contour_tools_ = nullptr;
     GuideWindow* guide_ = nullptr; // once it was asked for
     GoToEntry last_place_;
     QString last_folder_;

@@ -285,6 +285,8 @@ void WindowActions::makeMapMenu(QMainWindow& window)
     shading->addSeparator();
     contours = shading->addAction(tr("&Contour Lines"));
     contours->setCheckable(true);
+    contour_interval = shading->addAction(tr("Contour &Interval…"));
+    contour_interval->setToolTip(tr("Enter the elevation between two contour lines"));
     ramps = menu->addMenu(tr("&Color Ramp"));
     ramp_group = new QActionGroup(&window);
     const auto add_ramp = [this](const QString& text, const QString& name) {
@@ -323,6 +325,9 @@ void WindowActions::makeLayerMenu(QMainWindow& window)
     menu->addSeparator();
     layer.prepare = menu->addAction(tr("&Build Overviews"));
     layer.prepare->setToolTip(tr("Build the overviews of a large map, to see and touch all of it"));
+    export_contours = menu->addAction(tr("E&xport Contours…"));
+    export_contours->setToolTip(
+        tr("Save the contours of the layer at full resolution as a vector file"));
     override_georeferencing = menu->addAction(tr("Set Body, &CRS…"));
     override_georeferencing->setToolTip(
         tr("Set body, CRS, elevation unit and more for a file that lacks them"));
@@ -478,8 +483,8 @@ void WindowActions::showSession(const Session& session)
         action->setEnabled(is_any_shown);
     }
     coordinate_format->setEnabled(is_any_shown);
-    for (QAction* action :
-         {layer.rename, layer.remove, toggle_visibility, override_georeferencing}) {
+    for (QAction* action : {layer.rename, layer.remove, toggle_visibility, override_georeferencing,
+                            export_contours}) {
         action->setEnabled(active != nullptr);
     }
     layer.prepare->setEnabled(false); // the window knows

@@ -63,6 +63,8 @@ struct WindowActions {
     QMenu* shading = nullptr;
     QActionGroup* shading_group = nullptr; // data(): the ShadingMode
     QAction* contours = nullptr;
+    QAction* contour_interval = nullptr;
+    QAction* export_contours = nullptr;
     QAction* light = nullptr;
     QAction* override_georeferencing = nullptr;
 

@@ -474,6 +474,15 @@ void SessionController::setContours(bool has_contours)
     change(tr("Contours"), withLook(session_, look));
 }
 
+void SessionController::setContourInterval(double interval_m)
+{
+    TerrainLook look = session_.look;
+    look.has_contours = true;
+    look.contour_interval_m = interval_m;
+    //: Continues "Undo …"
+    change(tr("Contour Interval"), withLook(session_, look));
+}
+
 void SessionController::setLight(Angle azimuth, Angle altitude)
 {
     TerrainLook look = session_.look;

@@ -134,6 +134,8 @@ public:
     void endDrag();
     void setShading(ShadingMode mode);
     void setContours(bool has_contours);
+    /// Shows contour lines so many meters apart; 0: automatic.
+    void setContourInterval(double interval_m);
     void setLight(Angle azimuth, Angle altitude);
     void activate(LayerId id);
 
