@@ -1,6 +1,7 @@
 #include "haptics/interaction/hand_modes.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace marsview {
 namespace {
@@ -16,6 +17,8 @@ PanOptions heldPan(const ModeOptions& options, const ModeInput& input)
 void grab(const ModeOptions& options, const ModeInput& input, ModeState& state, double dt_s)
 {
     state.grabbed = input.hand;
+    state.above_detent_m =
+        aboveDetent(options.zoom, input.frame.scene_per_meter) - input.hand_shift.z;
     if (state.mode == StylusMode::Pan) {
         const Vec3 hand_m_per_s = dt_s > 0.0 ? input.hand_shift * (1.0 / dt_s) : Vec3{};
         const PanOptions held = heldPan(options, input);
@@ -50,12 +53,14 @@ ModeStep zoom(const ModeOptions& options, const ModeInput& input, ModeState& sta
     WorkspacePoint fixed = input.hand;
     fixed.z -= std::max(input.clearance_m - input.hand_shift.z - kZoomHeightM, 0.0);
     const WorkspaceFrame zoomed = lifted.zoomed(fixed, scale / next);
+    state.above_detent_m =
+        std::remainder(state.above_detent_m + input.hand_shift.z, detentStep(options.zoom));
     const double hold = input.stiffness_n_per_m * input.free_share;
     return {.frame = zoomed.turned(input.hand, Angle::radians(input.twist_change_rad)),
             .seen_from = lifted,
             .force_n = {-hold * (input.hand.x - state.grabbed.x),
                         -hold * (input.hand.y - state.grabbed.y),
-                        detentForce(options.zoom, aboveDetent(options.zoom, next))},
+                        detentForce(options.zoom, state.above_detent_m)},
             .has_moved_map =
                 input.hand_shift.z != 0.0 || next != scale || input.twist_change_rad != 0.0};
 }

@@ -36,6 +36,9 @@ struct ModeState {
     /// Rest position of the hold: a pan holds the touched point's height, at which the force of
     /// the surface continues.
     WorkspacePoint grabbed{};
+    /// While zooming: of the hand over the nearest detent. At a limit of the zoom the detents go
+    /// on, so that no force is left that pushes on.
+    double above_detent_m = 0.0;
 };
 
 struct ModeStep {

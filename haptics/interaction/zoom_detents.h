@@ -12,6 +12,9 @@ struct ZoomOptions {
 /// The magnification after the hand has risen by `rise_m`.
 double zoomFactor(const ZoomOptions& options, double rise_m) noexcept;
 
+/// The rise from one detent to the next, in meters.
+double detentStep(const ZoomOptions& options) noexcept;
+
 /// Height of the hand above the nearest detent, in meters: at most half a step. The detents are the
 /// zooms 2^(i / detents_per_doubling) of `scene_per_meter`.
 double aboveDetent(const ZoomOptions& options, double scene_per_meter) noexcept;

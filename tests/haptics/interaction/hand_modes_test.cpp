@@ -191,6 +191,28 @@ TEST(HandModes, ZoomsStayWithinTheirLimits)
     EXPECT_NEAR(hand.input.frame.scene_per_meter, 2000.0, 1e-6);
 }
 
+TEST(HandModes, AtALimitOfTheZoomNoForcePushesOn)
+{
+    Hand hand;
+    hand.options.scene_per_meter_min = 0.9 * hand.input.frame.scene_per_meter;
+    hand.input.is_grabbing = true;
+    hand.move({});
+    double sum_n = 0.0;
+    double most_n = 0.0;
+    double last_n = hand.move({}).force_n.z;
+    double step_n = 0.0;
+    for (int i = 0; i < 600; ++i) { // four steps of the detents, nearly all beyond the limit
+        const double force_n = hand.move({0.0, 0.0, 1e-4}).force_n.z;
+        sum_n += force_n;
+        most_n = std::max(most_n, std::abs(force_n));
+        step_n = std::max(step_n, std::abs(force_n - last_n));
+        last_n = force_n;
+    }
+    EXPECT_NEAR(sum_n / 600.0, 0.0, 1e-3);
+    EXPECT_NEAR(most_n, 60.0 * 0.00375, 2e-3); // the stiffness times a quarter of 15 mm
+    EXPECT_LT(step_n, 60.0 * 1e-4 + 1e-9);     // continuous
+}
+
 TEST(HandModes, StayFiniteForAnyMotion)
 {
     Random random;

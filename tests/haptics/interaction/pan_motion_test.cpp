@@ -115,6 +115,33 @@ TEST(PanMotion, ForcesAreContinuousInTheMass)
     }
 }
 
+// m v' = F - m c v: at a steady speed the hand pulls with m c v.
+TEST(PanMotion, PullingAtASteadySpeedCostsTheDrag)
+{
+    const PanOptions options{.mass_kg = 0.2, .drag_per_s = 0.7};
+    PanState state;
+    grabMap(options, state, {}, {});
+    PanStep step;
+    for (int i = 0; i < 20'000; ++i) {
+        step = pullMap(options, state, {1e-4, 0.0, 0.0}, 1.0, kDt); // 0.1 m/s
+    }
+    EXPECT_NEAR(step.force_n.x, -0.2 * 0.7 * 0.1, 1e-9);
+    EXPECT_NEAR(state.velocity_m_per_s.x, 0.1, 1e-9);
+}
+
+TEST(PanMotion, WhatStopsTheMapTakesItsVelocityThatWayAndStretchesTheHold)
+{
+    PanState state{.velocity_m_per_s = {0.2, -0.1, 0.0}, .stretch_m = {0.001, 0.0, 0.0}};
+    stopMap(state, {-0.004, 0.0, 0.0}, 0.5);
+    EXPECT_NEAR(length(state.velocity_m_per_s - Vec3{0.0, -0.1, 0.0}), 0.0, 1e-15);
+    EXPECT_NEAR(state.stretch_m.x, 0.001 + 0.002, 1e-15);
+    // In its own direction it keeps the velocity.
+    stopMap(state, {0.0, -0.001, 0.0}, 0.0);
+    EXPECT_NEAR(length(state.velocity_m_per_s - Vec3{0.0, -0.1, 0.0}), 0.0, 1e-15);
+    stopMap(state, {}, 1.0);
+    EXPECT_NEAR(length(state.velocity_m_per_s - Vec3{0.0, -0.1, 0.0}), 0.0, 1e-15);
+}
+
 TEST(PanMotion, AWallTakesTheMomentum)
 {
     PanState state{.velocity_m_per_s = {0.4, 0.0, 0.0}};

@@ -43,6 +43,37 @@ TEST(PassivityObserver, DampsAnActivePort)
     EXPECT_LE(step.damping_n_s_per_m, PassivityOptions{}.damping_n_s_per_m_max);
 }
 
+// Hannaford and Ryu, equation 8: the damping that dissipates the surplus within the step, E / (v²
+// dt).
+TEST(PassivityObserver, TheDampingDissipatesTheSurplus)
+{
+    const PassivityOptions options{.damping_n_s_per_m_max = 3.0, .velocity_hz = 1e6};
+    PassivityState state;
+    noteWritten(state, {0.1, 0.0, 0.0});
+    const PassivityStep step = keepPassive(options, {0.1, 0.0, 0.0}, {1e-4, 0.0, 0.0}, state, kDt);
+    EXPECT_NEAR(state.energy_j, -1e-5, 1e-15);
+    EXPECT_NEAR(step.damping_n_s_per_m, 1e-5 / (0.1 * 0.1 * kDt), 1e-9);
+    EXPECT_NEAR(step.force_n.x, 0.1 - 1.0 * 0.1, 1e-9);
+}
+
+TEST(PassivityObserver, FiltersTheVelocityAtItsCutoff)
+{
+    PassivityState state;
+    keepPassive({.velocity_hz = 60.0}, {}, {1e-4, 0.0, 0.0}, state, kDt);
+    EXPECT_NEAR(state.velocity_m_per_s.x, 0.1 * (1.0 - std::exp(-2.0 * 3.14159265358979 * 0.06)),
+                1e-12);
+}
+
+TEST(PassivityObserver, RemembersNoMoreEnergyThanItsLimit)
+{
+    for (const double side : {1.0, -1.0}) {
+        PassivityState state;
+        noteWritten(state, {-side, 0.0, 0.0});
+        keepPassive({.energy_j_max = 2e-3}, {1.0, 0.0, 0.0}, {0.1, 0.0, 0.0}, state, kDt);
+        EXPECT_EQ(state.energy_j, side * 2e-3);
+    }
+}
+
 // A mass on a delayed spring: without the observer its oscillation grows.
 TEST(PassivityObserver, KeepsADelayedSpringFromGrowing)
 {
