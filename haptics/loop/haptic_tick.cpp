@@ -448,7 +448,7 @@ private:
             return {};
         }
         const TracePoint aimed = input_.recorded != nullptr ? input_.recorded->goal : aim();
-        if (is_other_model_) {
+        if (is_other_model_ && !has_jumped_ && !is_entering_) {
             goOnAtProxy();
         } else if (map_->is_touched && (has_jumped_ || is_entering_ || !state_.has_touched)) {
             putStraightAbove(aimed);

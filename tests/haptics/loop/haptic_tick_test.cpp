@@ -449,6 +449,26 @@ TEST(HapticTick, AMapThatJumpsPutsTheProxyStraightAboveTheHand)
     EXPECT_EQ(result.goals.count, 3U);
 }
 
+TEST(HapticTick, AMapThatJumpsAsItsModelChangesPutsTheProxyStraightAboveTheHand)
+{
+    // As above; in one tick, as if the loop had not seen the settings in between.
+    const auto ridge = [](std::size_t column, std::size_t) {
+        return column > 60 && column < 80 ? 500.0 : 10.0;
+    };
+    const auto filled = filledTerrain(201, 201, ridge);
+    const auto made = [&] { return makeServoMap(meterFrame(201, 201), filled, {}); };
+    Rig rig(made());
+    rig.at({});
+    EXPECT_TRUE(rig.to({0.0, 0.0, -0.025}).contact.is_in_contact);
+    rig.settings.map = made();
+    rig.settings.frame = rig.settings.frame.panned({0.08, 0.0, 0.0}); // now over column 20
+    rig.settings.frame_number = 2;
+    const StepResult result = rig.at({0.0, 0.0, -0.025});
+    EXPECT_TRUE(result.has_changed_map);
+    EXPECT_NEAR(result.proxy.x, 20.0, 1e-6);
+    EXPECT_NEAR(result.proxy.z, 10.0, 1e-6);
+}
+
 TEST(HapticTick, AnotherModelOfTheSameMapGoesOnWhereTheLastOneWas)
 {
     const auto bumps = [](std::size_t column, std::size_t row) {
