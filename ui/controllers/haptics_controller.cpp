@@ -83,6 +83,13 @@ HapticsController::HapticsController(TerrainView& view, DriverMaker make_drivers
     connect(&view_, &TerrainView::layersChanged, this, &HapticsController::takeGround);
     connect(&view_, &TerrainView::exaggerationChanged, this, &HapticsController::takeExaggeration);
     connect(&view_, &TerrainView::sightChanged, this, &HapticsController::takeSight);
+    // Terrain that arrived since then may be higher or lower.
+    connect(&view_, &TerrainView::pictureCompleted, this, [this] {
+        if (loop_ && isSimulated(uri_) && !view_.ground().isEmpty()) {
+            takeStrokes();
+            push();
+        }
+    });
     connect(&view_, &TerrainView::grabbingChanged, this, [this](bool is_grabbing) {
         is_grabbing_ = is_grabbing;
         push();

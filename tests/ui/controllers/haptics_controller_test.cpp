@@ -74,6 +74,8 @@ void expectStrokesInPicture(TerrainView& view, const HapticsController& haptics)
         camera.azimuth = Angle::degrees(sight.azimuth_deg);
         view.setExaggeration(suitable * sight.exaggeration);
         view.setCamera(camera);
+        // Until then, strokes are within a picture of coarser terrain.
+        ASSERT_TRUE(wait_for([&] { return view.isPictureComplete(); }));
         const std::uint64_t begin = haptics.loop()->state().tick;
         constexpr std::uint64_t kReturnTicks = 700; // from where the hand was before
         ASSERT_TRUE(wait_for([&] { return haptics.loop()->state().tick > begin + kReturnTicks; }));
