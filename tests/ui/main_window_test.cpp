@@ -1,3 +1,4 @@
+#include "tests/ui/pointer_moves.h"
 #include "tests/ui/test_map.h"
 #include "tests/ui/timeout.h"
 #include "ui/canvas/terrain_view.h"
@@ -178,9 +179,7 @@ TEST_F(MainWindowTest, TellsPositionAndHeightUnderThePointer)
     const QString file = maps_.hill();
     ASSERT_TRUE(openAndWait(*window_, file));
     const QPoint pointer = view().rect().center();
-    // From the same position, the pointer would not generate a move event.
-    QTest::mouseMove(&view(), pointer - QPoint(40, 30));
-    QTest::mouseMove(&view(), pointer);
+    ASSERT_TRUE(movePointer(view(), pointer));
     const auto hit = view().surfaceAt(pointer);
     ASSERT_TRUE(hit);
     const Map& dataset = *view().map();

@@ -1,4 +1,5 @@
 #include "tests/ui/map_window.h"
+#include "tests/ui/pointer_moves.h"
 #include "ui/overlay/crosshair.h"
 #include "ui/overlay/map_overlays.h"
 #include "ui/overlay/minimap.h"
@@ -35,9 +36,7 @@ protected:
     // On the terrain, away from every overlay.
     void pointAtTheMiddle()
     {
-        const QPoint middle = view().rect().center();
-        QTest::mouseMove(&view(), middle - QPoint(9, 7));
-        QTest::mouseMove(&view(), middle);
+        ASSERT_TRUE(movePointer(view(), view().rect().center()));
         ASSERT_TRUE(QTest::qWaitFor([&] { return !readout().heightLabel().isEmpty(); }, kTimeout));
     }
     QAction* choice(const QString& text)
