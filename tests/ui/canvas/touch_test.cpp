@@ -392,12 +392,14 @@ TEST_F(TouchTest, SpaceAloneZoomsAboutTheGrabbedPlace)
     EXPECT_EQ(mode(), StylusMode::Hover);
 }
 
-TEST_F(TouchTest, LosingTheFocusEndsAGrab)
+TEST_F(TouchTest, AGrabLastsUntilTheKeyIsReleasedWhereverTheFocusIs)
 {
     hover({400.0, 300.0});
     holdSpace();
     EXPECT_EQ(mode(), StylusMode::Zoom);
     view_->clearFocus();
+    EXPECT_EQ(mode(), StylusMode::Zoom);
+    letSpaceGo();
     EXPECT_EQ(mode(), StylusMode::Hover);
     const OrbitCamera before = view_->camera();
     hover({400.0, 200.0});
