@@ -126,7 +126,8 @@ struct TickState {
 };
 
 struct StepResult {
-    Vec3 force_n{}; // to be written
+    Vec3 force_n{};                 // to be written
+    bool is_force_recorded = false; // told in place of the written one
     ForceOffReason reason = ForceOffReason::None;
     StylusMode mode = StylusMode::Hover;
     bool has_changed_mode = false;

@@ -34,8 +34,9 @@ struct LoopState {
     ContactState contact;
     StylusMode mode = StylusMode::Hover;
     ForceOffReason reason = ForceOffReason::NoTouch;
-    Vec3 force_n{};          // in a replay the recorded one, which no device gets
-    bool is_at_edge = false; // of the map
+    Vec3 force_n{};
+    bool is_force_recorded = false; // force_n is that of a recording; no device gets it
+    bool is_at_edge = false;        // of the map
     double ground_share = 1.0;
     double stiffness_n_per_m = 0.0;
     double tick_s = 0.0; // how long the tick took

@@ -180,6 +180,7 @@ LoopOutcome ServoCore::turnInside(LoopTime begin, bool has_missed_deadline) noex
     const bool is_at_rest = result.force_n == Vec3{} || written == DeviceStatus::Lost;
     StepResult told = result;
     told.force_n = recorded.force_n.value_or(result.force_n);
+    told.is_force_recorded = recorded.force_n.has_value();
     publish(told, secondsBetween(begin, steady_clock::now()));
     if ((is_over || is_ending) && is_at_rest) {
         if (is_over) {
@@ -238,6 +239,7 @@ void ServoCore::publish(const StepResult& result, double tick_s) noexcept
                   .mode = result.mode,
                   .reason = result.reason,
                   .force_n = result.force_n,
+                  .is_force_recorded = result.is_force_recorded,
                   .is_at_edge = result.is_at_edge,
                   .ground_share = result.ground_share,
                   .stiffness_n_per_m = result.stiffness_n_per_m,

@@ -533,8 +533,9 @@ void HapticsPanel::showState(const LoopState& state)
         most_n > 0.0 ? static_cast<int>(std::lround(std::min(1.0, force_n / most_n) * kForceSteps))
                      : 0);
     //: %1 is a force, like "0.45 N"
-    force_->setFormat(is_replay ? tr("%1 when recorded").arg(forceText(force_n))
-                                : forceText(force_n));
+    force_->setFormat(state.is_force_recorded ? tr("%1 when recorded").arg(forceText(force_n))
+                      : is_replay             ? tr("No force recorded")
+                                              : forceText(force_n));
     if (is_replay) {
         replayed_->setValue(
             static_cast<int>(std::lround(controller_.replayedShare() * kReplaySteps)));

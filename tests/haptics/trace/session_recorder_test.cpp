@@ -407,7 +407,7 @@ std::vector<RecordedUpdate> updatesAgain(const GoalRecording& recording,
 TEST(SessionRecorder, ARecordingOverTilesThatComeWhileItIsMadeKnowsWhatWasFelt)
 {
     constexpr std::size_t kColumns = 2100;
-    constexpr std::size_t kRows = 560;
+    constexpr std::size_t kRows = 1300; // the hand stays over the map
     const auto heights = fractalHeights(kColumns, kRows, 9);
     const TiledMap map = tiledMap(
         int16Terrain(kColumns, kRows, {.gain = 0.01}, [&](std::size_t column, std::size_t row) {
