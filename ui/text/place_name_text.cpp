@@ -12,13 +12,15 @@ QString translated(const char* text)
     return QCoreApplication::translate("PlaceName", text);
 }
 
-// Whole kilometers; smaller sizes with the digits that the gazetteers have.
+// Meters below a kilometer, tenths below ten kilometers, else whole kilometers.
 QString sizeText(double diameter_m)
 {
     constexpr double kMetersPerKilometer = 1000.0;
-    return diameter_m < kMetersPerKilometer
-               ? withUnit(numberText(diameter_m, 0), translated("m"))
-               : withUnit(shortNumberText(diameter_m / kMetersPerKilometer, 3), translated("km"));
+    if (diameter_m < kMetersPerKilometer) {
+        return withUnit(numberText(diameter_m, 0), translated("m"));
+    }
+    const double diameter_km = diameter_m / kMetersPerKilometer;
+    return withUnit(numberText(diameter_km, diameter_km < 10.0 ? 1 : 0), translated("km"));
 }
 
 } // namespace
