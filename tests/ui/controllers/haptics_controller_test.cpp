@@ -77,7 +77,7 @@ void expectStrokesInPicture(TerrainView& view, const HapticsController& haptics)
         // Until then, strokes are within a picture of coarser terrain.
         ASSERT_TRUE(wait_for([&] { return view.isPictureComplete(); }));
         const std::uint64_t begin = haptics.loop()->state().tick;
-        constexpr std::uint64_t kReturnTicks = 700; // from where the hand was before
+        constexpr std::uint64_t kReturnTicks = 1500; // from where the hand was before
         ASSERT_TRUE(wait_for([&] { return haptics.loop()->state().tick > begin + kReturnTicks; }));
         int seen = 0;
         int outside = 0;
@@ -237,17 +237,18 @@ TEST_F(HapticsControllerTest, PullingTheMapMovesTheCamera)
     ASSERT_TRUE(waitFor([&] { return state().mode == StylusMode::Pan; }));
     const OrbitCamera before = view().camera();
     const WorkspaceFrame frame = state().frame;
-    hand_->moveTo({0.02, 0.0, -0.055});
-    // The press on a slope alone moves it by some millimeters.
+    hand_->moveTo({0.05, 0.0, -0.055});
+    // The press on a slope alone moves it by about a centimeter.
     ASSERT_TRUE(waitFor([&] {
-        return frame.differenceToWorkspace(view().camera().target - before.target).x < -0.015;
+        return frame.differenceToWorkspace(view().camera().target - before.target).x < -0.04;
     }));
     hand_->buttons = 0;
     ASSERT_TRUE(waitFor([&] { return state().mode != StylusMode::Pan; }));
     // The map has moved to the right with the device, so the visible part lies further left.
     const Vec3 moved = frame.differenceToWorkspace(view().camera().target - before.target);
     EXPECT_LT(moved.x, 0.0);
-    EXPECT_LT(std::abs(moved.y), 0.2 * std::abs(moved.x));
+    // The force of the press on the slope, which goes on while the map is held, moves it aside.
+    EXPECT_LT(std::abs(moved.y), 0.5 * std::abs(moved.x));
     EXPECT_NEAR(view().camera().distance_m, before.distance_m, 0.05 * before.distance_m);
 }
 
