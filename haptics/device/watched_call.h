@@ -14,7 +14,8 @@ namespace marsview {
 
 /// Runs `work` on its own thread and waits for the result. Empty if that takes longer than
 /// `patience`: the thread is then abandoned and destroys a late result itself, so `work` owns all
-/// that it uses. `work` does not throw.
+/// that it uses. What `work` owns is destroyed before its result is returned, so that no thread
+/// still holds a device that its caller closes next. `work` does not throw.
 template <typename F>
 auto callWatched(std::chrono::milliseconds patience, F work)
     -> std::optional<std::invoke_result_t<F&>>
@@ -22,9 +23,9 @@ auto callWatched(std::chrono::milliseconds patience, F work)
     using Outcome = std::invoke_result_t<F&>;
     struct State {
         explicit State(F w)
-            : work(std::move(w))
+            : work(std::in_place, std::move(w))
         {}
-        F work;
+        std::optional<F> work;
         std::mutex mutex;
         std::condition_variable done;
         std::optional<Outcome> outcome;
@@ -32,7 +33,8 @@ auto callWatched(std::chrono::milliseconds patience, F work)
     };
     const auto state = std::make_shared<State>(std::move(work));
     std::thread([state] {
-        std::optional<Outcome> outcome = state->work();
+        std::optional<Outcome> outcome = (*state->work)();
+        state->work.reset();
         const std::lock_guard lock(state->mutex);
         if (!state->is_abandoned) {
             state->outcome = std::move(outcome);
