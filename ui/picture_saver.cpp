@@ -95,10 +95,14 @@ void PictureSaver::chooseFile(const QString& name,
 void PictureSaver::save(const QString& file, const OrbitCamera& camera, const PictureChoice& choice)
 {
     file_ = file;
-    parts_ = overlays_.partsFor(choice.size,
-                                {.has_legend = choice.has_legend, .has_scale = choice.has_scale});
+    parts_ = overlays_.partsFor(camera, choice.size,
+                                {.has_legend = choice.has_legend,
+                                 .has_scale = choice.has_scale,
+                                 .has_labels = choice.has_labels});
     monitor_ = std::make_shared<JobMonitor>();
-    drawing_ = std::make_unique<PictureDrawing>(view_, camera, choice.size);
+    drawing_ = std::make_unique<PictureDrawing>(view_, camera, choice.size,
+                                                choice.has_labels ? PictureLines::Drawn
+                                                                  : PictureLines::Omitted);
     connect(drawing_.get(), &PictureDrawing::progressed, this,
             [this](double share) { Q_EMIT progressed(file_, share); });
     // Queued: the drawing is deleted when it ends.
@@ -121,7 +125,7 @@ void PictureSaver::write(QImage picture)
     }
     drawing_.reset();
     QPainter painter(&picture);
-    for (const MapOverlays::PicturePart& part : parts_) {
+    for (const PicturePart& part : parts_) {
         painter.drawImage(part.at, part.image);
     }
     painter.end();

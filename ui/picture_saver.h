@@ -62,7 +62,7 @@ private:
     QWidget* window_ = nullptr;
     QString folder_;
     QString file_; // that is being saved
-    std::vector<MapOverlays::PicturePart> parts_;
+    std::vector<PicturePart> parts_;
     std::unique_ptr<PictureDrawing> drawing_; // null while it is being written
     std::shared_ptr<JobMonitor> monitor_;     // null unless isSaving()
     DetachedJobs jobs_;

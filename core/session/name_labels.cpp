@@ -18,7 +18,10 @@ constexpr double kPicturesAcrossMax = 12.0;
 constexpr double kUnknownDiameterM = 50e3;
 
 constexpr std::size_t kRequestsMax = 400; // the largest
-constexpr std::size_t kLabelsMax = 60;
+// Square points of the screen for each label, so that the terrain stays in sight between them.
+constexpr double kPointsPerLabel = 30e3;
+constexpr double kLabelsMin = 5.0;
+constexpr double kLabelsMax = 60.0;
 constexpr double kGapPoints = 6.0;
 constexpr double kPointClearPoints = 6.0;
 constexpr double kShownBefore = 1.25; // counts as so much larger
@@ -156,13 +159,15 @@ NameLabels::inPicture(const OrbitCamera& camera,
         const double across_px = diameter_m * *pixels_per_m;
         const double least =
             name.kind == PlaceKind::LetteredCrater ? kLetteredAcrossPointsMin : kAcrossPointsMin;
-        if (has_sizes && (across_px * weightOf(name.kind) < least * scale || across_px > across_px_max)) {
+        if (has_sizes &&
+            (across_px * weightOf(name.kind) < least * scale || across_px > across_px_max)) {
             continue;
         }
-        seen.push_back({.place = i,
-                        .across_px = name.diameter_m > 0.0 ? across_px : 0.0,
-                        .importance = (has_sizes ? across_px : *pixels_per_m) * weightOf(name.kind) *
-                                      (place.was_shown ? kShownBefore : 1.0)});
+        seen.push_back(
+            {.place = i,
+             .across_px = name.diameter_m > 0.0 ? across_px : 0.0,
+             .importance = (has_sizes ? across_px : *pixels_per_m) * weightOf(name.kind) *
+                           (place.was_shown ? kShownBefore : 1.0)});
     }
     const std::size_t count = std::min(seen.size(), kRequestsMax);
     std::partial_sort(seen.begin(), seen.begin() + static_cast<std::ptrdiff_t>(count), seen.end(),
@@ -196,11 +201,14 @@ NameLabels::inPicture(const OrbitCamera& camera,
         points.push_back(point);
         requested.push_back(feature);
     }
+    const double square_points =
+        static_cast<double>(options.viewport.width) * options.viewport.height / (scale * scale);
     const auto placed =
         placeLabels(requests,
                     {.viewport = options.viewport,
                      .gap_px = kGapPoints * scale,
-                     .count_max = kLabelsMax,
+                     .count_max = static_cast<std::size_t>(
+                         std::clamp(square_points / kPointsPerLabel, kLabelsMin, kLabelsMax)),
                      .obstacles = options.obstacles},
                     [&](std::size_t index) {
                         return isVisible(ground_, camera, options.viewport, options.exaggeration,

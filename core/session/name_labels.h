@@ -58,8 +58,9 @@ public:
     /// The labels of a picture. What looks larger comes first: size and distance both count.
     /// Narrow features, as scarps and troughs, count less than their length, mountains more.
     /// Features need a diameter of 20 points in the picture, lettered craters 48. Names without a
-    /// size count as 50 km, or, if no name has a size, are shown at any distance. Labels do not
-    /// overlap each other nor the obstacles. A place that the terrain hides has none. Labels of the
+    /// size count as 50 km, or, if no name has a size, are shown at any distance. At most one label
+    /// for each 30,000 square points, 5 to 60 in all. Labels do not overlap each other nor the
+    /// obstacles. A place that the terrain hides has none. Labels of the
     /// picture before are preferred a little, so that they do not flicker while the camera moves.
     ///
     /// `size_of` returns the size of a label that spans `across_px`.

@@ -5,10 +5,13 @@
 #include "tests/render/render_fixture.h"
 #include "ui/render/frame_buffer.h"
 #include "ui/render/line_renderer.h"
+#include "ui/render/offscreen_picture.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <vector>
 
 namespace marsview::test {
@@ -44,8 +47,10 @@ protected:
         const FrameBuffer frame(kPictureSize);
         renderer_->drawComplete({.camera = camera, .viewport = kPictureSize}, style, frame.id());
         glBindFramebuffer(GL_FRAMEBUFFER, frame.id());
-        lines_->draw(lines, camera, kPictureSize, renderer_->clip(camera, style.exaggeration),
-                     pixels_per_point);
+        lines_->draw(lines, {.camera = camera,
+                             .viewport = kPictureSize,
+                             .clip = renderer_->clip(camera, style.exaggeration),
+                             .pixels_per_point = pixels_per_point});
         EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
         std::vector<std::uint8_t> rgb(std::size_t{3} * kPictureSize.width * kPictureSize.height);
         glPixelStorei(GL_PACK_ALIGNMENT, 1);
@@ -141,6 +146,56 @@ TEST_F(LineRendererTest, ChangesNothingOutsideItsArea)
         }
     }
     EXPECT_GT(changed, 500U);
+}
+
+// A picture that is drawn in parts has no seams in its lines.
+TEST_F(LineRendererTest, PartsOfAPictureHaveTheLinesOfTheWhole)
+{
+    const OrbitCamera camera = fromAbove(900.0);
+    const std::vector<DrapedLine> lines{
+        {.points = {{-200.0, -80.0, 0.0}, {150.0, 30.0, 0.0}, {120.0, 90.0, 0.0}},
+         .color = kLineColor,
+         .width_points = 5.0}};
+    const auto whole = drawn(plain(), camera, lines);
+    DrawStyle style;
+    style.look.mode = ShadingMode::Hillshade;
+    constexpr int kSide = 96; // divides neither side of the picture
+    std::size_t differing = 0;
+    std::size_t of_lines = 0;
+    for (int bottom = 0; bottom < kPictureSize.height; bottom += kSide) {
+        for (int left = 0; left < kPictureSize.width; left += kSide) {
+            const PixelArea part{.left = left,
+                                 .bottom = bottom,
+                                 .width = std::min(kSide, kPictureSize.width - left),
+                                 .height = std::min(kSide, kPictureSize.height - bottom)};
+            std::vector<std::uint8_t> rgb(3 * static_cast<std::size_t>(part.width) *
+                                          static_cast<std::size_t>(part.height));
+            const auto report = drawPart(
+                *renderer_, {.camera = camera, .viewport = kPictureSize, .part = part}, style,
+                {.first = rgb.data(), .line_length = std::ptrdiff_t{3} * part.width}, [&] {
+                    lines_->draw(lines, {.camera = camera,
+                                         .viewport = kPictureSize,
+                                         .clip = renderer_->clip(camera, style.exaggeration),
+                                         .pixels_per_point = 1.0,
+                                         .part = part});
+                });
+            ASSERT_TRUE(report && report->is_complete);
+            for (int y = 0; y < part.height; ++y) {
+                for (int x = 0; x < part.width; ++x) {
+                    const auto* const pixel =
+                        &rgb[3 * static_cast<std::size_t>((part.height - 1 - y) * part.width + x)];
+                    const std::size_t at = offsetOf(left + x, bottom + y);
+                    const auto off = [&](std::size_t c) {
+                        return std::abs(int{pixel[c]} - int{whole[at + c]});
+                    };
+                    differing += std::max({off(0), off(1), off(2)}) > 2 ? 1U : 0U;
+                    of_lines += whole[at + 2] > whole[at] + 60 ? 1U : 0U;
+                }
+            }
+        }
+    }
+    EXPECT_GT(of_lines, 1000U);
+    EXPECT_EQ(differing, 0U);
 }
 
 // Whether terrain lies in front of a point on the ground is found by casting a ray.

@@ -23,11 +23,13 @@ int blocksAlong(int pixels)
 PictureDrawing::PictureDrawing(TerrainView& view,
                                const OrbitCamera& camera,
                                const QSize& size,
+                               PictureLines lines,
                                QObject* parent)
     : QObject(parent)
     , view_(view)
     , camera_(camera)
     , style_(view.style())
+    , lines_(lines)
     , picture_(size, QImage::Format_RGB888)
 {
     timer_.setSingleShot(true);
@@ -49,7 +51,7 @@ void PictureDrawing::drawNext()
     const QRect block(next_ % columns * kBlockSide, next_ / columns * kBlockSide, kBlockSide,
                       kBlockSide);
     const Result<bool> drawn =
-        view_.drawPart(camera_, style_, block.intersected(picture_.rect()), picture_);
+        view_.drawPart(camera_, style_, block.intersected(picture_.rect()), lines_, picture_);
     if (!drawn) {
         Q_EMIT failed(QString::fromStdString(drawn.error().message));
         return;

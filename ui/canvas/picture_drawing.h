@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/view/camera.h"
-#include "ui/render/terrain_renderer.h"
+#include "ui/canvas/terrain_canvas.h"
 
 #include <QImage>
 #include <QObject>
@@ -22,6 +22,7 @@ public:
     PictureDrawing(TerrainView& view,
                    const OrbitCamera& camera,
                    const QSize& size,
+                   PictureLines lines = PictureLines::Drawn,
                    QObject* parent = nullptr);
 
 Q_SIGNALS:
@@ -37,6 +38,7 @@ private:
     TerrainView& view_;
     OrbitCamera camera_;
     DrawStyle style_;
+    PictureLines lines_;
     QImage picture_;
     int next_ = 0; // block, row by row
     QTimer timer_;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <utility>
 
@@ -188,6 +189,7 @@ QImage TerrainCanvas::terrainPicture()
 Result<bool> TerrainCanvas::drawPart(const OrbitCamera& camera,
                                      const DrawStyle& style,
                                      const QRect& part,
+                                     PictureLines lines,
                                      QImage& picture)
 {
     if (!renderer_) {
@@ -196,18 +198,31 @@ Result<bool> TerrainCanvas::drawPart(const OrbitCamera& camera,
     }
     parts_.view.makeCurrent();
     sendLayers();
+    const Viewport viewport{.width = picture.width(), .height = picture.height()};
+    const PixelArea area{.left = part.left(),
+                         .bottom = picture.height() - part.bottom() - 1,
+                         .width = part.width(),
+                         .height = part.height()};
+    const auto draw_lines = [&] {
+        for (const std::vector<DrapedLine>& set : lines_) {
+            line_renderer_->draw(set, {.camera = camera,
+                                       .viewport = viewport,
+                                       .clip = renderer_->clip(camera, style.exaggeration),
+                                       .pixels_per_point = static_cast<double>(viewport.height) /
+                                                           parts_.view.height(),
+                                       .part = area});
+        }
+    };
     const auto drawn = marsview::drawPart(
         *renderer_,
         {.camera = camera,
-         .viewport = {.width = picture.width(), .height = picture.height()},
+         .viewport = viewport,
          .samples = has_antialiasing_ ? kSmoothSamples : 1,
-         .part = PixelArea{.left = part.left(),
-                           .bottom = picture.height() - part.bottom() - 1,
-                           .width = part.width(),
-                           .height = part.height()}},
+         .part = area},
         style,
         {.first = picture.scanLine(part.top()) + static_cast<qsizetype>(3) * part.left(),
-         .line_length = picture.bytesPerLine()});
+         .line_length = picture.bytesPerLine()},
+        lines == PictureLines::Drawn ? std::function<void()>(draw_lines) : nullptr);
     parts_.view.doneCurrent();
     if (!drawn) {
         return drawn.error();
@@ -290,8 +305,11 @@ void TerrainCanvas::paintLines()
         const PixelArea area = areaOf(lines, camera, viewportOf(parts_.view), scale);
         if (area.width > 0 && area.height > 0) {
             renderer_->presentDepth(parts_.view.defaultFramebufferObject(), area);
-            line_renderer_->draw(lines, camera, viewportOf(parts_.view),
-                                 renderer_->clip(camera, parts_.scene.style.exaggeration), scale);
+            line_renderer_->draw(lines,
+                                 {.camera = camera,
+                                  .viewport = viewportOf(parts_.view),
+                                  .clip = renderer_->clip(camera, parts_.scene.style.exaggeration),
+                                  .pixels_per_point = scale});
         }
     }
 }

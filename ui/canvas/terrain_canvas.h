@@ -35,6 +35,9 @@ namespace marsview {
 enum class LineSet : std::uint8_t { Graticule, Measurements };
 inline constexpr std::size_t kLineSets = 2;
 
+/// Whether a picture shows the lines on the terrain.
+enum class PictureLines : std::uint8_t { Omitted, Drawn };
+
 /// The parts of the view that are drawn. All outlive the canvas.
 struct CanvasParts {
     QOpenGLWidget& view; // has the graphics context
@@ -77,9 +80,13 @@ public:
     /// The picture of the terrain alone, without cursor.
     QImage terrainPicture();
     /// A part of the picture of any size that `camera` has, into `picture`, RGB888 of that size.
-    /// False, and nothing drawn, while pieces of it are missing: they are on their way.
-    Result<bool>
-    drawPart(const OrbitCamera& camera, const DrawStyle& style, const QRect& part, QImage& picture);
+    /// False, and nothing drawn, while pieces of it are missing: they are on their way. Lines are
+    /// as wide as in the view where the picture is as high.
+    Result<bool> drawPart(const OrbitCamera& camera,
+                          const DrawStyle& style,
+                          const QRect& part,
+                          PictureLines lines,
+                          QImage& picture);
     /// Pixels a side that the graphics driver draws; 0 without a graphics context.
     int pictureSideMax();
 

@@ -158,10 +158,13 @@ public:
     const DrawStyle& style() const noexcept { return scene_.style; }
     /// A part of the picture of any size that `camera` has, into `picture`, RGB888 of that size.
     /// False, and nothing drawn, while pieces of it are missing: they are on their way.
-    Result<bool>
-    drawPart(const OrbitCamera& camera, const DrawStyle& style, const QRect& part, QImage& picture)
+    Result<bool> drawPart(const OrbitCamera& camera,
+                          const DrawStyle& style,
+                          const QRect& part,
+                          PictureLines lines,
+                          QImage& picture)
     {
-        return canvas_.drawPart(camera, style, part, picture);
+        return canvas_.drawPart(camera, style, part, lines, picture);
     }
     /// Pixels a side that the graphics driver draws; 0 without a graphics context.
     int pictureSideMax() { return canvas_.pictureSideMax(); }

@@ -33,6 +33,8 @@ SavePictureDialog::SavePictureDialog(QSize view_size, const PictureLimits& limit
     , legend_(new QCheckBox(tr("&Legend"), this))
     //: In a picture that is saved
     , scale_(new QCheckBox(tr("&Compass and scale bar"), this))
+    //: In a picture that is saved: names of places, graticule, measurements
+    , labels_(new QCheckBox(tr("L&abels and lines on the map"), this))
     , note_(new QLabel(this))
 {
     setWindowTitle(tr("Save Picture"));
@@ -64,6 +66,8 @@ SavePictureDialog::SavePictureDialog(QSize view_size, const PictureLimits& limit
     legend_->setChecked(true);
     scale_->setObjectName(QStringLiteral("scale"));
     scale_->setChecked(true);
+    labels_->setObjectName(QStringLiteral("labels"));
+    labels_->setChecked(true);
     note_->setWordWrap(true);
 
     auto* form = new QFormLayout;
@@ -72,6 +76,7 @@ SavePictureDialog::SavePictureDialog(QSize view_size, const PictureLimits& limit
     form->addRow(tr("&Height"), height_);
     form->addRow(tr("Include"), legend_);
     form->addRow(QString(), scale_);
+    form->addRow(QString(), labels_);
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
     //: On a button: choose a file for the picture
     save_ = buttons->addButton(tr("Sa&ve As…"), QDialogButtonBox::AcceptRole);
@@ -132,7 +137,8 @@ PictureChoice SavePictureDialog::choice() const
 {
     return {.size = {width_->value(), height_->value()},
             .has_legend = legend_->isChecked(),
-            .has_scale = scale_->isChecked()};
+            .has_scale = scale_->isChecked(),
+            .has_labels = labels_->isChecked()};
 }
 
 } // namespace marsview

@@ -20,7 +20,8 @@ struct PictureLimits {
 struct PictureChoice {
     QSize size; // pixels
     bool has_legend = true;
-    bool has_scale = true; // compass and scale bar
+    bool has_scale = true;  // compass and scale bar
+    bool has_labels = true; // and lines: names, graticule, measurements
 };
 
 class SavePictureDialog final : public QDialog {
@@ -43,6 +44,7 @@ private:
     QSpinBox* height_ = nullptr;
     QCheckBox* legend_ = nullptr;
     QCheckBox* scale_ = nullptr;
+    QCheckBox* labels_ = nullptr;
     QLabel* note_ = nullptr;
     QPushButton* save_ = nullptr;
 };

@@ -39,6 +39,15 @@ QRectF points(const LabelBox& box, double scale)
     return {QPointF(box.left, box.top) / scale, QPointF(box.right, box.bottom) / scale};
 }
 
+void drawDot(QPainter& painter, QPointF place)
+{
+    QPainterPath dot;
+    dot.addEllipse(place, kDotRadius, kDotRadius);
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.strokePath(dot, QPen(kRimColor, kRim));
+    painter.fillPath(dot, Qt::white);
+}
+
 } // namespace
 
 MapLabels::MapLabels(TerrainView& view)
@@ -136,15 +145,19 @@ void MapLabels::showSight()
     values_shown_.clear();
     drawGraticule();
     if (view_.map()) {
-        const double scale = view_.devicePixelRatioF();
+        const Sight sight{.camera = view_.camera(),
+                          .viewport = view_.viewport(),
+                          .scale = view_.devicePixelRatioF()};
         std::vector<LabelBox> taken;
         for (const QWidget* obstacle : obstacles_) {
             if (obstacle->isVisible()) {
-                taken.push_back(scaled(obstacle->geometry(), scale));
+                taken.push_back(scaled(obstacle->geometry(), sight.scale));
             }
         }
-        placeValues(taken);
-        placeNames(taken);
+        marks_ = marksOf(sight, names_.get(), std::move(taken));
+        for (const Mark& mark : marks_) {
+            (mark.is_name ? names_shown_ : values_shown_).push_back(mark.label);
+        }
     }
     if (had_marks || !marks_.empty()) {
         update();
@@ -195,16 +208,69 @@ QString MapLabels::valueText(const GraticuleLine& line) const
                               digitsFor(format_.angles, graticule_.latitude_step));
 }
 
-// At the lower and the left edge, or where lines end.
-void MapLabels::placeValues(std::vector<LabelBox>& taken)
+std::vector<PicturePart> MapLabels::partsFor(const OrbitCamera& camera,
+                                             const QSize& size,
+                                             const std::vector<QRect>& obstacles)
 {
-    const double scale = view_.devicePixelRatioF();
-    const Viewport viewport = view_.viewport();
+    if (!view_.map() || !isVisible()) {
+        return {};
+    }
+    const Sight sight{.camera = camera,
+                      .viewport = {.width = size.width(), .height = size.height()},
+                      .scale = static_cast<double>(size.height()) / height()};
+    std::vector<LabelBox> taken;
+    taken.reserve(obstacles.size());
+    for (const QRect& obstacle : obstacles) {
+        taken.push_back(scaled(obstacle, 1.0));
+    }
+    // Of their own, because those of the view remember what they showed last.
+    std::unique_ptr<NameLabels> names;
+    if (names_) {
+        names = std::make_unique<NameLabels>(gazetteer_, view_.ground());
+    }
+    std::vector<PicturePart> parts;
+    for (const Mark& mark : marksOf(sight, names.get(), std::move(taken))) {
+        if (mark.point) {
+            const QPointF margin(kDotRadius + kRim, kDotRadius + kRim);
+            QImage dot((QSizeF(2.0 * margin.x(), 2.0 * margin.y()) * sight.scale).toSize(),
+                       QImage::Format_ARGB32_Premultiplied);
+            dot.fill(Qt::transparent);
+            QPainter painter(&dot);
+            painter.scale(sight.scale, sight.scale);
+            drawDot(painter, margin);
+            painter.end();
+            parts.push_back(
+                {.image = std::move(dot), .at = ((*mark.point - margin) * sight.scale).toPoint()});
+        }
+        parts.push_back({.image = drawn(mark.label.text, mark.size, sight.scale),
+                         .at = (mark.label.box.topLeft() * sight.scale).toPoint()});
+    }
+    return parts;
+}
+
+std::vector<MapLabels::Mark>
+MapLabels::marksOf(const Sight& sight, NameLabels* names, std::vector<LabelBox> taken)
+{
+    std::vector<Mark> marks;
+    placeValues(sight, taken, marks);
+    if (names) {
+        placeNames(sight, *names, taken, marks);
+    }
+    return marks;
+}
+
+// At the lower and the left edge, or where lines end.
+void MapLabels::placeValues(const Sight& sight,
+                            std::vector<LabelBox>& taken,
+                            std::vector<Mark>& marks)
+{
+    const double scale = sight.scale;
+    const Viewport viewport = sight.viewport;
     std::vector<LabelRequest> requests;
     std::vector<QString> texts;
     std::vector<ScenePoint> places;
     for (const GraticuleLine& line : graticule_.lines) {
-        const auto end = labelEnd(line, view_.camera(), viewport);
+        const auto end = labelEnd(line, sight.camera, viewport);
         if (!end) {
             continue;
         }
@@ -226,47 +292,50 @@ void MapLabels::placeValues(std::vector<LabelBox>& taken)
         requests,
         {.viewport = viewport, .gap_px = kEdge * scale, .count_max = 60, .obstacles = taken},
         [&](std::size_t index) {
-            return marsview::isVisible(view_.ground(), view_.camera(), viewport,
-                                       view_.exaggeration(), places[index]);
+            return marsview::isVisible(view_.ground(), sight.camera, viewport, view_.exaggeration(),
+                                       places[index]);
         });
     for (const PlacedLabel& label : placed) {
         taken.push_back(label.box);
-        values_shown_.push_back({.text = texts[label.request], .box = points(label.box, scale)});
-        marks_.push_back({.label = values_shown_.back(), .size = Size::Small, .point = {}});
+        marks.push_back({.label = {.text = texts[label.request], .box = points(label.box, scale)},
+                         .is_name = false,
+                         .size = Size::Small,
+                         .point = {}});
     }
 }
 
-void MapLabels::placeNames(const std::vector<LabelBox>& taken)
+void MapLabels::placeNames(const Sight& sight,
+                           NameLabels& names,
+                           const std::vector<LabelBox>& taken,
+                           std::vector<Mark>& marks)
 {
-    if (!names_) {
-        return;
-    }
-    const double scale = view_.devicePixelRatioF();
-    const auto size_of_label = [this, large_px =
-                                          kLargeShare * view_.viewport().height](double across_px) {
+    const double scale = sight.scale;
+    const auto size_of_label = [large_px = kLargeShare * sight.viewport.height](double across_px) {
         return across_px >= large_px ? Size::Large : Size::Small;
     };
     const auto text_of = [this](std::size_t name) {
         return QString::fromStdString(gazetteer_->names()[name].name);
     };
-    const auto labels = names_->inPicture(
-        view_.camera(),
-        {.viewport = view_.viewport(),
-         .pixels_per_point = scale,
-         .exaggeration = view_.exaggeration(),
-         .obstacles = taken},
-        [&](std::size_t name, double across_px) {
-            const QSizeF size = sizeOf(text_of(name), size_of_label(across_px)) * scale;
-            return LabelSize{.width_px = size.width(), .height_px = size.height()};
-        });
+    const auto labels =
+        names.inPicture(sight.camera,
+                        {.viewport = sight.viewport,
+                         .pixels_per_point = scale,
+                         .exaggeration = view_.exaggeration(),
+                         .obstacles = taken},
+                        [&](std::size_t name, double across_px) {
+                            const QSizeF size =
+                                sizeOf(text_of(name), size_of_label(across_px)) * scale;
+                            return LabelSize{.width_px = size.width(), .height_px = size.height()};
+                        });
     for (const NameLabel& label : labels) {
-        names_shown_.push_back({.text = text_of(label.name), .box = points(label.box, scale)});
-        Mark mark{
-            .label = names_shown_.back(), .size = size_of_label(label.across_px), .point = {}};
+        Mark mark{.label = {.text = text_of(label.name), .box = points(label.box, scale)},
+                  .is_name = true,
+                  .size = size_of_label(label.across_px),
+                  .point = {}};
         if (label.anchor == LabelAnchor::Point) {
             mark.point = QPointF(label.place.x, label.place.y) / scale;
         }
-        marks_.push_back(std::move(mark));
+        marks.push_back(std::move(mark));
     }
 }
 
@@ -287,6 +356,21 @@ QSizeF MapLabels::sizeOf(const QString& text, Size size) const
             std::ceil(metrics.height() + kRim)};
 }
 
+QImage MapLabels::drawn(const QString& text, Size size, double scale) const
+{
+    QImage image((sizeOf(text, size) * scale).toSize(), QImage::Format_ARGB32_Premultiplied);
+    image.fill(Qt::transparent);
+    const QFont letters = fontOf(size);
+    QPainterPath path;
+    path.addText(kRim, 0.5 * kRim + QFontMetricsF(letters).ascent(), letters, text);
+    QPainter painter(&image);
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.scale(scale, scale);
+    painter.strokePath(path, QPen(kRimColor, kRim, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+    painter.fillPath(path, Qt::white);
+    return image;
+}
+
 const QPixmap& MapLabels::picture(const QString& text, Size size)
 {
     const QString key = text + (size == Size::Large ? QLatin1Char('+') : QLatin1Char('-'));
@@ -298,18 +382,8 @@ const QPixmap& MapLabels::picture(const QString& text, Size size)
     if (pictures_.size() > kPicturesMax) {
         pictures_.clear();
     }
-    const QSizeF box = sizeOf(text, size);
-    QPixmap pixmap((box * scale).toSize());
+    QPixmap pixmap = QPixmap::fromImage(drawn(text, size, scale));
     pixmap.setDevicePixelRatio(scale);
-    pixmap.fill(Qt::transparent);
-    const QFont letters = fontOf(size);
-    QPainterPath path;
-    path.addText(kRim, 0.5 * kRim + QFontMetricsF(letters).ascent(), letters, text);
-    QPainter painter(&pixmap);
-    painter.setRenderHint(QPainter::Antialiasing);
-    painter.strokePath(path, QPen(kRimColor, kRim, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
-    painter.fillPath(path, Qt::white);
-    painter.end();
     return *pictures_.insert(key, pixmap);
 }
 
@@ -318,11 +392,7 @@ void MapLabels::paintEvent(QPaintEvent* /*event*/)
     QPainter painter(this);
     for (const Mark& mark : marks_) {
         if (mark.point) {
-            QPainterPath dot;
-            dot.addEllipse(*mark.point, kDotRadius, kDotRadius);
-            painter.setRenderHint(QPainter::Antialiasing);
-            painter.strokePath(dot, QPen(kRimColor, kRim));
-            painter.fillPath(dot, Qt::white);
+            drawDot(painter, *mark.point);
         }
         painter.drawPixmap(mark.label.box.topLeft().toPoint(), picture(mark.label.text, mark.size));
     }

@@ -4,6 +4,7 @@
 #include "core/geo/coordinate_format.h"
 #include "core/session/graticule.h"
 #include "core/session/name_labels.h"
+#include "ui/overlay/picture_part.h"
 
 #include <QElapsedTimer>
 #include <QHash>
@@ -42,6 +43,11 @@ public:
     const std::vector<Label>& nameLabels() const noexcept { return names_shown_; }
     const std::vector<Label>& graticuleLabels() const noexcept { return values_shown_; }
 
+    /// The labels of a picture of `size` pixels that `camera` has of what the view shows, as large
+    /// as in the view where the picture is as high. They keep clear of `obstacles`, in pixels.
+    std::vector<PicturePart>
+    partsFor(const OrbitCamera& camera, const QSize& size, const std::vector<QRect>& obstacles);
+
 protected:
     void paintEvent(QPaintEvent* event) override;
     void changeEvent(QEvent* event) override;
@@ -51,17 +57,29 @@ private:
     enum class Size { Small, Large };
     struct Mark {
         Label label;
+        bool is_name = false; // or a value of the graticule
         Size size = Size::Small;
         std::optional<QPointF> point; // that the label lies beside
+    };
+    // Of a picture of the view.
+    struct Sight {
+        OrbitCamera camera;
+        Viewport viewport;
+        double scale = 1.0; // pixels per point
     };
 
     void showScene();
     void showSight();
     void drawGraticule();
-    void placeValues(std::vector<LabelBox>& taken);
-    void placeNames(const std::vector<LabelBox>& taken);
+    std::vector<Mark> marksOf(const Sight& sight, NameLabels* names, std::vector<LabelBox> taken);
+    void placeValues(const Sight& sight, std::vector<LabelBox>& taken, std::vector<Mark>& marks);
+    void placeNames(const Sight& sight,
+                    NameLabels& names,
+                    const std::vector<LabelBox>& taken,
+                    std::vector<Mark>& marks);
     QFont fontOf(Size size) const;
     QSizeF sizeOf(const QString& text, Size size) const;
+    QImage drawn(const QString& text, Size size, double scale) const;
     const QPixmap& picture(const QString& text, Size size);
     QString valueText(const GraticuleLine& line) const;
 

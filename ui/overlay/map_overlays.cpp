@@ -136,8 +136,9 @@ void MapOverlays::makeAction(const QString& text, const QString& name, const QLi
     actions_.append(action);
 }
 
-std::vector<MapOverlays::PicturePart> MapOverlays::partsFor(const QSize& picture,
-                                                            const PictureParts& parts) const
+std::vector<PicturePart> MapOverlays::partsFor(const OrbitCamera& camera,
+                                               const QSize& picture,
+                                               const PictureParts& parts) const
 {
     // The field of view is vertical: equal heights of the picture have equal meters per pixel.
     const double scale = static_cast<double>(picture.height()) / view_.height();
@@ -161,6 +162,15 @@ std::vector<MapOverlays::PicturePart> MapOverlays::partsFor(const QSize& picture
     add(legend_, parts.has_legend);
     add(compass_, parts.has_scale);
     add(scale_bar_, parts.has_scale);
+    if (parts.has_labels) {
+        std::vector<QRect> taken;
+        for (const PicturePart& part : made) {
+            taken.emplace_back(part.at, part.image.size());
+        }
+        for (PicturePart& label : labels_->partsFor(camera, picture, taken)) {
+            made.push_back(std::move(label));
+        }
+    }
     return made;
 }
 

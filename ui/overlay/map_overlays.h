@@ -3,9 +3,10 @@
 
 #include "core/geo/frames.h"
 #include "core/session/session.h"
+#include "core/view/camera.h"
+#include "ui/overlay/picture_part.h"
 #include "ui/text/number_text.h"
 
-#include <QImage>
 #include <QList>
 #include <QObject>
 #include <QTimer>
@@ -67,15 +68,14 @@ public:
     /// Which overlays a picture gets, as far as they are shown in the view.
     struct PictureParts {
         bool has_legend = true;
-        bool has_scale = true; // compass and scale bar
+        bool has_scale = true;  // compass and scale bar
+        bool has_labels = true; // names and values of the graticule
     };
-    struct PicturePart {
-        QImage image;
-        QPoint at; // of its upper left corner in the picture
-    };
-    /// Overlays for a picture of the view of any size, as they are now: as large as in the view
-    /// where it is as high, and at the same distance from their corners.
-    std::vector<PicturePart> partsFor(const QSize& picture, const PictureParts& parts) const;
+    /// Overlays for a picture of any size that `camera` has of what the view shows, as they are
+    /// now: as large as in the view where it is as high, and at the same distance from their
+    /// corners.
+    std::vector<PicturePart>
+    partsFor(const OrbitCamera& camera, const QSize& picture, const PictureParts& parts) const;
 
     /// Names of layers, and which one is active. After the view shows them.
     void setSession(const Session& session);

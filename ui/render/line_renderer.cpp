@@ -50,11 +50,12 @@ uniform float u_border; // in pixels
 uniform vec4 u_paint;   // a: alpha; rgb: the color where the line's is not used
 uniform bool u_has_own_color;
 uniform bool u_is_hard; // whole pixels only
+uniform vec2 u_corner;  // of the frame buffer in the picture, in pixels
 out vec4 color;
 void main()
 {
     vec2 along = v_ends.zw - v_ends.xy;
-    vec2 from_begin = gl_FragCoord.xy - v_ends.xy;
+    vec2 from_begin = gl_FragCoord.xy + u_corner - v_ends.xy;
     float share = clamp(dot(from_begin, along) / max(dot(along, along), 1e-6), 0.0, 1.0);
     float coverage = clamp(v_half_width + u_border + 0.5 - length(from_begin - share * along),
                            0.0, 1.0);
@@ -265,13 +266,10 @@ Result<std::unique_ptr<LineRenderer>> LineRenderer::create()
         new LineRenderer(std::make_unique<Impl>(std::move(program).value())));
 }
 
-void LineRenderer::draw(std::span<const DrapedLine> lines,
-                        const OrbitCamera& camera,
-                        const Viewport& viewport,
-                        const ClipRange& clip,
-                        double pixels_per_point)
+void LineRenderer::draw(std::span<const DrapedLine> lines, const LinePicture& picture)
 {
-    const Screen screen(camera, viewport, clip);
+    const Screen screen(picture.camera, picture.viewport, picture.clip);
+    const double pixels_per_point = picture.pixels_per_point;
     const double border_px = kBorderPoints * pixels_per_point;
     // Lines with faint parts first, since only these are drawn where the terrain hides them.
     std::vector<Vertex> triangles;
@@ -309,6 +307,13 @@ void LineRenderer::draw(std::span<const DrapedLine> lines,
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(triangles.size() * sizeof(Vertex)),
                  triangles.data(), GL_STREAM_DRAW);
     glUniform1f(impl_->program.uniform("u_lift"), kLift);
+    const PixelArea part = picture.part.value_or(PixelArea{.left = 0,
+                                                           .bottom = 0,
+                                                           .width = picture.viewport.width,
+                                                           .height = picture.viewport.height});
+    glUniform2f(impl_->program.uniform("u_corner"), static_cast<GLfloat>(part.left),
+                static_cast<GLfloat>(part.bottom));
+    glViewport(-part.left, -part.bottom, picture.viewport.width, picture.viewport.height);
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
     glEnable(GL_DEPTH_TEST);
@@ -322,6 +327,7 @@ void LineRenderer::draw(std::span<const DrapedLine> lines,
     impl_->draw({}, triangles.size());
     glDepthMask(GL_TRUE);
     glDisable(GL_BLEND);
+    glViewport(0, 0, part.width, part.height);
     glBindVertexArray(0);
     glBindBuffer(GL_ARRAY_BUFFER, 0);
     glUseProgram(0);

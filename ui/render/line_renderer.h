@@ -6,6 +6,7 @@
 #include "core/view/color_ramp.h"
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -23,6 +24,16 @@ struct DrapedLine {
     HiddenParts hidden_parts = HiddenParts::Faint;
 };
 
+/// The picture of the terrain that lines are drawn over.
+struct LinePicture {
+    OrbitCamera camera;
+    Viewport viewport;
+    ClipRange clip; // of the terrain's depths
+    double pixels_per_point = 1.0;
+    /// The frame buffer holds this part of the viewport alone.
+    std::optional<PixelArea> part{};
+};
+
 /// Every call needs the context current in which it was created, the destructor included. Leaves no
 /// program, buffer or vertex array bound.
 class LineRenderer {
@@ -36,11 +47,7 @@ public:
     /// depths and a stencil of 8 bits where the lines are; see areaOf(). A dark border keeps lines
     /// visible over any color. Parts that the terrain hides have no border; they are faint, or not
     /// drawn.
-    void draw(std::span<const DrapedLine> lines,
-              const OrbitCamera& camera,
-              const Viewport& viewport,
-              const ClipRange& clip,
-              double pixels_per_point);
+    void draw(std::span<const DrapedLine> lines, const LinePicture& picture);
 
 private:
     struct Impl;

@@ -48,7 +48,8 @@ int offscreenSideMax()
 Result<DrawReport> drawPart(TerrainRenderer& renderer,
                             const DrawRequest& request,
                             const DrawStyle& style,
-                            const PartTarget& target)
+                            const PartTarget& target,
+                            const std::function<void()>& draw_over)
 {
     const Viewport size{.width = request.part->width, .height = request.part->height};
     const FrameBuffer drawn(size, request.samples);
@@ -60,6 +61,10 @@ Result<DrawReport> drawPart(TerrainRenderer& renderer,
     straight.samples = 1; // the target has them
     DrawReport report = renderer.draw(straight, style, drawn.id());
     if (report.is_complete) {
+        if (draw_over) {
+            glBindFramebuffer(GL_FRAMEBUFFER, drawn.id());
+            draw_over();
+        }
         glBindFramebuffer(GL_READ_FRAMEBUFFER, drawn.id());
         glBindFramebuffer(GL_DRAW_FRAMEBUFFER, merged.id());
         glBlitFramebuffer(0, 0, size.width, size.height, 0, 0, size.width, size.height,

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace marsview {
@@ -32,11 +33,13 @@ struct PartTarget {
 
 /// Draws `request.part`, which must be set, with `request.samples` a pixel, and reads it back. By
 /// what there is: where the report says that it is incomplete, the target is left as it was.
-/// OutOfRange where the driver has no frame buffer of the part's size.
+/// `draw_over` may draw over it before it is read: into the bound frame buffer, which has the
+/// part's size and depths. OutOfRange where the driver has no frame buffer of that size.
 Result<DrawReport> drawPart(TerrainRenderer& renderer,
                             const DrawRequest& request,
                             const DrawStyle& style,
-                            const PartTarget& target);
+                            const PartTarget& target,
+                            const std::function<void()>& draw_over = {});
 
 /// Draws `request` whole and reads it back. OutOfRange where the driver has no frame buffer of that
 /// size.

@@ -5,6 +5,7 @@
 #include "ui/overlay/map_labels.h"
 #include "ui/overlay/map_overlays.h"
 #include "ui/overlay/minimap.h"
+#include "ui/picture_saver.h"
 #include "ui/window_actions.h"
 
 #include <QAction>
@@ -15,6 +16,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
 
 namespace marsview {
 namespace {
@@ -106,6 +108,49 @@ TEST_F(MapLabelsTest, LinesOfTheGraticuleAreInThePicture)
     // Some lines of three pixels, and nothing else.
     EXPECT_GT(changed, with.height() * 3);
     EXPECT_LT(changed, with.width() * with.height() / 5);
+}
+
+// Where the view has a label, a saved picture differs from the bare terrain.
+TEST_F(MapLabelsTest, SavedPicturesHaveTheLabelsAndLinesOfTheView)
+{
+    openMars();
+    action("graticule").trigger();
+    ASSERT_TRUE(waitFor([this] { return view().isPictureComplete(); }));
+    PictureSaver saver(*window_->view(), *window_->overlays(), PictureSaver::Memory::WindowOnly,
+                       window_.get());
+    const QSize size{view().viewport().width, view().viewport().height};
+    const auto picture = [&](const QSize& pixels, bool has_labels) {
+        const QString file = maps_.path(QStringLiteral("labels.png"));
+        saver.save(
+            file, view().camera(),
+            {.size = pixels, .has_legend = false, .has_scale = false, .has_labels = has_labels});
+        EXPECT_TRUE(waitFor([&] { return !saver.isSaving(); }));
+        return QImage(file);
+    };
+    for (const int factor : {1, 2}) {
+        const QImage without = picture(size * factor, false);
+        const QImage with = picture(size * factor, true);
+        const auto share_changed = [&](const QRectF& box) {
+            const QRect pixels =
+                QRectF(box.topLeft() * factor, box.size() * factor).toAlignedRect();
+            int changed = 0;
+            for (int y = pixels.top(); y <= pixels.bottom(); ++y) {
+                for (int x = pixels.left(); x <= pixels.right(); ++x) {
+                    changed += with.valid(x, y) && with.pixel(x, y) != without.pixel(x, y) ? 1 : 0;
+                }
+            }
+            return static_cast<double>(changed) / (pixels.width() * pixels.height());
+        };
+        // Some find another place where no legend and no minimap is in their way.
+        const auto& labels_shown = labels().graticuleLabels();
+        const auto found = std::count_if(
+            labels_shown.begin(), labels_shown.end(),
+            [&](const MapLabels::Label& label) { return share_changed(label.box) > 0.2; });
+        EXPECT_GE(4 * found, 3 * std::ssize(labels_shown)) << factor;
+        const double everywhere = share_changed(QRectF(QPointF(0.0, 0.0), size));
+        EXPECT_GT(everywhere, 0.02);
+        EXPECT_LT(everywhere, 0.3);
+    }
 }
 
 } // namespace
