@@ -437,7 +437,7 @@ void MainWindow::connectController()
 void MainWindow::connectProject()
 {
     project_ = new ProjectController(
-        *controller_, *view_,
+        *controller_, *measure_, *view_,
         {.bundled = options_.bundled_maps, .autosave_folder = options_.autosave_folder}, this);
     project_menu_ = new ProjectMenu(
         {.window = *this,

@@ -2,37 +2,36 @@
 
 #include "core/base/durable_file.h"
 #include "core/files/raster_path.h"
+#include "core/session/json_members.h"
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <fstream>
 #include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
+#include <variant>
 
 namespace marsview {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 constexpr const char* kFormat = "MarsView project";
 constexpr std::uintmax_t kBytesMax = std::uintmax_t{64} << 20;
 constexpr std::size_t kLayersMax = 100000;
+constexpr std::size_t kMeasurementsMax = 1000000;
+constexpr std::size_t kPointsMax = 10000000; // of a measurement
 constexpr int kIndent = 2;
-
-template <typename Value>
-struct Named {
-    Value value;
-    const char* name;
-};
 
 constexpr std::array kShadings{
     Named<ShadingMode>{ShadingMode::Tint, "shaded relief"},
@@ -46,13 +45,14 @@ constexpr std::array kStretches{
     Named<StretchKind>{StretchKind::Fixed, "fixed"},
 };
 
-template <typename Names, typename Value>
-const char* nameIn(const Names& names, Value value)
-{
-    return std::find_if(names.begin(), names.end(),
-                        [value](const auto& entry) { return entry.value == value; })
-        ->name;
-}
+constexpr std::array kMeasurements{
+    Named<MeasurementKind>{MeasurementKind::Distance, "distance"},
+    Named<MeasurementKind>{MeasurementKind::Area, "area"},
+    Named<MeasurementKind>{MeasurementKind::Profile, "profile"},
+    Named<MeasurementKind>{MeasurementKind::Attitude, "attitude"},
+    Named<MeasurementKind>{MeasurementKind::Crater, "crater"},
+    Named<MeasurementKind>{MeasurementKind::Slope, "point"},
+};
 
 // The shortest decimal number of degrees that gives the angle, if there is one: 15.3, where the
 // division gives 15.300000000000001.
@@ -201,6 +201,65 @@ Json cameraJson(const ProjectCamera& camera)
     return json;
 }
 
+// "2026-11-23T20:58:21.125Z"
+std::string timeText(ProjectTime time)
+{
+    const auto seconds = std::chrono::floor<std::chrono::seconds>(time);
+    return fmt::format("{:%FT%T}.{:03}Z", seconds, (time - seconds).count());
+}
+
+std::optional<ProjectTime> timeFrom(const std::string& text)
+{
+    int year = 0;
+    unsigned month = 0;
+    unsigned day = 0;
+    int hour = 0;
+    int minute = 0;
+    double second = 0.0;
+    char zone = '\0';
+    if (std::sscanf(text.c_str(), "%d-%u-%uT%d:%d:%lf%c", &year, &month, &day, &hour, &minute,
+                    &second, &zone) != 7) { // NOLINT: every conversion is checked
+        return std::nullopt;
+    }
+    namespace chrono = std::chrono;
+    const chrono::year_month_day date{chrono::year{year}, chrono::month{month}, chrono::day{day}};
+    if (zone != 'Z' || !date.ok() || hour < 0 || hour > 23 || minute < 0 || minute > 59 ||
+        !(second >= 0.0 && second < 61.0)) {
+        return std::nullopt;
+    }
+    return chrono::sys_days{date} + chrono::hours{hour} + chrono::minutes{minute} +
+           chrono::milliseconds{std::llround(1000.0 * second)};
+}
+
+Json measurementJson(const ProjectMeasurement& measurement)
+{
+    Json json = Json::object();
+    json["name"] = measurement.name;
+    json["kind"] = nameIn(kMeasurements, measurement.kind);
+    if (measurement.layer) {
+        json["layer"] = *measurement.layer;
+    }
+    json["time"] = timeText(measurement.time);
+    Json degrees = Json::array();
+    Json points = Json::array();
+    for (const MeasuredVertex& vertex : measurement.vertices) {
+        if (const auto* geographic = std::get_if<GeographicPoint>(&vertex)) {
+            degrees.push_back(
+                Json::array({degreesOf(geographic->longitude), degreesOf(geographic->latitude)}));
+        } else {
+            const auto& point = std::get<MapPoint>(vertex);
+            points.push_back(Json::array({point.x, point.y}));
+        }
+    }
+    if (!degrees.empty()) {
+        json["longitudes_latitudes_deg"] = std::move(degrees);
+    }
+    if (!points.empty()) {
+        json["map_points"] = std::move(points);
+    }
+    return json;
+}
+
 Json lookJson(const TerrainLook& look)
 {
     Json json = Json::object();
@@ -211,198 +270,6 @@ Json lookJson(const TerrainLook& look)
     json["light_altitude_deg"] = degreesOf(look.light_altitude);
     return json;
 }
-
-// Reads the members of one object and notes the first fault. Members that are absent leave their
-// variable as it is.
-class Members {
-public:
-    Members(const Json& json, std::string place, std::string& fault)
-        : json_(json)
-        , place_(std::move(place))
-        , fault_(fault)
-    {
-        if (!json_.is_object()) {
-            refuse("", "an object");
-        }
-    }
-
-    bool has(const char* key) const { return json_.is_object() && json_.contains(key); }
-
-    void text(const char* key, std::string& value)
-    {
-        if (has(key)) {
-            if (const Json& member = json_[key]; member.is_string()) {
-                value = member.get<std::string>();
-            } else {
-                refuse(key, "a text");
-            }
-        }
-    }
-
-    void text(const char* key, std::optional<std::string>& value)
-    {
-        if (has(key)) {
-            value.emplace();
-            text(key, *value);
-        }
-    }
-
-    void flag(const char* key, bool& value)
-    {
-        if (has(key)) {
-            if (const Json& member = json_[key]; member.is_boolean()) {
-                value = member.get<bool>();
-            } else {
-                refuse(key, "true or false");
-            }
-        }
-    }
-
-    // Any number, also "nan", "inf" and "-inf".
-    void anyNumber(const char* key, std::optional<double>& value)
-    {
-        if (has(key)) {
-            value = numberIn(json_[key]);
-            if (!value) {
-                refuse(key, "a number");
-            }
-        }
-    }
-
-    template <typename Accepts>
-    void number(const char* key, double& value, Accepts accepts, const char* what)
-    {
-        if (has(key)) {
-            const Json& member = json_[key];
-            const double given = member.is_number() ? member.get<double>()
-                                                    : std::numeric_limits<double>::quiet_NaN();
-            if (std::isfinite(given) && accepts(given)) {
-                value = given;
-            } else {
-                refuse(key, what);
-            }
-        }
-    }
-
-    void number(const char* key, double& value)
-    {
-        number(
-            key, value, [](double) { return true; }, "a number");
-    }
-
-    template <typename Accepts>
-    void angle(const char* key, Angle& value, Accepts accepts, const char* what)
-    {
-        double degrees = 0.0;
-        if (has(key)) {
-            number(key, degrees, accepts, what);
-            value = Angle::degrees(degrees);
-        }
-    }
-
-    void index(const char* key, std::optional<std::size_t>& value, std::size_t count)
-    {
-        if (has(key)) {
-            const Json& member = json_[key];
-            if (member.is_number_unsigned() && member.get<std::size_t>() < count) {
-                value = member.get<std::size_t>();
-            } else {
-                refuse(key, "the index of a layer");
-            }
-        }
-    }
-
-    void count(const char* key, int& value)
-    {
-        if (has(key)) {
-            const Json& member = json_[key];
-            constexpr int kMost = std::numeric_limits<int>::max();
-            if (member.is_number_unsigned() && member.get<std::uint64_t>() >= 1 &&
-                member.get<std::uint64_t>() <= std::uint64_t{kMost}) {
-                value = member.get<int>();
-            } else {
-                refuse(key, "a whole number from 1 up");
-            }
-        }
-    }
-
-    template <typename Names, typename Value>
-    void choice(const char* key, const Names& names, Value& value)
-    {
-        std::string name = nameIn(names, value);
-        text(key, name);
-        const auto* const found = std::find_if(
-            names.begin(), names.end(), [&name](const auto& entry) { return name == entry.name; });
-        if (found == names.end()) {
-            refuse(key, "a known choice");
-        } else {
-            value = found->value;
-        }
-    }
-
-    void terms(const char* key, std::optional<GeoTransform::Terms>& value)
-    {
-        if (!has(key)) {
-            return;
-        }
-        const Json& member = json_[key];
-        GeoTransform::Terms terms{};
-        if (!member.is_array() || member.size() != terms.size()) {
-            refuse(key, "a list of six numbers");
-            return;
-        }
-        for (std::size_t i = 0; i < terms.size(); ++i) {
-            const auto term = numberIn(member[i]);
-            if (!term) {
-                refuse(key, "a list of six numbers");
-                return;
-            }
-            terms[i] = *term;
-        }
-        value = terms;
-    }
-
-    template <typename Read>
-    void object(const char* key, Read read)
-    {
-        if (has(key)) {
-            Members members(json_[key], placeOf(key), fault_);
-            read(members);
-        }
-    }
-
-    void refuse(const char* key, const char* what)
-    {
-        if (fault_.empty()) {
-            fault_ = fmt::format("{} is not {}", placeOf(key), what);
-        }
-    }
-
-private:
-    static std::optional<double> numberIn(const Json& json)
-    {
-        if (json.is_number()) {
-            return json.get<double>();
-        }
-        if (json == "nan") {
-            return std::numeric_limits<double>::quiet_NaN();
-        }
-        if (json == "inf" || json == "-inf") {
-            const double infinity = std::numeric_limits<double>::infinity();
-            return json == "inf" ? infinity : -infinity;
-        }
-        return std::nullopt;
-    }
-
-    std::string placeOf(const char* key) const
-    {
-        return *key == '\0' ? place_ : place_.empty() ? key : place_ + "." + key;
-    }
-
-    const Json& json_;
-    std::string place_;
-    std::string& fault_;
-};
 
 std::string pathFrom(Members& members, const ProjectFolders& folders)
 {
@@ -532,26 +399,90 @@ ProjectCamera cameraFrom(Members& members)
     return camera;
 }
 
-constexpr std::array kKnownMembers{"format", "version", "active", "look", "camera", "layers"};
+// Two finite numbers.
+std::optional<std::array<double, 2>> pairFrom(const Json& json)
+{
+    if (!json.is_array() || json.size() != 2 || !json[0].is_number() || !json[1].is_number()) {
+        return std::nullopt;
+    }
+    const std::array<double, 2> pair{json[0].get<double>(), json[1].get<double>()};
+    return std::isfinite(pair[0]) && std::isfinite(pair[1]) ? std::optional(pair) : std::nullopt;
+}
+
+ProjectMeasurement measurementFrom(Members& members, std::size_t layer_count)
+{
+    ProjectMeasurement measurement;
+    members.text("name", measurement.name);
+    members.choice("kind", kMeasurements, measurement.kind);
+    members.index("layer", measurement.layer, layer_count);
+    std::string time = timeText({});
+    members.text("time", time);
+    if (const auto known = timeFrom(time)) {
+        measurement.time = *known;
+    } else {
+        members.refuse("time", "a time such as 2026-05-17T09:30:00Z");
+    }
+    const char* const what = "a list of pairs of numbers";
+    members.list(
+        "longitudes_latitudes_deg", kPointsMax, what,
+        [&](const Json& json, const std::string& /*place*/) {
+            const auto pair = pairFrom(json);
+            if (!pair || std::abs((*pair)[1]) > 90.0) {
+                members.refuse("longitudes_latitudes_deg", "a list of longitudes and latitudes");
+                return;
+            }
+            measurement.vertices.emplace_back(GeographicPoint{
+                .longitude = Angle::degrees((*pair)[0]), .latitude = Angle::degrees((*pair)[1])});
+        });
+    if (members.has("map_points") && !measurement.vertices.empty()) {
+        members.refuse("map_points", "absent where there are longitudes and latitudes");
+        return measurement;
+    }
+    members.list("map_points", kPointsMax, what,
+                 [&](const Json& json, const std::string& /*place*/) {
+                     const auto pair = pairFrom(json);
+                     if (!pair) {
+                         members.refuse("map_points", what);
+                         return;
+                     }
+                     measurement.vertices.emplace_back(MapPoint{(*pair)[0], (*pair)[1]});
+                 });
+    return measurement;
+}
+
+constexpr std::array kKnownMembers{"format", "version", "active",      "look",
+                                   "camera", "layers",  "measurements"};
 
 } // namespace
+
+std::vector<LayerId> projectOrder(const Session& session)
+{
+    std::vector<LayerId> order;
+    for (const Layer& layer : session.layers) {
+        order.push_back(layer.id);
+    }
+    for (const MissingLayer& missing : session.missing) {
+        const std::size_t index = std::min(missing.index, order.size());
+        order.insert(order.begin() + static_cast<std::ptrdiff_t>(index), missing.id);
+    }
+    return order;
+}
 
 Project projectOf(const Session& session)
 {
     Project project;
-    for (const Layer& layer : session.layers) {
-        if (layer.id == session.active) {
-            project.active = project.layers.size();
+    for (const LayerId id : projectOrder(session)) {
+        if (const Layer* layer = layerOf(session, id)) {
+            if (id == session.active) {
+                project.active = project.layers.size();
+            }
+            project.layers.push_back(recordOf(*layer));
+            continue;
         }
-        project.layers.push_back(recordOf(layer));
-    }
-    for (const MissingLayer& missing : session.missing) {
-        const std::size_t index = std::min(missing.index, project.layers.size());
-        project.layers.insert(project.layers.begin() + static_cast<std::ptrdiff_t>(index),
-                              missing.record);
-        if (project.active && index <= *project.active) {
-            ++*project.active;
-        }
+        const auto missing =
+            std::find_if(session.missing.begin(), session.missing.end(),
+                         [id](const MissingLayer& candidate) { return candidate.id == id; });
+        project.layers.push_back(missing->record);
     }
     project.look = session.look;
     return project;
@@ -574,13 +505,21 @@ Result<std::string> projectText(const Project& project, const ProjectFolders& fo
         layers.push_back(layerJson(layer, folders));
     }
     json["layers"] = std::move(layers);
+    if (!project.measurements.empty()) {
+        Json measurements = Json::array();
+        for (const ProjectMeasurement& measurement : project.measurements) {
+            measurements.push_back(measurementJson(measurement));
+        }
+        json["measurements"] = std::move(measurements);
+    }
     for (const auto& [key, text] : project.others) {
         json[key] = Json::parse(text, nullptr, false);
     }
     try {
         return json.dump(kIndent) + "\n";
     } catch (const Json::type_error&) {
-        return Error{ErrorCode::Invalid, "a layer has a name or path that is not UTF-8; rename it"};
+        return Error{ErrorCode::Invalid,
+                     "a layer or a measurement has a name or path that is not UTF-8; rename it"};
     }
 }
 
@@ -628,6 +567,12 @@ projectFrom(std::string_view text, const ProjectFolders& folders, const std::str
         return damaged("the list of layers is missing");
     }
     members.index("active", project.active, project.layers.size());
+    members.list("measurements", kMeasurementsMax, "a list of measurements",
+                 [&](const Json& element, const std::string& place) {
+                     Members measurement(element, place, fault);
+                     project.measurements.push_back(
+                         measurementFrom(measurement, project.layers.size()));
+                 });
     members.object("look", [&](Members& look) { project.look = lookFrom(look); });
     members.object("camera", [&](Members& camera) { project.camera = cameraFrom(camera); });
     if (!fault.empty()) {

@@ -4,8 +4,10 @@
 
 #include "core/base/angle.h"
 #include "core/base/result.h"
+#include "core/session/measurement.h"
 #include "core/session/session.h"
 
+#include <chrono>
 #include <cstddef>
 #include <filesystem>
 #include <map>
@@ -33,12 +35,27 @@ struct ProjectCamera {
     bool operator==(const ProjectCamera&) const = default;
 };
 
+/// A time of the day in UTC, to the millisecond.
+using ProjectTime = std::chrono::sys_time<std::chrono::milliseconds>;
+
+/// A measurement by its geometry. The results follow from it and from the layer.
+struct ProjectMeasurement {
+    MeasurementKind kind = MeasurementKind::Distance;
+    std::string name{};
+    std::optional<std::size_t> layer{};     // an index of Project::layers; empty: it was removed
+    std::vector<MeasuredVertex> vertices{}; // all of one type
+    ProjectTime time{};                     // at which it was begun
+
+    bool operator==(const ProjectMeasurement&) const = default;
+};
+
 /// What a project file states.
 struct Project {
     std::vector<LayerRecord> layers;     // top first
     std::optional<std::size_t> active{}; // an index of `layers`
     TerrainLook look{};
     std::optional<ProjectCamera> camera{};
+    std::vector<ProjectMeasurement> measurements{};
     /// Members that this version does not define, as JSON. They are kept when the project is saved.
     std::map<std::string, std::string> others{};
 
@@ -51,7 +68,10 @@ struct ProjectFolders {
     std::filesystem::path bundled; // the maps that come with the program; empty if unknown
 };
 
-/// The project of a session: its layers, and the missing ones in their places.
+/// The layers of a session, with the missing ones in their places, from the top.
+std::vector<LayerId> projectOrder(const Session& session);
+
+/// The project of a session: its layers in projectOrder(). Without camera and measurements.
 Project projectOf(const Session& session);
 
 /// The JSON text: members in a fixed order, one value a line, every number exact; only an angle

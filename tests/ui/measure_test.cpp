@@ -7,6 +7,7 @@
 #include "ui/controllers/measure_controller.h"
 #include "ui/panels/measure_panel.h"
 #include "ui/plots/profile_plot.h"
+#include "ui/project/project_controller.h"
 #include "ui/window_actions.h"
 
 #include <QActionGroup>
@@ -263,6 +264,62 @@ TEST_F(MeasureTest, TheListNamesShowsAndRemoves)
     window_->undoStack().undo();
     EXPECT_EQ(panel().list()->topLevelItemCount(), 1);
     EXPECT_EQ(measuring().state().items.front().name, QStringLiteral("Layer of rock"));
+}
+
+// Saved, closed, and opened in another window: the same points on the same layer, measured anew.
+TEST_F(MeasureTest, AProjectKeepsTheMeasurements)
+{
+    ASSERT_NO_FATAL_FAILURE(choose(MeasurementKind::Distance));
+    click(at(-0.15, 0.05));
+    click(at(0.1, -0.05));
+    measuring().finish();
+    ASSERT_TRUE(isMeasured());
+    measuring().rename(measuring().current()->id, QStringLiteral("Rim “north”"));
+    const MeasureItem item = *measuring().current();
+    const double length_m = measuring().outcome(item.id).as<Distance>()->geodesic_m;
+    ASSERT_NO_FATAL_FAILURE(choose(MeasurementKind::Attitude));
+    for (const QPoint place : {at(-0.05, 0.1), at(0.05, 0.12), at(0.0, 0.2)}) {
+        click(place);
+    }
+    measuring().finish();
+    ASSERT_TRUE(isMeasured());
+    const double dip_deg = measuring().outcome(measuring().current()->id).as<Attitude>()->dip_deg;
+    ASSERT_TRUE(window_->isWindowModified());
+    const QString file = maps_.path(QStringLiteral("measured.mvproj"));
+    ASSERT_TRUE(window_->project().saveAs(file));
+    EXPECT_FALSE(window_->isWindowModified());
+
+    window_ = std::make_unique<MainWindow>(testWindowOptions());
+    window_->resize(1300, 800);
+    window_->show();
+    window_->open(file);
+    ASSERT_TRUE(QTest::qWaitFor(
+        [this] { return !window_->controller().isBusy() && !window_->session().layers.empty(); },
+        kTimeout));
+    ASSERT_EQ(measuring().state().items.size(), 2U);
+    const MeasureItem& again = measuring().state().items.front();
+    EXPECT_EQ(again.name, item.name);
+    EXPECT_EQ(again.kind, item.kind);
+    EXPECT_EQ(again.time.toMSecsSinceEpoch(), item.time.toMSecsSinceEpoch());
+    EXPECT_TRUE(again.is_finished);
+    ASSERT_EQ(again.vertices.size(), item.vertices.size());
+    EXPECT_NE(measuring().layerOf(again), nullptr);
+    const std::uint32_t first = again.id;
+    const std::uint32_t last = measuring().state().items.back().id;
+    for (const std::uint32_t id : {first, last}) {
+        measuring().select(id);
+        ASSERT_TRUE(isMeasured()) << id;
+    }
+    EXPECT_NEAR(measuring().outcome(first).as<Distance>()->geodesic_m / length_m, 1.0, 1e-12);
+    EXPECT_NEAR(measuring().outcome(last).as<Attitude>()->dip_deg, dip_deg, 1e-9);
+    EXPECT_FALSE(window_->isWindowModified());
+
+    measuring().remove(last);
+    EXPECT_TRUE(window_->isWindowModified());
+    window_->undoStack().undo();
+    EXPECT_FALSE(window_->isWindowModified());
+    window_->project().startNew();
+    EXPECT_TRUE(measuring().state().items.empty());
 }
 
 } // namespace

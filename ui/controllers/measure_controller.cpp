@@ -277,6 +277,50 @@ void MeasureController::movePoint(std::uint32_t id, std::size_t index, const Mea
     }
 }
 
+std::vector<ProjectMeasurement> MeasureController::saved() const
+{
+    const std::vector<LayerId> order = projectOrder(session_);
+    std::vector<ProjectMeasurement> saved;
+    for (const MeasureItem& item : state_.items) {
+        if (item.vertices.size() < verticesNeeded(item.kind)) {
+            continue;
+        }
+        const auto layer = std::find(order.begin(), order.end(), item.layer);
+        saved.push_back(
+            {.kind = item.kind,
+             .name = item.name.toStdString(),
+             .layer = layer != order.end()
+                          ? std::optional(static_cast<std::size_t>(layer - order.begin()))
+                          : std::nullopt,
+             .vertices = item.vertices,
+             .time = ProjectTime(std::chrono::milliseconds(item.time.toMSecsSinceEpoch()))});
+    }
+    return saved;
+}
+
+void MeasureController::open(const std::vector<ProjectMeasurement>& saved,
+                             const std::vector<LayerId>& layers)
+{
+    MeasureState state;
+    for (const ProjectMeasurement& measurement : saved) {
+        MeasureItem item;
+        item.id = state.next_id++;
+        item.kind = measurement.kind;
+        item.name = QString::fromStdString(measurement.name);
+        item.layer = measurement.layer && *measurement.layer < layers.size()
+                         ? layers[*measurement.layer]
+                         : LayerId::None;
+        item.vertices = measurement.vertices;
+        item.is_finished = true;
+        item.time = QDateTime::fromMSecsSinceEpoch(measurement.time.time_since_epoch().count());
+        state.items.push_back(std::move(item));
+    }
+    grabbed_.reset();
+    // Results of items that have the same numbers are not those of these.
+    setState({});
+    setState(std::move(state));
+}
+
 void MeasureController::setSession(const Session& session)
 {
     session_ = session;

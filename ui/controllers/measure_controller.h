@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/session/measurement.h"
+#include "core/session/project.h"
 #include "core/session/session.h"
 #include "ui/canvas/place_tool.h"
 #include "ui/canvas/terrain_view.h"
@@ -99,6 +100,12 @@ public:
     void finish();
     /// Flies to where the whole item can be seen.
     void show(std::uint32_t id);
+
+    /// What a project keeps of the measurements that have all the points they need.
+    std::vector<ProjectMeasurement> saved() const;
+    /// Replaces everything by the measurements of a project, whose layers are those of `layers`.
+    /// Not a step of undo.
+    void open(const std::vector<ProjectMeasurement>& saved, const std::vector<LayerId>& layers);
 
     /// Follows the layers: measures again what lies on a layer that changed.
     void setSession(const Session& session);

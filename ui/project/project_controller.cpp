@@ -1,6 +1,7 @@
 #include "ui/project/project_controller.h"
 
 #include "ui/canvas/terrain_view.h"
+#include "ui/controllers/measure_controller.h"
 #include "ui/controllers/session_controller.h"
 
 #include <QDir>
@@ -29,11 +30,13 @@ std::optional<ProjectCamera> projectCamera(const TerrainView& view)
 }
 
 ProjectController::ProjectController(SessionController& session,
+                                     MeasureController& measuring,
                                      TerrainView& view,
                                      const ProjectOptions& options,
                                      QObject* parent)
     : QObject(parent)
     , session_(session)
+    , measuring_(measuring)
     , view_(view)
     , options_(options)
     , autosave_(options.autosave_folder)
@@ -61,6 +64,7 @@ bool ProjectController::isModified() const
 Project ProjectController::project() const
 {
     Project project = projectOf(session_.session());
+    project.measurements = measuring_.saved();
     project.camera = camera_ ? camera_ : projectCamera(view_);
     project.others = others_;
     return project;
@@ -92,6 +96,7 @@ void ProjectController::replace(const Project& project, const QString& file)
     others_ = project.others;
     camera_ = project.camera;
     session_.openProject(project);
+    measuring_.open(project.measurements, projectOrder(session_.session()));
     is_replacing_ = false;
     Q_EMIT changed();
 }

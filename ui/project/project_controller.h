@@ -15,6 +15,7 @@
 
 namespace marsview {
 
+class MeasureController;
 class SessionController;
 class TerrainView;
 
@@ -24,14 +25,15 @@ struct ProjectOptions {
     int autosave_delay_ms = 5000;            // after a change
 };
 
-/// Reads and writes the project of the session. Every change of the session that can be undone is a
-/// change of the project; the camera is saved too, but is not a change. Lives in the GUI thread;
-/// must not outlive the session controller and the view.
+/// Reads and writes the project of the session and the measurements. Every change that can be
+/// undone is a change of the project; the camera is saved too, but is not a change. Lives in the
+/// GUI thread; all that it is made of outlives its last call.
 class ProjectController final : public QObject {
     Q_OBJECT
 
 public:
     ProjectController(SessionController& session,
+                      MeasureController& measuring,
                       TerrainView& view,
                       const ProjectOptions& options,
                       QObject* parent = nullptr);
@@ -39,7 +41,7 @@ public:
     /// The path of the project file; empty if it was never saved.
     const QString& file() const noexcept { return file_; }
     bool isModified() const;
-    /// The session and the camera as they would be saved.
+    /// The session, the measurements and the camera as they would be saved.
     Project project() const;
 
     /// Replaces the session by an empty one.
@@ -75,6 +77,7 @@ private:
     void showCamera();
 
     SessionController& session_;
+    MeasureController& measuring_;
     TerrainView& view_;
     ProjectOptions options_;
     QString file_;

@@ -143,6 +143,29 @@ LayerRecord randomLayer(Random& random)
     return layer;
 }
 
+ProjectMeasurement randomMeasurement(Random& random, std::size_t layer_count)
+{
+    ProjectMeasurement measurement;
+    measurement.kind = static_cast<MeasurementKind>(random.below(6));
+    measurement.name = randomText(random);
+    if (layer_count > 0 && random.chance(0.9)) {
+        measurement.layer = random.below(layer_count);
+    }
+    // Between the years 1970 and 2100.
+    measurement.time = ProjectTime(std::chrono::milliseconds(random.below(4'102'444'800'000)));
+    const bool is_on_body = random.chance(0.7);
+    for (std::size_t left = random.below(6); left > 0; --left) {
+        if (is_on_body) {
+            measurement.vertices.emplace_back(
+                GeographicPoint{.longitude = randomAngle(random, -400.0, 400.0),
+                                .latitude = randomAngle(random, -90.0, 90.0)});
+        } else {
+            measurement.vertices.emplace_back(MapPoint{randomNumber(random), randomNumber(random)});
+        }
+    }
+    return measurement;
+}
+
 Project randomProject(Random& random)
 {
     Project project;
@@ -165,6 +188,9 @@ Project randomProject(Random& random)
                                        .azimuth = randomAngle(random, -180.0, 180.0),
                                        .tilt = randomAngle(random, 0.0, 89.0),
                                        .field_of_view = randomAngle(random, 10.0, 80.0)};
+    }
+    for (std::size_t left = random.below(5); left > 0; --left) {
+        project.measurements.push_back(randomMeasurement(random, project.layers.size()));
     }
     if (random.chance(0.3)) {
         project.others["views"] = R"([{"name":"Tharsis"},3.25])";
@@ -195,12 +221,14 @@ TEST(Project, ThousandRandomSessionsSavedAndOpenedAreEqual)
     Random random;
     const TempFolder folder;
     int layer_count = 0;
+    int measurement_count = 0;
     for (int i = 0; i < 1000; ++i) {
         const Project project = randomProject(random);
         layer_count += static_cast<int>(project.layers.size());
         const auto again = projectFrom(text(project), kFolders, "a.mvproj");
         ASSERT_TRUE(again) << again.error().message;
         ASSERT_EQ(*again, project) << text(project) << "\n" << text(*again);
+        measurement_count += static_cast<int>(project.measurements.size());
         const fs::path file = folder.path() / "a.mvproj";
         ASSERT_TRUE(writeProject(project, file, kFolders.bundled));
         const auto read = readProject(file, kFolders.bundled);
@@ -208,6 +236,7 @@ TEST(Project, ThousandRandomSessionsSavedAndOpenedAreEqual)
         ASSERT_EQ(*read, project);
     }
     EXPECT_GT(layer_count, 2000);
+    EXPECT_GT(measurement_count, 1500);
 }
 
 TEST(Project, AnglesOfAnyRadiansKeepAllButTheLastPlace)
@@ -352,6 +381,18 @@ TEST(Project, FaultsAreNamed)
          "layers[0].stretch.kind is not a known choice"},
         {R"("version":1,"layers":[{"file":"a","overrides":{"geotransform":[1,2]}}])",
          "layers[0].overrides.geotransform is not a list of six numbers"},
+        {R"("version":1,"layers":[],"measurements":[{"layer":0}])",
+         "measurements[0].layer is not the index of a layer"},
+        {R"("version":1,"layers":[],"measurements":[{"kind":"weight"}])",
+         "measurements[0].kind is not a known choice"},
+        {R"("version":1,"layers":[],"measurements":[{"time":"noon"}])",
+         "measurements[0].time is not a time such as 2026-05-17T09:30:00Z"},
+        {R"("version":1,"layers":[],"measurements":[{"time":"2026-02-30T09:30:00Z"}])",
+         "measurements[0].time is not a time"},
+        {R"("version":1,"layers":[],"measurements":[{"longitudes_latitudes_deg":[[0,91]]}])",
+         "measurements[0].longitudes_latitudes_deg is not a list of longitudes and latitudes"},
+        {R"("version":1,"layers":[],"measurements":[{"map_points":[[0,"a"]]}])",
+         "measurements[0].map_points is not a list of pairs of numbers"},
         {R"("version":0,"layers":[])", "version is not a whole number from 1 up"},
         {R"("version":1)", "the list of layers is missing"},
     };
