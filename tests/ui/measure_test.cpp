@@ -1,6 +1,7 @@
 // Measuring in the window, by mouse and by keyboard.
 
 #include "core/measure/profile_statistics.h"
+#include "tests/support/run_program.h"
 #include "tests/ui/map_window.h"
 #include "tests/ui/test_map.h"
 #include "ui/canvas/terrain_view.h"
@@ -288,6 +289,12 @@ TEST_F(MeasureTest, AProjectKeepsTheMeasurements)
     const QString file = maps_.path(QStringLiteral("measured.mvproj"));
     ASSERT_TRUE(window_->project().saveAs(file));
     EXPECT_FALSE(window_->isWindowModified());
+    // For other programs, beside it.
+    const std::string beside =
+        maps_.path(QStringLiteral("measured-measurements.gpkg")).toStdString();
+    const std::string layers = test::runTool({"ogrinfo", "-ro", "-q", "-geom=NO", "-al", beside});
+    EXPECT_NE(layers.find("name (String) = Rim “north”"), std::string::npos) << layers;
+    EXPECT_NE(layers.find("dip_deg (Real) = "), std::string::npos) << layers;
 
     window_ = std::make_unique<MainWindow>(testWindowOptions());
     window_->resize(1300, 800);

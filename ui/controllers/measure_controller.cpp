@@ -298,6 +298,31 @@ std::vector<ProjectMeasurement> MeasureController::saved() const
     return saved;
 }
 
+std::vector<NamedMeasurement> MeasureController::named() const
+{
+    std::vector<NamedMeasurement> named;
+    for (const MeasureItem& item : state_.items) {
+        if (item.vertices.size() < verticesNeeded(item.kind)) {
+            continue;
+        }
+        NamedMeasurement measurement;
+        measurement.measurement.kind = item.kind;
+        measurement.measurement.name = item.name.toStdString();
+        measurement.measurement.vertices = item.vertices;
+        measurement.measurement.time = std::chrono::system_clock::time_point(
+            std::chrono::milliseconds(item.time.toMSecsSinceEpoch()));
+        measurement.measurement.result = outcome(item.id).result;
+        if (const Layer* layer = layerOf(item)) {
+            measurement.layer_name = layer->name;
+            if (const auto& crs = layer->map->georeference().crs()) {
+                measurement.crs = *crs;
+            }
+        }
+        named.push_back(std::move(measurement));
+    }
+    return named;
+}
+
 void MeasureController::open(const std::vector<ProjectMeasurement>& saved,
                              const std::vector<LayerId>& layers)
 {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/session/measurement.h"
+#include "core/session/measurement_features.h"
 #include "core/session/project.h"
 #include "core/session/session.h"
 #include "ui/canvas/place_tool.h"
@@ -103,6 +104,8 @@ public:
 
     /// What a project keeps of the measurements that have all the points they need.
     std::vector<ProjectMeasurement> saved() const;
+    /// The same with their results and what is known of their layers, for other programs.
+    std::vector<NamedMeasurement> named() const;
     /// Replaces everything by the measurements of a project, whose layers are those of `layers`.
     /// Not a step of undo.
     void open(const std::vector<ProjectMeasurement>& saved, const std::vector<LayerId>& layers);

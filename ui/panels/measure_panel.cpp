@@ -95,7 +95,7 @@ void MeasurePanel::makeList()
     list_->setEditTriggers(QAbstractItemView::EditKeyPressed);
     list_->setMinimumWidth(180);
     auto* save = new QPushButton(tr("Save &Table…"), side);
-    save->setToolTip(tr("Save all measurements with their results and points as CSV"));
+    save->setToolTip(tr("Save all measurements with their results as CSV or GeoPackage"));
     save->setObjectName(QStringLiteral("saveMeasurements"));
     connect(save, &QPushButton::clicked, this, &MeasurePanel::saveTable);
     auto* layout = new QVBoxLayout(side);
@@ -423,12 +423,26 @@ void MeasurePanel::saveTable()
 {
     auto* dialog = new QFileDialog(this, tr("Save Measurements"), folder_);
     dialog->setAcceptMode(QFileDialog::AcceptSave);
-    dialog->setNameFilters({tr("CSV table (*.csv)")});
+    dialog->setNameFilters({tr("CSV table (*.csv)"), tr("GeoPackage (*.gpkg)")});
     dialog->setDefaultSuffix(QStringLiteral("csv"));
+    connect(dialog, &QFileDialog::filterSelected, dialog, [dialog](const QString& filter) {
+        const QString suffix = filter.contains(QStringLiteral("gpkg")) ? QStringLiteral("gpkg")
+                                                                       : QStringLiteral("csv");
+        dialog->setDefaultSuffix(suffix);
+        dialog->selectFile(tr("measurements") + QLatin1Char('.') + suffix);
+    });
     dialog->selectFile(tr("measurements") + QStringLiteral(".csv"));
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     connect(dialog, &QFileDialog::fileSelected, this, [this](const QString& path) {
         folder_ = QFileInfo(path).absolutePath();
+        if (QFileInfo(path).suffix().compare(QStringLiteral("gpkg"), Qt::CaseInsensitive) == 0) {
+            if (const Status written = writeMeasurements(controller_.named(), path.toStdString());
+                !written) {
+                QMessageBox::warning(this, tr("Save Measurements"),
+                                     QString::fromStdString(written.error().message));
+            }
+            return;
+        }
         QSaveFile file(path);
         if (!file.open(QIODevice::WriteOnly) || file.write(tableCsv().toUtf8()) < 0 ||
             !file.commit()) {

@@ -140,6 +140,16 @@ bool ProjectController::saveAs(const QString& file)
     session_.undoStack().setClean();
     noteChange();
     Q_EMIT saved(path);
+    if (const auto measurements = measuring_.named(); !measurements.empty()) {
+        const QFileInfo project_file(path);
+        const QString beside = project_file.dir().filePath(project_file.completeBaseName() +
+                                                           QStringLiteral("-measurements.gpkg"));
+        if (const Status written = writeMeasurements(measurements, beside.toStdString());
+            !written) {
+            Q_EMIT failed(tr("The project is saved, but not the GeoPackage of its measurements: %1")
+                              .arg(QString::fromStdString(written.error().message)));
+        }
+    }
     return true;
 }
 
