@@ -664,6 +664,7 @@ void MainWindow::connectMeasuring()
     enable();
     actions_->measure->addAction(docks_->measurements()->toggleViewAction());
     measure_marks_->lower();
+    picture_saver_->setMarks(*measure_marks_);
 }
 
 void MainWindow::connectSpaceMouse()

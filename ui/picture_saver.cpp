@@ -3,6 +3,7 @@
 #include "ui/canvas/picture_drawing.h"
 #include "ui/canvas/picture_writer.h"
 #include "ui/canvas/terrain_view.h"
+#include "ui/overlay/measure_marks.h"
 
 #include <QDir>
 #include <QFileDialog>
@@ -99,6 +100,11 @@ void PictureSaver::save(const QString& file, const OrbitCamera& camera, const Pi
                                 {.has_legend = choice.has_legend,
                                  .has_scale = choice.has_scale,
                                  .has_labels = choice.has_labels});
+    if (choice.has_labels && marks_ != nullptr) {
+        for (PicturePart& part : marks_->partsFor(choice.size)) {
+            parts_.push_back(std::move(part));
+        }
+    }
     monitor_ = std::make_shared<JobMonitor>();
     drawing_ = std::make_unique<PictureDrawing>(view_, camera, choice.size,
                                                 choice.has_labels ? PictureLines::Drawn

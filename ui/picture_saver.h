@@ -17,6 +17,7 @@
 namespace marsview {
 
 class PictureDrawing;
+class MeasureMarks;
 class TerrainView;
 
 /// Asks for size and contents, then for a file, and writes the picture of the view at that
@@ -30,6 +31,9 @@ public:
 
     PictureSaver(TerrainView& view, MapOverlays& overlays, Memory memory, QWidget* parent);
     ~PictureSaver() override;
+
+    /// Points and labels that belong to the lines on the map; outlive this.
+    void setMarks(const MeasureMarks& marks) { marks_ = &marks; }
 
     /// `name` is offered for the file, without ending. Not while isSaving().
     void start(const QString& name);
@@ -58,6 +62,7 @@ private:
 
     TerrainView& view_;
     MapOverlays& overlays_;
+    const MeasureMarks* marks_ = nullptr;
     Memory memory_;
     QWidget* window_ = nullptr;
     QString folder_;

@@ -7,6 +7,7 @@
 #include "ui/canvas/terrain_view.h"
 #include "ui/controllers/measure_controller.h"
 #include "ui/panels/measure_panel.h"
+#include "ui/picture_saver.h"
 #include "ui/plots/profile_plot.h"
 #include "ui/project/project_controller.h"
 #include "ui/window_actions.h"
@@ -265,6 +266,42 @@ TEST_F(MeasureTest, TheListNamesShowsAndRemoves)
     window_->undoStack().undo();
     EXPECT_EQ(panel().list()->topLevelItemCount(), 1);
     EXPECT_EQ(measuring().state().items.front().name, QStringLiteral("Layer of rock"));
+}
+
+// Its line, its points and its label, in a picture twice as large as the view.
+TEST_F(MeasureTest, ASavedPictureHasTheMeasurement)
+{
+    ASSERT_NO_FATAL_FAILURE(choose(MeasurementKind::Distance));
+    const QPoint from = at(-0.15, 0.05);
+    const QPoint to = at(0.1, -0.05);
+    click(from);
+    click(to);
+    measuring().finish();
+    ASSERT_TRUE(isMeasured());
+    ASSERT_TRUE(QTest::qWaitFor([this] { return view().isPictureComplete(); }, kTimeout));
+    auto* saver = window_->findChild<PictureSaver*>();
+    ASSERT_NE(saver, nullptr);
+    const QSize size = 2 * QSize(view().viewport().width, view().viewport().height);
+    const auto picture = [&](bool has_labels) {
+        const QString file = maps_.path(QStringLiteral("measured.png"));
+        saver->save(
+            file, view().camera(),
+            {.size = size, .has_legend = false, .has_scale = false, .has_labels = has_labels});
+        EXPECT_TRUE(QTest::qWaitFor([&] { return !saver->isSaving(); }, kTimeout));
+        return QImage(file);
+    };
+    const QImage with = picture(true);
+    const QImage without = picture(false);
+    const auto differs = [&](QPointF place) {
+        const QPoint pixel = (2.0 * place).toPoint();
+        return with.pixel(pixel) != without.pixel(pixel);
+    };
+    EXPECT_TRUE(differs(from));
+    EXPECT_TRUE(differs(to));
+    EXPECT_TRUE(differs(0.5 * (QPointF(from) + QPointF(to))));
+    // The label lies to the upper right of the last point.
+    EXPECT_TRUE(differs(QPointF(to) + QPointF(25.0, -18.0)));
+    EXPECT_FALSE(differs(QPointF(from) + QPointF(-30.0, 30.0)));
 }
 
 // Saved, closed, and opened in another window: the same points on the same layer, measured anew.
