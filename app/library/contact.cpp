@@ -19,8 +19,12 @@
 namespace marsview::contact {
 namespace {
 
+constexpr Model kLastModel = Model::ProxyGraph2003;
+static_assert(static_cast<std::size_t>(kLastModel) + 1 == kContactModelKinds.size());
 static_assert(static_cast<int>(Model::VirtualProxy) ==
               static_cast<int>(ContactModelKind::VirtualProxy));
+static_assert(static_cast<int>(Model::ProxyGraph2003) ==
+              static_cast<int>(ContactModelKind::ProxyGraph2003));
 static_assert(static_cast<int>(Model::GodObjectRelease) ==
               static_cast<int>(ContactModelKind::GodObjectRelease));
 static_assert(static_cast<int>(SampleType::Float64) ==
@@ -204,7 +208,7 @@ double Surface::height(double x, double y) const noexcept
 
 const char* modelName(Model model) noexcept
 {
-    return model <= Model::VirtualProxy
+    return model <= kLastModel
                ? contactModelName(static_cast<ContactModelKind>(model)).data() // of literals
                : "";
 }
@@ -226,7 +230,7 @@ struct ContactModel::Running {
 ContactModel::ContactModel(const Surface& surface, const ModelOptions& options)
     : running_(std::make_unique<Running>())
 {
-    if (options.model > Model::VirtualProxy) {
+    if (options.model > kLastModel) {
         refuse("unknown contact model");
     }
     if (!(options.radius_m > 0.0) || !std::isfinite(options.radius_m) ||

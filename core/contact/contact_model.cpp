@@ -10,8 +10,8 @@ namespace marsview {
 namespace {
 
 constexpr std::array<std::string_view, kContactModelKinds.size()> kNames{
-    "proxy-graph", "surface-walk",       "continuous-walk",
-    "god-object",  "god-object-release", "virtual-proxy",
+    "proxy-graph",        "surface-walk",  "continuous-walk",  "god-object",
+    "god-object-release", "virtual-proxy", "proxy-graph-2003",
 };
 
 } // namespace

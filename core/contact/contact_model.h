@@ -22,12 +22,14 @@ enum class ContactModelKind : std::uint8_t {
     GodObject,        // god_object.h, constraints kept within an update
     GodObjectRelease, // god_object.h, constraints released
     VirtualProxy,     // virtual_proxy.h
+    ProxyGraph2003,   // proxy_graph_2003.h
 };
 
 inline constexpr std::array kContactModelKinds{
     ContactModelKind::ProxyGraph,       ContactModelKind::SurfaceWalk,
     ContactModelKind::ContinuousWalk,   ContactModelKind::GodObject,
     ContactModelKind::GodObjectRelease, ContactModelKind::VirtualProxy,
+    ContactModelKind::ProxyGraph2003,
 };
 
 /// The model's name on the command line and in settings files, "proxy-graph".

@@ -6,6 +6,7 @@
 #include "core/contact/continuous_walk.h"
 #include "core/contact/god_object.h"
 #include "core/contact/proxy_graph.h"
+#include "core/contact/proxy_graph_2003.h"
 #include "core/contact/surface_walk.h"
 #include "core/contact/virtual_proxy.h"
 
@@ -64,6 +65,8 @@ makeHeld(ContactModelKind kind, const S& surface, const ContactModelOptions& opt
         return std::make_unique<H<GodObject<S>>>(surface, GodObjectConstraints::Released);
     case ContactModelKind::VirtualProxy:
         return std::make_unique<H<VirtualProxy<S>>>(surface, options.radius_m);
+    case ContactModelKind::ProxyGraph2003:
+        return std::make_unique<H<ProxyGraph2003<S>>>(surface);
     }
     MARSVIEW_CHECK(false);
 }

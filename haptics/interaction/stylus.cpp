@@ -195,7 +195,9 @@ bool Stylus::isOnItsMap(const ScenePoint& proxy) const
 void Stylus::updatePose(StylusMode mode, const ScenePoint& goal)
 {
     const ContactState state = model_ ? model_->state() : ContactState{};
-    const ScenePoint proxy = state.is_in_contact ? state.proxy : goal;
+    // A press that no contact can be kept for rests on the ground that it was aimed at.
+    const ScenePoint free = mode == StylusMode::Press ? aimedGround() : goal;
+    const ScenePoint proxy = state.is_in_contact ? state.proxy : free;
     pose_ =
         StylusPose{.mode = mode,
                    .proxy = proxy,

@@ -27,12 +27,20 @@ constexpr std::array kWords{
                           "but a fast stroke may end in a neighboring dip")},
     ContactModelWords{
         ContactModelKind::ProxyGraph,
-        //: A contact model, with the year of its paper
-        QT_TRANSLATE_NOOP("WindowActions", "&Proxy Graph (2003)"),
+        //: A contact model: it walks on the graph of the vertices and edges of the ground
+        QT_TRANSLATE_NOOP("WindowActions", "&Proxy Graph"),
         //: Status tip of a contact model: its behavior and its cost
         QT_TRANSLATE_NOOP("WindowActions",
-                          "Goes along edges from corner to corner, as the paper does; quick, but "
+                          "Goes along edges from corner to corner and on across faces; quick, but "
                           "a fast stroke ends in a neighboring dip more often")},
+    ContactModelWords{
+        ContactModelKind::ProxyGraph2003,
+        //: A contact model: the proxy graph exactly as its paper describes it
+        QT_TRANSLATE_NOOP("WindowActions", "Proxy Graph as Published (&2003)"),
+        //: Status tip of a contact model: its behavior and its cost
+        QT_TRANSLATE_NOOP("WindowActions",
+                          "Follows the rules of the 2003 paper to the letter, for comparison; it "
+                          "rests farther from the nearest point than the others do")},
     ContactModelWords{
         ContactModelKind::GodObject,
         //: A contact model, by the name that the literature gave it

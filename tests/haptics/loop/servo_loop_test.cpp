@@ -121,11 +121,11 @@ TEST(ServoLoop, TakesOtherSettingsWhileItRuns)
     ServoLoop loop(simulated(), quick(0));
     const auto filled = filledTerrain(201, 201, bumps);
     for (int i = 0; i < 60; ++i) {
-        LoopSettings settings =
-            settingsFor(makeServoMap(meterFrame(201, 201), filled,
-                                     {.kind = kContactModelKinds[static_cast<std::size_t>(i) % 6],
-                                      .contact = {.radius_m = 0.5},
-                                      .map_id = static_cast<std::uint64_t>(i / 10)}));
+        LoopSettings settings = settingsFor(makeServoMap(
+            meterFrame(201, 201), filled,
+            {.kind = kContactModelKinds[static_cast<std::size_t>(i) % kContactModelKinds.size()],
+             .contact = {.radius_m = 0.5},
+             .map_id = static_cast<std::uint64_t>(i / 10)}));
         settings.frame_number = static_cast<std::uint64_t>(i / 5);
         settings.is_stopped = i % 7 == 0;
         loop.set(settings);

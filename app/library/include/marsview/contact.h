@@ -106,6 +106,7 @@ enum class Model : std::uint8_t {
     GodObject,        // Zilles and Salisbury 1995, constraints kept within an update
     GodObjectRelease, // constraints released
     VirtualProxy,     // a sphere swept over the surface (Ruspini, Kolarov and Khatib 1997)
+    ProxyGraph2003,   // as Walker and Salisbury published it, to the letter
 };
 
 /// "continuous-walk" and so on, as the command line has them.
