@@ -322,6 +322,8 @@ void MainWindow::connectActions()
         preferences.contact_model = static_cast<ContactModelKind>(action->data().toInt());
         setPreferences(preferences);
     });
+    on(actions_->next_panel, [this] { docks_->moveFocus(*view_, FocusStep::Next); });
+    on(actions_->previous_panel, [this] { docks_->moveFocus(*view_, FocusStep::Previous); });
     on(actions_->full_screen, [this](bool is_full) {
         setWindowState(windowState().setFlag(Qt::WindowFullScreen, is_full));
     });

@@ -248,6 +248,13 @@ void WindowActions::makeViewMenu(QMainWindow& window, QWidget& map)
     add_key(exaggerate_less, {Qt::Key_Minus});
     menu->addSeparator();
     panels = menu->addMenu(tr("&Panels"));
+    next_panel = panels->addAction(tr("&Next Panel"));
+    next_panel->setShortcut(Qt::Key_F6);
+    next_panel->setToolTip(tr("Move the keyboard focus to the next panel or the map"));
+    previous_panel = panels->addAction(tr("&Previous Panel"));
+    previous_panel->setShortcut(Qt::SHIFT | Qt::Key_F6);
+    previous_panel->setToolTip(tr("Move the keyboard focus to the previous panel or the map"));
+    panels->addSeparator();
     full_screen = menu->addAction(tr("Full &Screen"));
     full_screen->setShortcut(Qt::Key_F11);
     full_screen->setCheckable(true);

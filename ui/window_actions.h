@@ -49,7 +49,9 @@ struct WindowActions {
     QAction* exaggerate_more = nullptr;
     QAction* exaggerate_less = nullptr;
     QMenu* view_menu = nullptr;
-    QMenu* panels = nullptr;        // filled by the docks
+    QMenu* panels = nullptr; // the rest is filled by the docks
+    QAction* next_panel = nullptr;
+    QAction* previous_panel = nullptr;
     QAction* full_screen = nullptr; // checkable
 
     LayerActions layer;

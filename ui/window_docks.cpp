@@ -1,6 +1,7 @@
 #include "ui/window_docks.h"
 
 #include <QAction>
+#include <QApplication>
 #include <QDockWidget>
 #include <QMainWindow>
 #include <QScopedValueRollback>
@@ -17,6 +18,27 @@ constexpr int kStateVersion = 3; // of saveState(); raise when docks or toolbars
 constexpr int kDockShareOfWidth = 3;
 constexpr int kDockWidthMin = 200;
 constexpr int kDockWidthMax = 300;
+
+// The control of a panel that had the focus last; at first the first one; null if there is none.
+QWidget* focusTargetIn(const QWidget& panel)
+{
+    const auto can_take = [&panel](const QWidget* widget) {
+        return panel.isAncestorOf(widget) && widget->isVisible() && widget->isEnabled() &&
+               (widget->focusPolicy() & Qt::TabFocus) == Qt::TabFocus;
+    };
+    if (QWidget* last = panel.focusWidget(); last != nullptr && can_take(last)) {
+        return last;
+    }
+    QWidget* const start = panel.nextInFocusChain();
+    QWidget* widget = start;
+    while (widget != nullptr && !can_take(widget)) {
+        widget = widget->nextInFocusChain();
+        if (widget == start) {
+            return nullptr;
+        }
+    }
+    return widget;
+}
 
 bool isDocked(const QDockWidget& dock)
 {
@@ -79,6 +101,40 @@ void WindowDocks::reveal(QDockWidget& widget)
     for (Dock* dock : all()) {
         if (dock->widget == &widget) {
             userToggled(*dock, true);
+        }
+    }
+}
+
+void WindowDocks::moveFocus(QWidget& map, FocusStep step)
+{
+    QList<QWidget*> stops = {&map};
+    for (QDockWidget* dock :
+         {datasets_.widget, georeferencing_.widget, haptics_.widget, measurements_}) {
+        if (dock->isVisibleTo(&window_)) {
+            stops.append(dock);
+        }
+    }
+    const QWidget* focus = QApplication::focusWidget();
+    qsizetype at = 0; // outside map and panels, the circle starts at the map
+    for (qsizetype i = 1; i < stops.size(); ++i) {
+        if (focus != nullptr && stops[i]->isAncestorOf(focus)) {
+            at = i;
+        }
+    }
+    const qsizetype stride = step == FocusStep::Next ? 1 : stops.size() - 1;
+    for (qsizetype i = 0; i < stops.size(); ++i) {
+        at = (at + stride) % stops.size();
+        QWidget* stop = stops[at];
+        if (stop == &map) {
+            map.window()->activateWindow(); // a floating panel may be active
+            map.setFocus(Qt::ShortcutFocusReason);
+            return;
+        }
+        stop->raise();
+        if (QWidget* target = focusTargetIn(*qobject_cast<QDockWidget*>(stop)->widget())) {
+            target->activateWindow();
+            target->setFocus(Qt::ShortcutFocusReason);
+            return;
         }
     }
 }

@@ -20,6 +20,8 @@ struct DockContents {
     QWidget* measurements = nullptr;
 };
 
+enum class FocusStep { Next, Previous };
+
 /// Layers on the left; georeferencing on the right, with haptics as a second tab, closed at first.
 /// Docked panels leave two thirds of the width to the map and never become too narrow to read. In a
 /// narrow window, panels are hidden, the least recently requested first; they return when the
@@ -38,6 +40,10 @@ public:
 
     /// Shows a panel, whatever has to make way.
     void reveal(QDockWidget& dock);
+    /// Moves the keyboard focus among the map and the open panels, in a circle: map, layers,
+    /// georeferencing, haptics, measurements. A panel gets the focus where it was last, and comes
+    /// to the front of its tabs.
+    void moveFocus(QWidget& map, FocusStep step);
     /// To be called whenever the window has another width.
     void fit();
 

@@ -155,6 +155,44 @@ TEST_F(AccessibilityTest, EveryButtonOfTheToolbarIsInAMenuToo)
     }
 }
 
+TEST_F(AccessibilityTest, F6MovesTheFocusFromTheMapThroughAllOpenPanelsAndBack)
+{
+    WindowDocks& docks = *window_->docks();
+    docks.haptics()->show(); // a tab behind georeferencing
+    docks.measurements()->show();
+    docks.georeferencing()->raise();
+    QCoreApplication::processEvents();
+    view().setFocus();
+    const QList<QDockWidget*> panels{docks.datasets(), docks.georeferencing(), docks.haptics(),
+                                     docks.measurements()};
+    QList<QWidget*> controls;
+    for (QDockWidget* panel : panels) {
+        QTest::keyClick(QApplication::focusWidget(), Qt::Key_F6);
+        QCoreApplication::processEvents();
+        controls.append(QApplication::focusWidget());
+        ASSERT_NE(controls.last(), nullptr);
+        EXPECT_TRUE(panel->isAncestorOf(controls.last()))
+            << panel->windowTitle().toStdString() << ": "
+            << describe(*controls.last()).toStdString();
+        // In sight: not behind another tab or outside the window.
+        const QWidget& control = *controls.last();
+        const QWidget* seen = QApplication::widgetAt(control.mapToGlobal(control.rect().center()));
+        EXPECT_TRUE(seen == &control || control.isAncestorOf(seen))
+            << describe(control).toStdString();
+    }
+    QTest::keyClick(QApplication::focusWidget(), Qt::Key_F6);
+    EXPECT_TRUE(view().hasFocus());
+    for (auto control = controls.crbegin(); control != controls.crend(); ++control) {
+        QTest::keyClick(QApplication::focusWidget(), Qt::Key_F6, Qt::ShiftModifier);
+        QCoreApplication::processEvents();
+        EXPECT_EQ(QApplication::focusWidget(), *control);
+    }
+    docks.measurements()->hide(); // closed panels are passed over
+    view().setFocus();
+    QTest::keyClick(&view(), Qt::Key_F6, Qt::ShiftModifier);
+    EXPECT_TRUE(docks.haptics()->isAncestorOf(QApplication::focusWidget()));
+}
+
 TEST_F(AccessibilityTest, NoTwoActionsShareAKeyWhereBothCouldBeMeant)
 {
     QMap<QString, QString> owners;

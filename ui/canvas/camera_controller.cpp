@@ -121,7 +121,7 @@ void CameraController::steer(const CapRates& rates, double seconds)
 void CameraController::goHome()
 {
     if (!scene_.isEmpty()) {
-        navigator_.moveTo(homeCamera(scene_.box(), viewport()), kFlyDuration);
+        moveTo(homeCamera(scene_.box(), viewport()), kFlyDuration);
     }
 }
 
@@ -130,7 +130,7 @@ void CameraController::turnNorthUp()
     if (!scene_.isEmpty()) {
         OrbitCamera camera = onGround(navigator_.goal());
         camera.azimuth = {};
-        navigator_.moveTo(camera, kFlyDuration);
+        moveTo(camera, kFlyDuration);
     }
 }
 

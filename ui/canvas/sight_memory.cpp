@@ -3,13 +3,13 @@
 #include "core/view/exaggeration.h"
 
 #include <algorithm>
+#include <string>
 
 namespace marsview {
 namespace {
 
-// Whether two pictures of one file, a preview maybe, have their outer corners in the same places of
-// the scene.
-bool isSameGround(const Map& a, const Map& b)
+// Whether two maps have their outer corners in the same places of the scene.
+bool haveSameCorners(const Map& a, const Map& b)
 {
     const auto corner = [](const Map& map, double side) {
         const Georeference& georeference = map.georeference();
@@ -21,14 +21,25 @@ bool isSameGround(const Map& a, const Map& b)
     };
     constexpr double kTolerance = 1e-6;
     const double tolerance_m = kTolerance * length(corner(a, 1.0) - corner(a, 0.0));
-    return a.spec().path == b.spec().path &&
-           length(corner(a, 0.0) - corner(b, 0.0)) <= tolerance_m &&
+    return length(corner(a, 0.0) - corner(b, 0.0)) <= tolerance_m &&
            length(corner(a, 1.0) - corner(b, 1.0)) <= tolerance_m;
 }
 
+// The same scene coordinates are the same places. The scene of a map has its origin in the map's
+// center, so that this takes more than equal frames, except for one file, be it as a preview or
+// with other overrides.
 bool isSamePlace(const Map& a, const Map& b)
 {
-    return a.georeference().sceneFrame() == b.georeference().sceneFrame() || isSameGround(a, b);
+    const Georeference& there = a.georeference();
+    const Georeference& here = b.georeference();
+    if (a.spec().path == b.spec().path) {
+        return there.sceneFrame() == here.sceneFrame() || haveSameCorners(a, b);
+    }
+    const auto wkt = [](const Georeference& georeference) {
+        return georeference.crs() ? georeference.crs()->wkt() : std::string();
+    };
+    return there.sceneFrame() == here.sceneFrame() && there.transform() == here.transform() &&
+           wkt(there) == wkt(here);
 }
 
 // Where one of the maps was in the picture before, the same piece of it stays in sight. Otherwise a

@@ -47,6 +47,27 @@ TEST_F(SightMemoryTest, ANewMapGetsItsOpeningViewAndTheExaggerationThatSuitsIt)
     EXPECT_EQ(next.exaggeration, suitableExaggeration(*hill_));
 }
 
+// Two tiles of one size: scene coordinates count from the center of each.
+TEST_F(SightMemoryTest, ANeighborOfTheSameSizeIsAnotherPlace)
+{
+    const auto height = [](int column, int row) { return 10.0 * column + row; };
+    const auto tile = [&](const char* name, double x_lower_left) {
+        return test::loadedMap(maps_
+                                   .write(QString::fromLatin1(name),
+                                          {.columns = 50, .x_lower_left = x_lower_left}, height)
+                                   .toStdString());
+    };
+    const auto west = tile("west.asc", 500000.0);
+    const auto east = tile("east.asc", 501500.0);
+    ASSERT_EQ(west->georeference().sceneFrame(), east->georeference().sceneFrame());
+    const NextSight next =
+        nextSight(sceneOf({west}), sceneOf({east}), camera_, memory_, std::nullopt);
+    EXPECT_TRUE(next.is_opening);
+    const auto twin = tile("twin.asc", 500000.0);
+    EXPECT_FALSE(
+        nextSight(sceneOf({west}), sceneOf({twin}), camera_, memory_, std::nullopt).is_opening);
+}
+
 TEST_F(SightMemoryTest, AMapThatWasShownBeforeIsSeenAsItWasLeft)
 {
     const ShownScene before = sceneOf({slope_});

@@ -242,6 +242,22 @@ TEST_F(TerrainViewTest, StopsFlyingWhenPressed)
     QTest::mouseRelease(&view(), Qt::LeftButton, {}, middle());
 }
 
+// An opening view follows the size of the window; one that was asked for does not.
+TEST_F(TerrainViewTest, AResizeKeepsTheViewThatHomeOrNorthUpLeft)
+{
+    for (void (TerrainView::*const go)() : {&TerrainView::goHome, &TerrainView::turnNorthUp}) {
+        window_.reset();
+        ASSERT_NO_FATAL_FAILURE(SetUp());
+        (view().*go)();
+        ASSERT_TRUE(arrive());
+        const OrbitCamera camera = view().camera();
+        const QSize size = view().size();
+        window_->resize(window_->width(), window_->height() - 150);
+        ASSERT_TRUE(QTest::qWaitFor([&] { return view().size() != size; }, 5000));
+        EXPECT_EQ(view().camera(), camera);
+    }
+}
+
 TEST_F(TerrainViewTest, ObeysTheKeys)
 {
     QApplication::setActiveWindow(window_.get()); // possibly without a window manager
