@@ -11,6 +11,7 @@
 #include "ui/controllers/haptics_controller.h"
 #include "ui/controllers/measure_controller.h"
 #include "ui/controllers/recent_files.h"
+#include "ui/controllers/vector_overlays.h"
 #include "ui/dialogs/about_dialog.h"
 #include "ui/dialogs/address_dialog.h"
 #include "ui/dialogs/guide_window.h"
@@ -36,6 +37,7 @@
 #include "ui/text/number_text.h"
 #include "ui/text/sentence.h"
 #include "ui/theme.h"
+#include "ui/vector_tools.h"
 #include "ui/whats_this.h"
 #include "ui/widgets/coordinate_field.h"
 #include "ui/widgets/icons.h"
@@ -476,6 +478,18 @@ void MainWindow::connectNames()
     connect(contour_tools_, &ContourTools::failed, this, [this](const QString& problem) {
         reportFailure(tr("Cannot Export Contours"), problem);
     });
+    vector_tools_ = new VectorTools({.window = *this,
+                                     .session = *controller_,
+                                     .view = *view_,
+                                     .open = *actions_->open_vector,
+                                     .files = *actions_->vector_files},
+                                    this);
+    connect(vector_tools_, &VectorTools::opened, this, [this](const QString& message) {
+        statusBar()->showMessage(message, kMessageDuration);
+    });
+    connect(vector_tools_, &VectorTools::failed, this, [this](const QString& problem) {
+        reportFailure(tr("Cannot Open Vector File"), problem);
+    });
     name_search_ = new NameSearch({.window = *this,
                                    .view = *view_,
                                    .overlays = *overlays_,
@@ -533,9 +547,22 @@ PlaceFacts MainWindow::factsAt(const GroundPoint& ground) const
     const auto& layers = session().layers;
     const auto layer = std::find_if(layers.begin(), layers.end(),
                                     [&](const Layer& known) { return known.map == map; });
-    return placeFacts(*map, layer != layers.end() ? QString::fromStdString(layer->name) : QString(),
-                      ground.grid,
-                      {.format = preferences_.coordinates, .unit = preferences_.height_unit});
+    PlaceFacts facts = placeFacts(
+        *map, layer != layers.end() ? QString::fromStdString(layer->name) : QString(), ground.grid,
+        {.format = preferences_.coordinates, .unit = preferences_.height_unit});
+    constexpr double kReachPoints = 6.0;
+    const ScenePoint place = view_->ground().maps()[ground.index].frame.toScene(
+        ground.grid, ground.height_m * view_->exaggeration());
+    const double point_m =
+        view_->devicePixelRatioF() * metersPerPixel(view_->camera(), view_->viewport(), place);
+    for (const VectorOverlays::Hit& hit :
+         vector_tools_->overlays().featuresAt(place, kReachPoints * point_m)) {
+        facts.facts.push_back({.name = tr("Vector file"), .value = hit.file});
+        for (const auto& [name, value] : hit.attributes) {
+            facts.facts.push_back({.name = name, .value = value});
+        }
+    }
+    return facts;
 }
 
 // Children of the window alone: the view loses the focus while the window is being destroyed.
@@ -826,6 +853,7 @@ void MainWindow::showSession()
     }
     overlays_->setSession(session());
     measure_->setSession(session());
+    vector_tools_->setSession(session());
     showActive();
     settleIfIdle();
 }

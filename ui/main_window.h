@@ -38,6 +38,7 @@ class NameSearch;
 class NoticeBar;
 class NoticeCenter;
 class PictureSaver;
+class VectorTools;
 class ProjectController;
 class ProjectMenu;
 class RecentFiles;
@@ -102,6 +103,7 @@ public:
     HapticsPanel* hapticsPanel() const noexcept { return haptics_panel_; }
     MeasureController* measuring() const noexcept { return measure_; }
     MeasurePanel* measurePanel() const noexcept { return measure_panel_; }
+    VectorTools& vectorTools() const noexcept { return *vector_tools_; }
     HapticsController& haptics() noexcept { return *haptics_; }
     const SpaceMouseController& spacemouse() const noexcept { return *spacemouse_; }
     WindowDocks* docks() const noexcept { return docks_; }
@@ -212,6 +214,7 @@ private:
     MeasureController* measure_ = nullptr;
     MeasureMarks* measure_marks_ = nullptr;
     MeasurePanel* measure_panel_ = nullptr;
+    VectorTools* vector_tools_ = nullptr;
     WindowDocks* docks_ = nullptr;
     WindowPlace* place_ = nullptr; // only where the window is remembered
     MainToolBar* tool_bar_ = nullptr;

@@ -165,6 +165,9 @@ void WindowActions::makeFileMenu(QMainWindow& window)
     open_names = menu->addAction(tr("Open Na&mes…"));
     open_names->setToolTip(tr("Open a file of named points to find and show on the map"));
     open_names->setEnabled(false);
+    open_vector = menu->addAction(tr("Open Vector Fi&le…"));
+    open_vector->setToolTip(tr("Draw points, lines and polygons of a file on the terrain"));
+    open_vector->setEnabled(false);
     recent = menu->addMenu(tr("Open &Recent"));
     menu->addSeparator();
     save_picture = menu->addAction(tr("Save &Picture…"));
@@ -338,6 +341,10 @@ void WindowActions::makeLayerMenu(QMainWindow& window)
     override_georeferencing = menu->addAction(tr("Set Body, &CRS…"));
     override_georeferencing->setToolTip(
         tr("Set body, CRS, elevation unit and more for a file that lacks them"));
+    menu->addSeparator();
+    vector_files = menu->addMenu(tr("&Vector Files"));
+    vector_files->menuAction()->setStatusTip(tr("Show, find, color or close open vector files"));
+    vector_files->setEnabled(false);
     menu->addSeparator();
     layer.remove = menu->addAction(tr("R&emove Layer"));
     layer.remove->setIconText(tr("Remove"));

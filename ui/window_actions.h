@@ -31,6 +31,8 @@ struct WindowActions {
     QAction* open_folder = nullptr;
     QAction* open_address = nullptr;
     QAction* open_names = nullptr;
+    QAction* open_vector = nullptr;
+    QMenu* vector_files = nullptr; // open ones
     QMenu* recent = nullptr; // filled by RecentFiles
     QAction* save_picture = nullptr;
     QAction* cancel_loading = nullptr;

@@ -260,6 +260,16 @@ Json measurementJson(const ProjectMeasurement& measurement)
     return json;
 }
 
+Json overlayJson(const VectorOverlay& overlay, const ProjectFolders& folders)
+{
+    Json json = Json::object();
+    putSource(json, overlay.path, folders);
+    json["color"] = fmt::format("#{:02x}{:02x}{:02x}", overlay.color.red, overlay.color.green,
+                                overlay.color.blue);
+    json["visible"] = overlay.is_visible;
+    return json;
+}
+
 Json lookJson(const TerrainLook& look)
 {
     Json json = Json::object();
@@ -450,8 +460,26 @@ ProjectMeasurement measurementFrom(Members& members, std::size_t layer_count)
     return measurement;
 }
 
-constexpr std::array kKnownMembers{"format", "version", "active",      "look",
-                                   "camera", "layers",  "measurements"};
+VectorOverlay overlayFrom(Members& members, const ProjectFolders& folders)
+{
+    VectorOverlay overlay;
+    overlay.path = pathFrom(members, folders);
+    std::string color;
+    members.text("color", color);
+    unsigned rgb = 0;
+    char rest = '\0';
+    if (color.size() == 7 && std::sscanf(color.c_str(), "#%6x%c", &rgb, &rest) == 1) { // NOLINT
+        overlay.color = {static_cast<std::uint8_t>(rgb >> 16U),
+                         static_cast<std::uint8_t>(rgb >> 8U), static_cast<std::uint8_t>(rgb)};
+    } else if (members.has("color")) {
+        members.refuse("color", "a color such as #ffdd40");
+    }
+    members.flag("visible", overlay.is_visible);
+    return overlay;
+}
+
+constexpr std::array kKnownMembers{"format", "version", "active",   "look",
+                                   "camera", "layers",  "overlays", "measurements"};
 
 } // namespace
 
@@ -484,6 +512,7 @@ Project projectOf(const Session& session)
                          [id](const MissingLayer& candidate) { return candidate.id == id; });
         project.layers.push_back(missing->record);
     }
+    project.overlays = session.overlays;
     project.look = session.look;
     return project;
 }
@@ -505,6 +534,13 @@ Result<std::string> projectText(const Project& project, const ProjectFolders& fo
         layers.push_back(layerJson(layer, folders));
     }
     json["layers"] = std::move(layers);
+    if (!project.overlays.empty()) {
+        Json overlays = Json::array();
+        for (const VectorOverlay& overlay : project.overlays) {
+            overlays.push_back(overlayJson(overlay, folders));
+        }
+        json["overlays"] = std::move(overlays);
+    }
     if (!project.measurements.empty()) {
         Json measurements = Json::array();
         for (const ProjectMeasurement& measurement : project.measurements) {
@@ -567,6 +603,11 @@ projectFrom(std::string_view text, const ProjectFolders& folders, const std::str
         return damaged("the list of layers is missing");
     }
     members.index("active", project.active, project.layers.size());
+    members.list("overlays", kLayersMax, "a list of vector files",
+                 [&](const Json& element, const std::string& place) {
+                     Members overlay(element, place, fault);
+                     project.overlays.push_back(overlayFrom(overlay, folders));
+                 });
     members.list("measurements", kMeasurementsMax, "a list of measurements",
                  [&](const Json& element, const std::string& place) {
                      Members measurement(element, place, fault);

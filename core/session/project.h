@@ -51,8 +51,9 @@ struct ProjectMeasurement {
 
 /// What a project file states.
 struct Project {
-    std::vector<LayerRecord> layers;     // top first
-    std::optional<std::size_t> active{}; // an index of `layers`
+    std::vector<LayerRecord> layers;       // top first
+    std::optional<std::size_t> active{};   // an index of `layers`
+    std::vector<VectorOverlay> overlays{}; // in the order of Session::overlays
     TerrainLook look{};
     std::optional<ProjectCamera> camera{};
     std::vector<ProjectMeasurement> measurements{};
@@ -71,7 +72,8 @@ struct ProjectFolders {
 /// The layers of a session, with the missing ones in their places, from the top.
 std::vector<LayerId> projectOrder(const Session& session);
 
-/// The project of a session: its layers in projectOrder(). Without camera and measurements.
+/// The project of a session: its layers in projectOrder(), its overlays and its look. Without
+/// camera and measurements.
 Project projectOf(const Session& session);
 
 /// The JSON text: members in a fixed order, one value a line, every number exact; only an angle

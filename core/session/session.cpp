@@ -244,6 +244,26 @@ Session withLook(Session session, const TerrainLook& look)
     return session;
 }
 
+Session withOverlay(Session session, VectorOverlay overlay)
+{
+    const auto known =
+        std::find_if(session.overlays.begin(), session.overlays.end(),
+                     [&](const VectorOverlay& other) { return other.path == overlay.path; });
+    if (known != session.overlays.end()) {
+        *known = std::move(overlay);
+    } else {
+        session.overlays.push_back(std::move(overlay));
+    }
+    return session;
+}
+
+Session withoutOverlay(Session session, const std::string& path)
+{
+    std::erase_if(session.overlays,
+                  [&path](const VectorOverlay& overlay) { return overlay.path == path; });
+    return session;
+}
+
 std::vector<LayerState> placement(const Session& session)
 {
     std::vector<LayerState> states;

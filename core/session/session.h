@@ -5,6 +5,7 @@
 #pragma once
 
 #include "core/session/map.h"
+#include "core/view/color_ramp.h"
 #include "core/view/color_stretch.h"
 #include "core/view/slope_range.h"
 #include "core/view/terrain_look.h"
@@ -61,9 +62,19 @@ struct MissingLayer {
     bool operator==(const MissingLayer&) const = default;
 };
 
+/// A file of points, lines and polygons that is drawn over the layers.
+struct VectorOverlay {
+    std::string path; // unique in a session
+    Rgb8 color{255, 221, 64};
+    bool is_visible = true;
+
+    bool operator==(const VectorOverlay&) const = default;
+};
+
 struct Session {
-    std::vector<Layer> layers;           // top first
-    std::vector<MissingLayer> missing{}; // by index, ascending
+    std::vector<Layer> layers;             // top first
+    std::vector<MissingLayer> missing{};   // by index, ascending
+    std::vector<VectorOverlay> overlays{}; // in the order in which they were opened
     /// The layer that panels and the status bar describe; None only without layers.
     LayerId active = LayerId::None;
     TerrainLook look;
@@ -117,6 +128,9 @@ Session withName(Session session, LayerId id, std::string name);
 /// A layer whose exaggeration suited the old map gets the one that suits the new map.
 Session withMap(Session session, LayerId id, std::shared_ptr<const Map> map);
 Session withLook(Session session, const TerrainLook& look);
+/// Adds an overlay, or replaces the one of that path.
+Session withOverlay(Session session, VectorOverlay overlay);
+Session withoutOverlay(Session session, const std::string& path);
 
 /// Whether a layer is in the picture, and if not, the reason.
 enum class LayerState {

@@ -105,6 +105,25 @@ TEST_F(LineRendererTest, LinesHaveTheirWidthAtEveryDistance)
     }
 }
 
+// The ground below the near side of a line is nearer to the eye than the line.
+TEST_F(LineRendererTest, LinesHaveTheirWidthOnGroundThatIsTilted)
+{
+    const DrapedLine line{.points = {{-5000.0, 0.0, 0.0}, {5000.0, 0.0, 0.0}},
+                          .color = kLineColor,
+                          .width_points = 4.0};
+    for (const double tilt_deg : {30.0, 60.0, 75.0}) {
+        OrbitCamera camera = fromAbove(900.0);
+        camera.tilt = Angle::degrees(tilt_deg);
+        const auto rgb = drawn(plain(), camera, {line});
+        double width_px = 0.0;
+        // Without the sky.
+        for (int y = kPictureSize.height / 2 - 20; y < kPictureSize.height / 2 + 20; ++y) {
+            width_px += lineShare(rgb, kPictureSize.width / 2, y);
+        }
+        EXPECT_NEAR(width_px, 4.0, 0.1) << tilt_deg;
+    }
+}
+
 TEST_F(LineRendererTest, ADarkBorderSeparatesALineFromTheGround)
 {
     const DrapedLine line{.points = {{0.0, -500.0, 0.0}, {0.0, 500.0, 0.0}},

@@ -5,6 +5,8 @@
 #include "ui/canvas/terrain_view.h"
 #include "ui/text/number_text.h"
 
+#include <QFileInfo>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -187,6 +189,7 @@ void SessionController::openProject(const Project& project)
     undo_stack_.clear();
     Session session;
     session.look = project.look;
+    session.overlays = project.overlays;
     session.next_id = session_.next_id;
     for (std::size_t i = 0; i < project.layers.size(); ++i) {
         const LayerId id{session.next_id};
@@ -472,6 +475,25 @@ void SessionController::setContours(bool has_contours)
     look.has_contours = has_contours;
     //: Continues "Undo …"
     change(tr("Contours"), withLook(session_, look));
+}
+
+void SessionController::setOverlay(const VectorOverlay& overlay)
+{
+    const auto& overlays = session_.overlays;
+    const bool is_known =
+        std::any_of(overlays.begin(), overlays.end(),
+                    [&](const VectorOverlay& known) { return known.path == overlay.path; });
+    const QString name = QFileInfo(QString::fromStdString(overlay.path)).fileName();
+    //: Continues "Undo …"; %1 is a file
+    change(is_known ? tr("Change %1").arg(name) : tr("Open %1").arg(name),
+           withOverlay(session_, overlay));
+}
+
+void SessionController::removeOverlay(const std::string& path)
+{
+    const QString name = QFileInfo(QString::fromStdString(path)).fileName();
+    //: Continues "Undo …"; %1 is a file
+    change(tr("Close %1").arg(name), withoutOverlay(session_, path));
 }
 
 void SessionController::setContourInterval(double interval_m)

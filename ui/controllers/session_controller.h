@@ -14,6 +14,7 @@
 
 #include <deque>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace marsview {
@@ -138,6 +139,9 @@ public:
     void setContourInterval(double interval_m);
     void setLight(Angle azimuth, Angle altitude);
     void activate(LayerId id);
+    /// Adds a vector file that was read, or changes how it is drawn.
+    void setOverlay(const VectorOverlay& overlay);
+    void removeOverlay(const std::string& path);
 
     /// Flies to where all of a layer is in sight, and shows it first if it is not shown.
     void goTo(LayerId id);

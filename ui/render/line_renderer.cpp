@@ -21,15 +21,16 @@ constexpr double kBorderPoints = 1.25;
 constexpr float kBorderAlpha = 0.6F;
 constexpr float kHiddenAlpha = 0.35F;
 
-// Toward the eye, as a share of the depth range: the mesh of the terrain is off by up to a pixel.
-constexpr float kLift = 4e-4F;
+// Lines are drawn nearer to the eye than they are, by this many times the half of their width. A
+// line has one depth across its width, while the terrain below it may be as steep to the view as 1
+// to this; and the mesh of the terrain is off by up to a pixel.
+constexpr double kLiftPerReach = 6.0;
 
 constexpr const char* kVertex = R"(#version 330 core
 layout(location = 0) in vec3 a_device;
 layout(location = 1) in vec4 a_ends; // of the segment, in pixels
 layout(location = 2) in vec3 a_color;
 layout(location = 3) in float a_half_width; // in pixels
-uniform float u_lift;
 flat out vec4 v_ends;
 flat out vec3 v_color;
 flat out float v_half_width;
@@ -38,7 +39,7 @@ void main()
     v_ends = a_ends;
     v_color = a_color;
     v_half_width = a_half_width;
-    gl_Position = vec4(a_device.xy, a_device.z - u_lift, 1.0);
+    gl_Position = vec4(a_device, 1.0);
 }
 )";
 
@@ -108,7 +109,17 @@ public:
         : eye_(eyeOf(camera))
         , matrix_(projection(camera, viewport, clip) * viewRotation(camera))
         , viewport_(viewport)
+        , infinite_z_((clip.far_m + clip.near_m) / (clip.far_m - clip.near_m))
+        , pixel_share_(2.0 * std::tan(camera.field_of_view.radians() / 2.0) / viewport.height)
     {}
+
+    // The depth of a point that is nearer to the eye by so many pixels of its place.
+    double lifted(double z, double pixels) const
+    {
+        // z = a - b / w, where w is the distance along the view axis and a the z at infinity.
+        const double share = 1.0 - std::min(pixels * pixel_share_, 0.5);
+        return std::max(infinite_z_ + (z - infinite_z_) / share, -1.0);
+    }
 
     // The part of a segment before the near plane and the far one, and within a few pictures to
     // the sides, so that positions keep their precision as floats.
@@ -163,6 +174,8 @@ private:
     ScenePoint eye_;
     Matrix4 matrix_;
     Viewport viewport_;
+    double infinite_z_;  // of device coordinates
+    double pixel_share_; // of the distance along the view axis: a pixel's side
 };
 
 // The rectangle around a segment that its line can cover: `reach` pixels to all sides.
@@ -180,7 +193,7 @@ void addSegment(std::vector<Vertex>& triangles,
     const auto corner = [&](const PixelPoint& end, double z, double along, double aside) {
         const DevicePoint p = screen.device({end.x + reach * (along * along_x - aside * along_y),
                                              end.y + reach * (along * along_y + aside * along_x)},
-                                            z);
+                                            screen.lifted(z, kLiftPerReach * reach));
         Vertex vertex = paint;
         vertex.device = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
         vertex.ends = {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(b.x),
@@ -306,7 +319,6 @@ void LineRenderer::draw(std::span<const DrapedLine> lines, const LinePicture& pi
     glBindBuffer(GL_ARRAY_BUFFER, impl_->vertices.id());
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(triangles.size() * sizeof(Vertex)),
                  triangles.data(), GL_STREAM_DRAW);
-    glUniform1f(impl_->program.uniform("u_lift"), kLift);
     const PixelArea part = picture.part.value_or(PixelArea{.left = 0,
                                                            .bottom = 0,
                                                            .width = picture.viewport.width,

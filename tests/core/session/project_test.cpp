@@ -189,6 +189,13 @@ Project randomProject(Random& random)
                                        .tilt = randomAngle(random, 0.0, 89.0),
                                        .field_of_view = randomAngle(random, 10.0, 80.0)};
     }
+    for (std::size_t left = random.below(3); left > 0; --left) {
+        project.overlays.push_back({.path = randomPath(random),
+                                    .color = {static_cast<std::uint8_t>(random.below(256)),
+                                              static_cast<std::uint8_t>(random.below(256)),
+                                              static_cast<std::uint8_t>(random.below(256))},
+                                    .is_visible = random.chance(0.5)});
+    }
     for (std::size_t left = random.below(5); left > 0; --left) {
         project.measurements.push_back(randomMeasurement(random, project.layers.size()));
     }
@@ -383,6 +390,10 @@ TEST(Project, FaultsAreNamed)
          "layers[0].overrides.geotransform is not a list of six numbers"},
         {R"("version":1,"layers":[],"measurements":[{"layer":0}])",
          "measurements[0].layer is not the index of a layer"},
+        {R"("version":1,"layers":[],"overlays":[{"file":"a","color":"red"}])",
+         "overlays[0].color is not a color such as #ffdd40"},
+        {R"("version":1,"layers":[],"overlays":[{"color":"#ffffff"}])",
+         "overlays[0].file is not the path of a file"},
         {R"("version":1,"layers":[],"measurements":[{"kind":"weight"}])",
          "measurements[0].kind is not a known choice"},
         {R"("version":1,"layers":[],"measurements":[{"time":"noon"}])",

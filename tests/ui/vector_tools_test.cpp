@@ -1,0 +1,192 @@
+// Vector files on the terrain, in a window. The files are made by GDAL's ogr2ogr.
+#include "tests/support/run_program.h"
+#include "tests/ui/map_window.h"
+#include "ui/controllers/session_controller.h"
+#include "ui/controllers/vector_overlays.h"
+#include "ui/project/project_controller.h"
+#include "ui/vector_tools.h"
+#include "ui/window_actions.h"
+
+#include <QAction>
+#include <QFile>
+#include <QMenu>
+#include <QSignalSpy>
+#include <QUndoStack>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+namespace marsview {
+namespace {
+
+constexpr double kStepDeg = 0.25; // of TestMaps::mars(), whose corner is at 10° E 20° N
+
+class VectorToolsTest : public MapWindowTest {
+protected:
+    // A line from 12° E 18° N to 18° E 14° N with a bend, and a point, in a CRS on some body.
+    QString file(const char* name, const char* geographic, const char* crs)
+    {
+        const QString csv = maps_.path(QString::fromLatin1(name) + QStringLiteral(".csv"));
+        QFile out(csv);
+        EXPECT_TRUE(out.open(QIODevice::WriteOnly));
+        out.write(
+            "WKT,name,age\n"
+            "\"LINESTRING (12 18,15 15.5,18 14)\",Ridge “A”,\n"
+            "POINT (16 18.5),Outcrop,3.5\n");
+        out.close();
+        const QString made = maps_.path(QString::fromLatin1(name) + QStringLiteral(".gpkg"));
+        test::runTool({"ogr2ogr", "-q", "-oo", "KEEP_GEOM_COLUMNS=NO", "-f", "GPKG", "-s_srs",
+                       geographic, "-t_srs", crs, made.toStdString(), csv.toStdString()});
+        return made;
+    }
+    QString marsFile() { return file("ridges", "IAU_2015:49900", "IAU_2015:49910"); }
+    void openMars()
+    {
+        makeWindow(kSmall);
+        ASSERT_TRUE(openAndWait(*window_, maps_.mars()));
+    }
+    VectorOverlays& overlays() { return window_->vectorTools().overlays(); }
+    bool openVector(const QString& path)
+    {
+        overlays().open(path);
+        return rest();
+    }
+    bool rest()
+    {
+        return waitFor([this] { return !overlays().isBusy() && view().isPictureComplete(); });
+    }
+    static GridPoint gridOf(double longitude, double latitude)
+    {
+        return {(longitude - 10.0) / kStepDeg - 0.5, (20.0 - latitude) / kStepDeg - 0.5};
+    }
+    // Whether a pixel at a place of the map, or next to it, has a color.
+    bool isColoredAt(double longitude, double latitude, const Rgb8& color)
+    {
+        const auto place = view().positionOf(gridOf(longitude, latitude));
+        EXPECT_TRUE(place);
+        const QImage picture = view().terrainPicture();
+        const QPoint pixel = (*place * view().devicePixelRatioF()).toPoint();
+        for (const QPoint aside :
+             {QPoint(0, 0), QPoint(1, 0), QPoint(-1, 0), QPoint(0, 1), QPoint(0, -1)}) {
+            const QColor seen = picture.pixelColor(pixel + aside);
+            if (std::abs(seen.red() - color.red) < 40 &&
+                std::abs(seen.green() - color.green) < 40 &&
+                std::abs(seen.blue() - color.blue) < 40) {
+                return true;
+            }
+        }
+        return false;
+    }
+};
+
+TEST_F(VectorToolsTest, FeaturesInAnotherCrsLieAtTheirLongitudesAndLatitudes)
+{
+    ASSERT_NO_FATAL_FAILURE(openMars());
+    ASSERT_TRUE(openVector(marsFile()));
+    ASSERT_EQ(window_->session().overlays.size(), 1U);
+    const Rgb8 color = window_->session().overlays.front().color;
+    for (const double share : {0.1, 0.4, 0.8}) {
+        EXPECT_TRUE(isColoredAt(12.0 + share * 3.0, 18.0 - share * 2.5, color)) << share;
+        EXPECT_TRUE(isColoredAt(15.0 + share * 3.0, 15.5 - share * 1.5, color)) << share;
+        EXPECT_FALSE(isColoredAt(12.5 + share * 3.0, 18.0 - share * 2.5, color)) << share;
+    }
+    EXPECT_TRUE(isColoredAt(16.0, 18.5, color));
+}
+
+TEST_F(VectorToolsTest, OpeningHidingAndClosingAreStepsOfUndoAndPartOfTheProject)
+{
+    ASSERT_NO_FATAL_FAILURE(openMars());
+    ASSERT_TRUE(rest());
+    const QImage bare = view().terrainPicture();
+    const QString path = marsFile();
+    ASSERT_TRUE(openVector(path));
+    EXPECT_EQ(window_->undoStack().undoText(), QStringLiteral("Open ridges.gpkg"));
+    const QImage drawn = view().terrainPicture();
+    EXPECT_NE(drawn, bare);
+    window_->undoStack().undo();
+    ASSERT_TRUE(rest());
+    EXPECT_EQ(view().terrainPicture(), bare);
+    window_->undoStack().redo();
+    ASSERT_TRUE(rest());
+    EXPECT_EQ(view().terrainPicture(), drawn);
+
+    QMenu* const menu =
+        window_->actionSet().vector_files->actions().constFirst()->menu(); // of the file
+    ASSERT_NE(menu, nullptr);
+    menu->actions().constFirst()->trigger(); // Show
+    ASSERT_TRUE(rest());
+    EXPECT_EQ(view().terrainPicture(), bare);
+    window_->undoStack().undo();
+
+    const QString project = maps_.path(QStringLiteral("with.mvproj"));
+    ASSERT_TRUE(window_->project().saveAs(project));
+    makeWindow(kSmall);
+    window_->open(project);
+    ASSERT_TRUE(waitFor(
+        [this] { return !window_->controller().isBusy() && !window_->session().layers.empty(); }));
+    ASSERT_TRUE(rest());
+    ASSERT_EQ(window_->session().overlays.size(), 1U);
+    EXPECT_EQ(window_->session().overlays.front().path, path.toStdString());
+    EXPECT_TRUE(isColoredAt(16.0, 18.5, window_->session().overlays.front().color));
+    EXPECT_FALSE(window_->isWindowModified());
+}
+
+TEST_F(VectorToolsTest, AFeatureIsFoundWithItsAttributes)
+{
+    ASSERT_NO_FATAL_FAILURE(openMars());
+    ASSERT_TRUE(openVector(marsFile()));
+    const Georeference& georeference = view().map()->georeference();
+    const auto at = [&](double longitude, double latitude) {
+        return overlays().featuresAt(
+            georeference.sceneFrame().toScene(gridOf(longitude, latitude), 0.0), 2000.0);
+    };
+    const auto outcrop = at(16.0, 18.5);
+    ASSERT_EQ(outcrop.size(), 1U);
+    EXPECT_EQ(outcrop.front().file, QStringLiteral("ridges.gpkg"));
+    using Attribute = std::pair<QString, QString>;
+    EXPECT_EQ(outcrop.front().attributes,
+              (std::vector<Attribute>{{QStringLiteral("name"), QStringLiteral("Outcrop")},
+                                      {QStringLiteral("age"), QStringLiteral("3.5")}}));
+    ASSERT_EQ(at(15.0, 15.5).size(), 1U);
+    EXPECT_EQ(at(15.0, 15.5).front().attributes.front().second, QStringLiteral("Ridge “A”"));
+    EXPECT_TRUE(at(11.0, 13.0).empty());
+}
+
+TEST_F(VectorToolsTest, AFileOfAnotherBodyOrNoneIsRefusedWithTheReason)
+{
+    ASSERT_NO_FATAL_FAILURE(openMars());
+    QString problem;
+    QObject::connect(&window_->vectorTools(), &VectorTools::failed, window_.get(),
+                     [&problem](const QString& text) { problem = text; });
+    const QString moon = file("maria", "IAU_2015:30100", "IAU_2015:30100");
+    overlays().open(moon);
+    ASSERT_TRUE(waitFor([&] { return !problem.isEmpty(); }));
+    EXPECT_TRUE(problem.contains(QStringLiteral("Moon"))) << problem.toStdString();
+    problem.clear();
+    overlays().open(maps_.path(QStringLiteral("none.gpkg")));
+    ASSERT_TRUE(waitFor([&] { return !problem.isEmpty(); }));
+    EXPECT_TRUE(problem.contains(QStringLiteral("none.gpkg"))) << problem.toStdString();
+    EXPECT_TRUE(window_->session().overlays.empty());
+    EXPECT_EQ(window_->undoStack().undoText().contains(QStringLiteral("maria")), false);
+}
+
+// A map of another body on top: the overlay waits, and is there again with its own map.
+TEST_F(VectorToolsTest, FollowsTheMapThatIsShown)
+{
+    ASSERT_NO_FATAL_FAILURE(openMars());
+    ASSERT_TRUE(openVector(marsFile()));
+    const std::string path = window_->session().overlays.front().path;
+    ASSERT_TRUE(overlays().boxOf(path));
+    ASSERT_TRUE(openAndWait(*window_, maps_.moon()));
+    ASSERT_TRUE(rest());
+    EXPECT_FALSE(overlays().boxOf(path));
+    window_->undoStack().undo();
+    ASSERT_TRUE(rest());
+    EXPECT_TRUE(overlays().boxOf(path));
+    EXPECT_TRUE(isColoredAt(16.0, 18.5, window_->session().overlays.front().color));
+}
+
+} // namespace
+} // namespace marsview

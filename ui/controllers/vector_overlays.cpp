@@ -1,0 +1,332 @@
+#include "ui/controllers/vector_overlays.h"
+
+#include "core/vector/feature_placement.h"
+#include "core/view/frustum.h"
+
+#include <QFileInfo>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <variant>
+
+namespace marsview {
+namespace {
+
+constexpr double kLineWidth = 1.8;   // points
+constexpr double kDotWidth = 7.0;    // points
+constexpr double kPiecePoints = 6.0; // a part of a line that is drawn straight
+// Of all overlays, in a picture at rest and in one that moves.
+constexpr std::size_t kPointsMax = 120000;
+constexpr std::size_t kMovingPointsMax = 8000;
+constexpr std::size_t kPiecesMax = 400;   // of one edge
+constexpr double kResolutionPoints = 1.0; // the smallest detail that is drawn
+constexpr qint64 kRestShare = 9; // at most a tenth of the time goes into lines while moving
+constexpr std::size_t kAttributesMax = 8;
+
+QString textOf(const FieldValue& value)
+{
+    struct Text {
+        QString operator()(std::monostate) const { return {}; }
+        QString operator()(std::int64_t number) const { return QString::number(number); }
+        QString operator()(double number) const { return QString::number(number, 'g', 10); }
+        QString operator()(const std::string& text) const { return QString::fromStdString(text); }
+    };
+    return std::visit(Text{}, value);
+}
+
+} // namespace
+
+VectorOverlays::VectorOverlays(TerrainView& view, QObject* parent)
+    : QObject(parent)
+    , view_(view)
+{
+    pool_.setMaxThreadCount(1);
+    draw_timer_.setSingleShot(true);
+    draw_timer_.setInterval(0);
+    connect(&draw_timer_, &QTimer::timeout, this, &VectorOverlays::drawLines);
+    const auto draw_soon = [this] { draw_timer_.start(); };
+    connect(&view_, &TerrainView::sightChanged, this, [this] {
+        is_hasty_ = true;
+        draw_timer_.start();
+    });
+    connect(&view_, &TerrainView::exaggerationChanged, this, draw_soon);
+    connect(&view_, &TerrainView::pictureCompleted, this, [this] { // finer ground has come
+        is_hasty_ = false;
+        draw_timer_.start();
+    });
+    connect(&view_, &TerrainView::layersChanged, this, [this] {
+        for (const VectorOverlay& overlay : overlays_) {
+            place(overlay.path, false);
+        }
+        draw_timer_.start();
+    });
+}
+
+VectorOverlays::~VectorOverlays()
+{
+    monitor_.cancel();
+    pool_.clear();
+    pool_.waitForDone(); // posted results are discarded with this object
+}
+
+void VectorOverlays::open(const QString& file)
+{
+    place(QFileInfo(file).absoluteFilePath().toStdString(), true);
+}
+
+void VectorOverlays::setSession(const Session& session)
+{
+    if (overlays_ == session.overlays) {
+        return;
+    }
+    overlays_ = session.overlays;
+    for (const VectorOverlay& overlay : overlays_) {
+        place(overlay.path, false);
+    }
+    draw_timer_.start();
+}
+
+// Reads the file, unless it is known, and finds where its features are on the map.
+void VectorOverlays::place(const std::string& path, bool is_asked_for)
+{
+    const std::shared_ptr<const Map> map = view_.map();
+    if (!map) {
+        return; // when a map is shown
+    }
+    Entry& entry = entries_[path];
+    if (!is_asked_for && (entry.has_failed || entry.map.lock() == map)) {
+        return;
+    }
+    entry.map = map;
+    ++running_;
+    pool_.start([this, path, is_asked_for, map, known = is_asked_for ? nullptr : entry.file] {
+        Outcome outcome{.file = known, .placed = nullptr, .problem = std::nullopt};
+        if (!outcome.file) {
+            auto file = readVectorFile(path, monitor_);
+            if (file) {
+                outcome.file = std::make_shared<const VectorFile>(std::move(*file));
+            } else {
+                outcome.problem = file.error();
+            }
+        }
+        if (outcome.file) {
+            const Status fits = checkSameBody(path, outcome.file->content,
+                                              map->georeference().crs(), map->info().body);
+            if (fits) {
+                outcome.placed = placedOn(*map, *outcome.file);
+            } else {
+                outcome.problem = fits.error();
+            }
+        }
+        QMetaObject::invokeMethod(
+            this,
+            [this, path, is_asked_for, map = std::weak_ptr(map), outcome = std::move(outcome)] {
+                take(path, map, is_asked_for, outcome);
+            },
+            Qt::QueuedConnection);
+    });
+}
+
+void VectorOverlays::take(const std::string& path,
+                          const std::weak_ptr<const Map>& map,
+                          bool is_asked_for,
+                          Outcome outcome)
+{
+    --running_;
+    Entry& entry = entries_[path];
+    const bool is_first = !entry.file && !entry.has_failed;
+    const bool is_canceled = outcome.problem && outcome.problem->code == ErrorCode::Canceled;
+    if (entry.map.lock() != map.lock() || is_canceled) {
+        return; // another map is shown by now
+    }
+    if (outcome.file) {
+        entry.file = outcome.file;
+        entry.placed = std::move(outcome.placed);
+        entry.has_failed = false;
+    } else {
+        entry.has_failed = true;
+    }
+    // On a map of another body an overlay is hidden without a word, unless it was asked for.
+    if (outcome.problem && (is_asked_for || (is_first && !outcome.file))) {
+        Q_EMIT failed(QString::fromStdString(outcome.problem->message));
+    } else if (is_asked_for) {
+        QStringList notices;
+        for (const std::string& notice : entry.file->notices) {
+            notices.append(QString::fromStdString(notice));
+        }
+        Q_EMIT wasRead(QString::fromStdString(path), notices);
+    }
+    draw_timer_.start();
+    Q_EMIT changed();
+}
+
+std::shared_ptr<const VectorOverlays::Placed> VectorOverlays::placedOn(const Map& map,
+                                                                       const VectorFile& file)
+{
+    auto placed = std::make_shared<Placed>();
+    const FeaturePlacement placement(file.content.crs, map.georeference());
+    PlaneFeatures features;
+    for (std::size_t layer = 0; layer < file.content.layers.size(); ++layer) {
+        const std::vector<Feature>& all = file.content.layers[layer].features;
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            placement.add(static_cast<std::uint32_t>(placed->features.size()), all[i].shape,
+                          all[i].parts, features);
+            placed->features.emplace_back(layer, i);
+        }
+    }
+    for (const PlanePoint& point : features.points) {
+        placed->box.include(point);
+    }
+    placed->index = FeatureIndex(std::move(features));
+    return placed;
+}
+
+void VectorOverlays::drawLines()
+{
+    // While the camera moves, lines of a moment ago do if new ones take long; the picture at rest
+    // asks again.
+    if (is_hasty_ && drawn_at_.isValid() &&
+        drawn_at_.nsecsElapsed() < kRestShare * hasty_drawing_ns_) {
+        return;
+    }
+    drawn_at_.start();
+    const std::size_t points_max = is_hasty_ ? kMovingPointsMax : kPointsMax;
+    std::vector<const VectorOverlay*> shown;
+    for (const VectorOverlay& overlay : overlays_) {
+        const auto entry = entries_.find(overlay.path);
+        if (overlay.is_visible && entry != entries_.end() && entry->second.placed &&
+            entry->second.map.lock() == view_.map() && view_.map()) {
+            shown.push_back(&overlay);
+        }
+    }
+    if (shown.empty() && !is_drawn_) {
+        return;
+    }
+    std::vector<DrapedLine> lines;
+    for (const VectorOverlay* overlay : shown) {
+        addLines(*overlay, *entries_.at(overlay->path).placed, points_max / shown.size(), lines);
+    }
+    is_drawn_ = !lines.empty();
+    view_.setLines(std::move(lines), LineSet::Overlays);
+    hasty_drawing_ns_ = is_hasty_ ? drawn_at_.nsecsElapsed() : 0;
+    drawn_at_.start();
+}
+
+void VectorOverlays::addLines(const VectorOverlay& overlay,
+                              const Placed& placed,
+                              std::size_t points_max,
+                              std::vector<DrapedLine>& lines) const
+{
+    const OrbitCamera& camera = view_.camera();
+    const Viewport viewport = view_.viewport();
+    const double scale = view_.devicePixelRatioF();
+    const SceneBox terrain = view_.ground().box(view_.exaggeration());
+    const Frustum frustum(camera, viewport);
+    const ScenePoint eye = eyeOf(camera);
+    const double pixel_share = metersPerPixel(camera, viewport) / camera.distance_m;
+    const auto resolution = [&](const PlaneBox& box) {
+        const SceneBox around{.minimum = {box.min_x, box.min_y, terrain.minimum.z},
+                              .maximum = {box.max_x, box.max_y, terrain.maximum.z}};
+        if (frustum.isOutside(around)) {
+            return std::numeric_limits<double>::infinity();
+        }
+        const double above_m = std::max(0.0, eye.z - terrain.maximum.z);
+        const double way_m = std::hypot(box.distance({eye.x, eye.y}), above_m);
+        return std::max(kResolutionPoints * scale * pixel_share * way_m, 1e-6);
+    };
+    const FeatureIndex::Selection selection = placed.index.select(resolution, points_max);
+    const auto on_ground = [&](double x, double y) {
+        return ScenePoint{x, y, view_.ground().height(x, y) * view_.exaggeration()};
+    };
+    for (const auto& piece : selection.pieces) {
+        DrapedLine line{.points = {}, .color = overlay.color, .width_points = kLineWidth};
+        const auto end_run = [&] { // no terrain there
+            if (line.points.size() > 1) {
+                lines.push_back(line);
+            }
+            line.points.clear();
+        };
+        const auto add = [&](double x, double y) {
+            const ScenePoint point = on_ground(x, y);
+            if (std::isfinite(point.z)) {
+                line.points.push_back(point);
+            } else {
+                end_run();
+            }
+        };
+        const PlanePoint& first = selection.points[piece.begin];
+        add(first.x, first.y);
+        if (piece.shape == PlaneShape::Dot) {
+            if (!line.points.empty()) {
+                line.points.push_back(line.points.front());
+                line.width_points = kDotWidth;
+                lines.push_back(std::move(line));
+            }
+            continue;
+        }
+        for (std::size_t i = piece.begin + 1; i < piece.end; ++i) {
+            const PlanePoint& a = selection.points[i - 1];
+            const PlanePoint& b = selection.points[i];
+            PlaneBox box;
+            box.include(a);
+            box.include(b);
+            const double pixel_m = resolution(box);
+            const double pieces_wanted = std::isfinite(pixel_m)
+                                             ? std::hypot(b.x - a.x, b.y - a.y) /
+                                                   (kPiecePoints * pixel_m / kResolutionPoints)
+                                             : 1.0;
+            const auto pieces = static_cast<std::size_t>(
+                std::clamp(std::ceil(pieces_wanted), 1.0, static_cast<double>(kPiecesMax)));
+            for (std::size_t k = 1; k <= pieces; ++k) {
+                const double share = static_cast<double>(k) / static_cast<double>(pieces);
+                add(a.x + (b.x - a.x) * share, a.y + (b.y - a.y) * share);
+            }
+        }
+        end_run();
+    }
+}
+
+std::vector<VectorOverlays::Hit> VectorOverlays::featuresAt(const ScenePoint& place,
+                                                            double reach_m) const
+{
+    std::vector<Hit> hits;
+    for (auto overlay = overlays_.rbegin(); overlay != overlays_.rend(); ++overlay) {
+        const auto entry = entries_.find(overlay->path);
+        if (!overlay->is_visible || entry == entries_.end() || !entry->second.placed ||
+            entry->second.map.lock() != view_.map()) {
+            continue;
+        }
+        const Placed& placed = *entry->second.placed;
+        const auto found = placed.index.find({place.x, place.y}, reach_m);
+        if (!found) {
+            continue;
+        }
+        const auto [layer_index, feature_index] = placed.features[*found];
+        const FeatureLayer& layer = entry->second.file->content.layers[layer_index];
+        const Feature& feature = layer.features[feature_index];
+        Hit hit{.file = QFileInfo(QString::fromStdString(overlay->path)).fileName(),
+                .attributes = {}};
+        for (std::size_t i = 0; i < layer.fields.size() && i < feature.values.size() &&
+                                hit.attributes.size() < kAttributesMax;
+             ++i) {
+            if (const QString text = textOf(feature.values[i]); !text.isEmpty()) {
+                hit.attributes.emplace_back(QString::fromStdString(layer.fields[i].name), text);
+            }
+        }
+        hits.push_back(std::move(hit));
+    }
+    return hits;
+}
+
+std::optional<PlaneBox> VectorOverlays::boxOf(const std::string& path) const
+{
+    const auto entry = entries_.find(path);
+    const bool is_here = entry != entries_.end() && entry->second.placed &&
+                         entry->second.map.lock() == view_.map() &&
+                         entry->second.placed->box.min_x <= entry->second.placed->box.max_x;
+    return is_here ? std::optional(entry->second.placed->box) : std::nullopt;
+}
+
+} // namespace marsview

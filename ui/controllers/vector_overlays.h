@@ -1,0 +1,107 @@
+// Vector files on the terrain: reading them, placing them on the map, drawing what is in sight.
+#pragma once
+
+#include "core/base/job_monitor.h"
+#include "core/geo/frames.h"
+#include "core/session/session.h"
+#include "core/vector/feature_index.h"
+#include "core/vector/vector_file.h"
+#include "ui/canvas/terrain_view.h"
+
+#include <QElapsedTimer>
+#include <QObject>
+#include <QString>
+#include <QStringList>
+#include <QThreadPool>
+#include <QTimer>
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace marsview {
+
+/// Files are read and placed on a thread of their own; they are simplified to the resolution of the
+/// picture, and to fewer points while it moves. Lives in the GUI thread; the view outlives it.
+class VectorOverlays final : public QObject {
+    Q_OBJECT
+
+public:
+    explicit VectorOverlays(TerrainView& view, QObject* parent = nullptr);
+    /// Cancels what is being read.
+    ~VectorOverlays() override;
+
+    /// Reads a file for the map that is shown; wasRead() or failed() follows.
+    void open(const QString& file);
+    /// Draws the overlays of a session, and reads those that are not known yet.
+    void setSession(const Session& session);
+
+    /// A file that is in sight, with the attributes of its feature at a place.
+    struct Hit {
+        QString file; // its name without folder
+        std::vector<std::pair<QString, QString>> attributes;
+    };
+    /// The features within `reach_m` of a place of the scene, of the overlay drawn last first.
+    std::vector<Hit> featuresAt(const ScenePoint& place, double reach_m) const;
+    /// Around all features of a file in the scene, in meters; empty if they are not on the map.
+    std::optional<PlaneBox> boxOf(const std::string& path) const;
+    /// Something is being read or placed, or is about to be drawn.
+    bool isBusy() const noexcept { return running_ > 0 || draw_timer_.isActive(); }
+
+Q_SIGNALS:
+    /// The file that open() asked for can be drawn. A notice is a sentence.
+    void wasRead(const QString& file, const QStringList& notices);
+    /// "FILE: WHY"
+    void failed(const QString& problem);
+    /// Other features are drawn.
+    void changed();
+
+private:
+    struct Placed {
+        FeatureIndex index;
+        PlaneBox box;
+        /// Of the numbers in the index: layer and feature of the file.
+        std::vector<std::pair<std::size_t, std::size_t>> features;
+    };
+    struct Entry {
+        std::shared_ptr<const VectorFile> file; // null before it is read
+        std::weak_ptr<const Map> map;           // that it is, or is being, placed on
+        std::shared_ptr<const Placed> placed;   // null if it is of another body
+        bool has_failed = false;
+    };
+    struct Outcome {
+        std::shared_ptr<const VectorFile> file;
+        std::shared_ptr<const Placed> placed;
+        std::optional<Error> problem;
+    };
+
+    void place(const std::string& path, bool is_asked_for);
+    void take(const std::string& path,
+              const std::weak_ptr<const Map>& map,
+              bool is_asked_for,
+              Outcome outcome);
+    static std::shared_ptr<const Placed> placedOn(const Map& map, const VectorFile& file);
+    void drawLines();
+    void addLines(const VectorOverlay& overlay,
+                  const Placed& placed,
+                  std::size_t points_max,
+                  std::vector<DrapedLine>& lines) const;
+
+    TerrainView& view_;
+    std::vector<VectorOverlay> overlays_; // of the session
+    std::map<std::string, Entry> entries_;
+    bool is_drawn_ = false;
+    QTimer draw_timer_;           // gathers reasons to draw the lines again
+    bool is_hasty_ = false;       // the camera has moved since the picture was complete
+    QElapsedTimer drawn_at_;      // since the lines were made last
+    qint64 hasty_drawing_ns_ = 0; // for that, if it was in haste
+    int running_ = 0;
+    JobMonitor monitor_; // canceled at the end
+    QThreadPool pool_;
+};
+
+} // namespace marsview

@@ -1,0 +1,173 @@
+#include "ui/vector_tools.h"
+
+#include "ui/canvas/terrain_view.h"
+#include "ui/controllers/session_controller.h"
+#include "ui/controllers/vector_overlays.h"
+#include "ui/text/sentence.h"
+
+#include <QAction>
+#include <QColorDialog>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QIcon>
+#include <QMainWindow>
+#include <QMenu>
+#include <QPixmap>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace marsview {
+namespace {
+
+// Told apart on every ramp, with the dark border of lines.
+constexpr std::array<Rgb8, 6> kColors{Rgb8{255, 221, 64},  Rgb8{64, 220, 255}, Rgb8{255, 120, 200},
+                                      Rgb8{150, 255, 100}, Rgb8{255, 150, 60}, Rgb8{200, 170, 255}};
+constexpr double kDistanceShare = 1.6; // of the extent, for all of it to be in sight
+constexpr int kSwatchSide = 14;
+
+QIcon swatch(const Rgb8& color)
+{
+    QPixmap pixmap(kSwatchSide, kSwatchSide);
+    pixmap.fill(QColor(color.red, color.green, color.blue));
+    return pixmap;
+}
+
+} // namespace
+
+VectorTools::VectorTools(const Parts& parts, QObject* parent)
+    : QObject(parent)
+    , parts_(parts)
+    , overlays_(new VectorOverlays(parts.view, this))
+{
+    connect(&parts_.open, &QAction::triggered, this, &VectorTools::askFile);
+    connect(overlays_, &VectorOverlays::wasRead, this, &VectorTools::add);
+    connect(overlays_, &VectorOverlays::failed, this, &VectorTools::failed);
+    setSession(parts_.session.session());
+}
+
+const VectorOverlay* VectorTools::overlayOf(const std::string& path) const
+{
+    const auto& overlays = parts_.session.session().overlays;
+    const auto known =
+        std::find_if(overlays.begin(), overlays.end(),
+                     [&path](const VectorOverlay& overlay) { return overlay.path == path; });
+    return known != overlays.end() ? &*known : nullptr;
+}
+
+void VectorTools::setSession(const Session& session)
+{
+    overlays_->setSession(session);
+    parts_.open.setEnabled(!session.layers.empty());
+    parts_.files.setEnabled(!session.overlays.empty());
+    if (shown_ != session.overlays) {
+        shown_ = session.overlays;
+        fillMenu();
+    }
+}
+
+void VectorTools::askFile()
+{
+    auto* dialog = new QFileDialog(&parts_.window, tr("Open Vector File"), folder_);
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    dialog->setFileMode(QFileDialog::ExistingFile);
+    dialog->setNameFilters(
+        {tr("Vector files (*.gpkg *.geojson *.json *.kml *.shp *.csv)"), tr("All files (*)")});
+    connect(dialog, &QFileDialog::fileSelected, this, [this](const QString& file) {
+        folder_ = QFileInfo(file).absolutePath();
+        overlays_->open(file);
+    });
+    dialog->open();
+}
+
+void VectorTools::add(const QString& file, const QStringList& notices)
+{
+    const std::string path = file.toStdString();
+    if (const VectorOverlay* known = overlayOf(path)) {
+        VectorOverlay overlay = *known;
+        overlay.is_visible = true;
+        parts_.session.setOverlay(overlay);
+    } else {
+        const std::size_t count = parts_.session.session().overlays.size();
+        parts_.session.setOverlay({.path = path, .color = kColors[count % kColors.size()]});
+    }
+    //: In the status bar, for a few seconds; %1 is a file
+    QString message = tr("Opened %1").arg(isolated(QFileInfo(file).fileName()));
+    for (const QString& notice : notices) {
+        message += QStringLiteral(" – ") + notice;
+    }
+    Q_EMIT opened(message);
+}
+
+void VectorTools::fillMenu()
+{
+    parts_.files.clear();
+    for (const VectorOverlay& overlay : shown_) {
+        const std::string path = overlay.path;
+        QMenu* menu = parts_.files.addMenu(swatch(overlay.color),
+                                           QFileInfo(QString::fromStdString(path))
+                                               .fileName()
+                                               .replace(QLatin1Char('&'), QStringLiteral("&&")));
+        QAction* show = menu->addAction(tr("&Show"));
+        show->setCheckable(true);
+        show->setChecked(overlay.is_visible);
+        connect(show, &QAction::triggered, this, [this, path](bool is_visible) {
+            if (const VectorOverlay* known = overlayOf(path)) {
+                VectorOverlay changed = *known;
+                changed.is_visible = is_visible;
+                parts_.session.setOverlay(changed);
+            }
+        });
+        connect(menu->addAction(tr("&Go There")), &QAction::triggered, this,
+                [this, path] { goTo(path); });
+        connect(menu->addAction(tr("&Color…")), &QAction::triggered, this,
+                [this, path] { askColor(path); });
+        menu->addSeparator();
+        // The menu that holds the action is cleared by this.
+        connect(
+            menu->addAction(tr("C&lose")), &QAction::triggered, this,
+            [this, path] { parts_.session.removeOverlay(path); }, Qt::QueuedConnection);
+    }
+}
+
+void VectorTools::askColor(const std::string& path)
+{
+    const VectorOverlay* overlay = overlayOf(path);
+    if (overlay == nullptr) {
+        return;
+    }
+    auto* dialog = new QColorDialog(
+        QColor(overlay->color.red, overlay->color.green, overlay->color.blue), &parts_.window);
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    connect(dialog, &QColorDialog::colorSelected, this, [this, path](const QColor& color) {
+        if (const VectorOverlay* known = overlayOf(path)) {
+            VectorOverlay changed = *known;
+            changed.color = {static_cast<std::uint8_t>(color.red()),
+                             static_cast<std::uint8_t>(color.green()),
+                             static_cast<std::uint8_t>(color.blue())};
+            parts_.session.setOverlay(changed);
+        }
+    });
+    dialog->open();
+}
+
+void VectorTools::goTo(const std::string& path)
+{
+    const auto box = overlays_->boxOf(path);
+    if (!box) {
+        return;
+    }
+    const double x = 0.5 * (box->min_x + box->max_x);
+    const double y = 0.5 * (box->min_y + box->max_y);
+    const double height_m = parts_.view.ground().height(x, y);
+    OrbitCamera camera = parts_.view.cameraGoal();
+    camera.target = {x, y, std::isfinite(height_m) ? height_m * parts_.view.exaggeration() : 0.0};
+    const double extent_m = std::max(box->max_x - box->min_x, box->max_y - box->min_y);
+    if (extent_m > 0.0) {
+        camera.distance_m = kDistanceShare * extent_m;
+    }
+    parts_.view.flyTo(camera);
+}
+
+} // namespace marsview
