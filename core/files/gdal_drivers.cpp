@@ -86,7 +86,7 @@ constexpr std::array<const char*, 15> kPlain{
     "ISIS3", "ISIS2",   "PDS",  "PDS4",    "VICAR",   "GSBG",           nullptr};
 
 // In addition to kPlain. HDF4, HDF5, netCDF, GRIB, FITS and others have crashed on damaged files.
-constexpr std::array kWellTested{"VRT", "HFA", "JP2OpenJPEG", "PNG", "JPEG", "COG"};
+constexpr std::array kWellTested{"HFA", "JP2OpenJPEG", "PNG", "JPEG", "COG"};
 
 std::vector<GDALDriver*>& leftOut()
 {

@@ -16,7 +16,7 @@ const char* const* plainDrivers();
 
 /// Whether damaged files of that format have been read in numbers without a crash: plain drivers,
 /// and common formats with libraries that are tested against damaged files. Files of others are
-/// read in the child process for longer.
+/// read in the child process for longer. Not VRT, which reads files of any driver.
 bool isWellTested(const std::string& driver);
 
 /// The name of a driver that recognizes the file by its beginning, without opening it.

@@ -164,6 +164,26 @@ void readSamples(GDALRasterBand& band, Clock::time_point end)
     }
 }
 
+// A virtual raster is as trustworthy as the files that it reads.
+bool isWellTestedThroughout(GDALDataset& dataset, const CPLStringList& files)
+{
+    if (std::string_view(dataset.GetDriverName()) != "VRT") {
+        return isWellTested(dataset.GetDriverName());
+    }
+    int sources = 0;
+    for (int i = 0; i < files.Count(); ++i) {
+        if (std::string_view(files[i]) == dataset.GetDescription()) {
+            continue;
+        }
+        const auto driver = recognizingDriverFor(files[i]);
+        if (!driver || !isWellTested(*driver)) {
+            return false;
+        }
+        ++sources;
+    }
+    return sources > 0; // subdatasets are not listed
+}
+
 // Makes the same calls as RasterFile.
 std::vector<std::string> use(GDALDataset& dataset)
 {
@@ -180,7 +200,7 @@ std::vector<std::string> use(GDALDataset& dataset)
     std::array<double, 6> terms{};
     dataset.GetGeoTransform(terms.data());
     const Clock::time_point end =
-        Clock::now() + (isWellTested(dataset.GetDriverName()) ? kReadingTime : kLongReadingTime);
+        Clock::now() + (isWellTestedThroughout(dataset, listed) ? kReadingTime : kLongReadingTime);
     for (int i = 1; i <= std::min(dataset.GetRasterCount(), 8) && Clock::now() < end; ++i) {
         GDALRasterBand& band = *dataset.GetRasterBand(i);
         int has_value = 0;

@@ -115,6 +115,20 @@ TEST_F(HostileFiles, ReportsACrashInOneLineWithDriverAndFile)
     }
 }
 
+// A virtual raster is read as long as the files that it refers to would be.
+TEST_F(HostileFiles, FindsACrashBehindAVirtualRaster)
+{
+    const std::string inner = faulty("crash while reading slowly");
+    const std::string path = folder_.write(
+        "outer.vrt",
+        "<VRTDataset rasterXSize=\"20\" rasterYSize=\"20\"><VRTRasterBand dataType=\"Int16\" "
+        "band=\"1\"><SimpleSource><SourceFilename>" +
+            inner + "</SourceFilename></SimpleSource></VRTRasterBand></VRTDataset>");
+    const ProgramOutput output = info(path);
+    expectOneLine(output, path);
+    EXPECT_THAT(output.err, HasSubstr("crashed on this file"));
+}
+
 TEST_F(HostileFiles, StopsADriverThatNeverEnds)
 {
     environment_ = {"MARSVIEW_OPEN_SECONDS=1"};
