@@ -7,7 +7,9 @@
 #include <QClipboard>
 #include <QGuiApplication>
 #include <QMenu>
+#include <QScreen>
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -80,7 +82,12 @@ void MapMenu::showCard(const GroundPoint& ground, QPoint at)
         view_.window());
     card_->setAttribute(Qt::WA_DeleteOnClose);
     card_->QWidget::show();
-    card_->move(at + QPoint(12, 12));
+    // Beside the place, on the screen that it is on.
+    const QRect screen = view_.screen()->availableGeometry();
+    QRect card(at + QPoint(12, 12), card_->frameGeometry().size());
+    card.moveRight(std::min(card.right(), screen.right()));
+    card.moveBottom(std::min(card.bottom(), screen.bottom()));
+    card_->move(card.topLeft());
 }
 
 } // namespace marsview

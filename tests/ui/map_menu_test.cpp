@@ -11,6 +11,7 @@
 #include <QLabel>
 #include <QMenu>
 #include <QPushButton>
+#include <QScreen>
 #include <QTest>
 
 #include <gtest/gtest.h>
@@ -131,6 +132,20 @@ TEST_F(MapMenuTest, WhatIsHereDoesNotDependOnTheExaggeration)
         EXPECT_TRUE(text.contains(QStringLiteral("Sample: column 20, row 12")));
         card()->close();
     }
+}
+
+// Of a place in the lower right corner of the screen too.
+TEST_F(MapMenuTest, TheCardStaysOnTheScreen)
+{
+    const QRect screen = window_->screen()->availableGeometry();
+    window_->move(screen.bottomRight() - view().mapTo(window_.get(), middle().toPoint()) -
+                  QPoint(40, 40));
+    ASSERT_TRUE(
+        waitFor([&] { return screen.bottom() - view().mapToGlobal(middle()).y() < 100.0; }));
+    rightClick(middle());
+    entry("What Is Here…")->trigger();
+    ASSERT_NE(card(), nullptr);
+    EXPECT_TRUE(screen.contains(card()->frameGeometry()));
 }
 
 TEST_F(MapMenuTest, OpensInTheMiddleByKeyboard)
