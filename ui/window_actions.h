@@ -33,7 +33,7 @@ struct WindowActions {
     QAction* open_names = nullptr;
     QAction* open_vector = nullptr;
     QMenu* vector_files = nullptr; // open ones
-    QMenu* recent = nullptr; // filled by RecentFiles
+    QMenu* recent = nullptr;       // filled by RecentFiles
     QAction* save_picture = nullptr;
     QAction* cancel_loading = nullptr;
     QAction* stop_preparing = nullptr;
