@@ -2,6 +2,7 @@
 
 #include "core/files/file_address.h"
 #include "core/session/layer_groups.h"
+#include "core/vector/vector_file.h"
 #include "haptics/drivers/built_in_drivers.h"
 #include "ui/action_icons.h"
 #include "ui/canvas/map_keys.h"
@@ -769,7 +770,19 @@ void MainWindow::open(const QString& file)
 
 void MainWindow::openAll(const QStringList& files)
 {
-    QStringList maps = files;
+    QStringList maps;
+    QStringList vector_files;
+    for (const QString& file : files) {
+        (!isAddress(file) && isVectorFile(file.toStdString()) ? vector_files : maps).append(file);
+    }
+    if (!maps.isEmpty()) {
+        openMaps(maps);
+    }
+    vector_tools_->open(vector_files);
+}
+
+void MainWindow::openMaps(QStringList maps)
+{
     const auto project = std::find_if(maps.begin(), maps.end(), [](const QString& file) {
         return isProjectPath(file.toStdString()) && !isAddress(file);
     });

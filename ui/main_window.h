@@ -84,7 +84,8 @@ public:
     /// Loads the map of that file as a layer on top, or replaces the session by that project. A
     /// file that cannot be opened changes nothing. May be called before the window is shown.
     void open(const QString& file);
-    /// The same for several: maps lie on top of each other and of the first project.
+    /// The same for several: maps lie on top of each other and of the first project, and vector
+    /// files are drawn over them.
     void openAll(const QStringList& files);
     /// As a map to look at until the user opens one.
     void openSample(const QString& file);
@@ -179,6 +180,7 @@ private:
     void markConnection();
     void restoreWindow();
     void connectReadout();
+    void openMaps(QStringList maps);
     void showSession();
     void showActive();
     void showPreparation();

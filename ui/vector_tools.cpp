@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace marsview {
 namespace {
@@ -44,7 +45,27 @@ VectorTools::VectorTools(const Parts& parts, QObject* parent)
     connect(&parts_.open, &QAction::triggered, this, &VectorTools::askFile);
     connect(overlays_, &VectorOverlays::wasRead, this, &VectorTools::add);
     connect(overlays_, &VectorOverlays::failed, this, &VectorTools::failed);
+    connect(&parts_.session, &SessionController::loadingEnded, this, &VectorTools::openWaiting);
     setSession(parts_.session.session());
+}
+
+void VectorTools::open(const QStringList& files)
+{
+    waiting_ += files;
+    if (!parts_.session.isBusy()) {
+        openWaiting();
+    }
+}
+
+void VectorTools::openWaiting()
+{
+    for (const QString& file : std::exchange(waiting_, {})) {
+        if (parts_.view.map()) {
+            overlays_->open(file);
+        } else {
+            Q_EMIT failed(tr("%1: there is no map to draw it on; open a map first").arg(file));
+        }
+    }
 }
 
 const VectorOverlay* VectorTools::overlayOf(const std::string& path) const
@@ -76,7 +97,7 @@ void VectorTools::askFile()
         {tr("Vector files (*.gpkg *.geojson *.json *.kml *.shp *.csv)"), tr("All files (*)")});
     connect(dialog, &QFileDialog::fileSelected, this, [this](const QString& file) {
         folder_ = QFileInfo(file).absolutePath();
-        overlays_->open(file);
+        open({file});
     });
     dialog->open();
 }

@@ -5,6 +5,10 @@
 
 #include <QObject>
 #include <QString>
+#include <QStringList>
+
+#include <string>
+#include <vector>
 
 class QAction;
 class QMainWindow;
@@ -31,6 +35,8 @@ public:
 
     explicit VectorTools(const Parts& parts, QObject* parent = nullptr);
 
+    /// Opens vector files, after the maps that are being loaded.
+    void open(const QStringList& files);
     VectorOverlays& overlays() noexcept { return *overlays_; }
     void setSession(const Session& session);
 
@@ -42,6 +48,7 @@ Q_SIGNALS:
 
 private:
     void askFile();
+    void openWaiting();
     void add(const QString& file, const QStringList& notices);
     void fillMenu();
     void askColor(const std::string& path);
@@ -51,6 +58,7 @@ private:
     Parts parts_;
     VectorOverlays* overlays_ = nullptr;
     std::vector<VectorOverlay> shown_; // in the menu
+    QStringList waiting_;              // for the maps that are being loaded
     QString folder_;
 };
 

@@ -278,6 +278,24 @@ std::string bodyName(const Body* body, const std::optional<Crs>& crs)
 
 } // namespace
 
+bool isVectorFile(const std::string& path)
+{
+    std::error_code failure;
+    const auto format = vectorFormatOf(path);
+    if (!format || *format == VectorFormat::Csv || !fs::is_regular_file(path, failure)) {
+        return false;
+    }
+    if (*format != VectorFormat::GeoPackage) {
+        return true;
+    }
+    ensureGdal();
+    const GdalMessages messages; // discarded
+    const std::array<const char*, 2> drivers{"GPKG", nullptr};
+    const GDALDatasetUniquePtr dataset(
+        GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR, drivers.data()));
+    return dataset && dataset->GetLayerCount() > 0;
+}
+
 Result<VectorFile> readVectorFile(const std::string& path, JobMonitor& monitor)
 {
     return Reader(path, monitor).run();

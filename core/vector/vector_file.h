@@ -26,6 +26,11 @@ struct VectorFile {
 /// Blocks on the disk: not for the GUI thread.
 Result<VectorFile> readVectorFile(const std::string& path, JobMonitor& monitor);
 
+/// Whether a file is to be read with readVectorFile() rather than as a map: by the ending of its
+/// name (.geojson, .kml, .shp, .gpkg), and for a GeoPackage, which may hold rasters, by whether it
+/// has a layer of features. Blocks on the disk for some milliseconds.
+bool isVectorFile(const std::string& path);
+
 /// Writes to a new file, or replaces one when it is complete. The format follows from the name:
 /// .gpkg, .geojson, .kml, .shp or .csv. GeoPackage, Shapefile and CSV keep the CRS; GeoJSON and KML
 /// are written in longitude and latitude on the same body: planetocentric, on the Earth

@@ -172,6 +172,16 @@ TEST_F(VectorToolsTest, AFileOfAnotherBodyOrNoneIsRefusedWithTheReason)
     EXPECT_EQ(window_->undoStack().undoText().contains(QStringLiteral("maria")), false);
 }
 
+TEST_F(VectorToolsTest, OpenedTogetherWithAMapAFileIsDrawnOnThatMap)
+{
+    ASSERT_NO_FATAL_FAILURE(makeWindow(kSmall));
+    ASSERT_TRUE(openAndWait(*window_, maps_.moon()));
+    window_->openAll({marsFile(), maps_.mars()}); // as when both are dropped on the window
+    ASSERT_TRUE(waitFor([this] { return window_->session().overlays.size() == 1; }));
+    ASSERT_TRUE(rest());
+    EXPECT_TRUE(isColoredAt(16.0, 18.5, window_->session().overlays.front().color));
+}
+
 // A map of another body on top: the overlay waits, and is there again with its own map.
 TEST_F(VectorToolsTest, FollowsTheMapThatIsShown)
 {

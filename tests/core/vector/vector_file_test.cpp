@@ -1,5 +1,6 @@
 #include "core/vector/vector_file.h"
 #include "tests/support/run_program.h"
+#include "tests/support/shared_data.h"
 #include "tests/support/temp_folder.h"
 
 #include <gtest/gtest.h>
@@ -298,6 +299,23 @@ TEST(VectorFile, RefusesWhatIsNotAVectorFile)
     runTool({"ogr2ogr", "-nlt", "GEOMETRY", whole, folder.write("s.csv", kShapes)});
     const std::string text = readFile(whole);
     EXPECT_NE(refusal(folder.write("cut.geojson", text.substr(0, text.size() / 2))), "");
+}
+
+TEST(VectorFile, IsToldApartFromAMap)
+{
+    const TempFolder folder;
+    const std::string source = folder.write("s.csv", kShapes);
+    for (const char* name : {"s.gpkg", "s.geojson"}) {
+        const std::string path = folder.file(name);
+        runTool({"ogr2ogr", "-nlt", "GEOMETRY", path, source});
+        EXPECT_TRUE(isVectorFile(path)) << name;
+    }
+    EXPECT_FALSE(isVectorFile(source)) << "a CSV file may be a table of anything";
+    const std::string raster = folder.file("r.gpkg");
+    runTool({"gdal_translate", "-q", "-of", "GPKG", bundledMars(), raster});
+    EXPECT_FALSE(isVectorFile(raster));
+    EXPECT_FALSE(isVectorFile(bundledMars()));
+    EXPECT_FALSE(isVectorFile(folder.file("none.shp")));
 }
 
 } // namespace marsview::test
