@@ -104,10 +104,13 @@ Status checkTextHolds(GDALDataset& dataset, const std::string& path)
     const auto columns = static_cast<std::uint64_t>(dataset.GetRasterXSize());
     const auto rows = static_cast<std::uint64_t>(dataset.GetRasterYSize());
     if (driver == "AAIGrid" || driver == "GRASSASCIIGrid") {
+        if (!isOnDisk(path) && !isInArchive(path)) {
+            return Done{}; // counting would fetch all of it from a server
+        }
         return checkTextGrid(path, columns * rows);
     }
     const std::uint64_t bytes = 144 * columns; // a header for each profile
-    if (driver != "USGSDEM" || bytesOf(path) >= bytes) {
+    if (driver != "USGSDEM" || !isOnDisk(path) || bytesOf(path) >= bytes) {
         return Done{};
     }
     return Error{ErrorCode::Unreadable,
@@ -246,6 +249,9 @@ Result<GuardedDataset> openAfterProbe(const std::vector<std::string>& names)
     skipExitHandlersOf(opened.opening_driver);
     if (!opened.dataset) {
         return Error{ErrorCode::Unsupported, messages.firstFailure("")};
+    }
+    if (Status holds_all = checkTextHolds(*opened.dataset, names[opened.name]); !holds_all) {
+        return std::move(holds_all).error();
     }
     return opened;
 }

@@ -3,17 +3,17 @@
 #include "core/files/file_stamp.h"
 #include "core/files/opening_job.h"
 
+#include <cpl_vsi.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string_view>
-#include <system_error>
 
 namespace marsview {
 namespace {
@@ -45,17 +45,16 @@ bool isHeaderLine(std::string_view line)
 }
 
 // Where the numbers begin.
-std::streamoff endOfHeader(std::ifstream& stream)
+vsi_l_offset endOfHeader(VSILFILE& file)
 {
     std::string beginning(65536, '\0');
-    stream.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
-    beginning.resize(static_cast<std::size_t>(stream.gcount()));
+    beginning.resize(VSIFReadL(beginning.data(), 1, beginning.size(), &file));
     std::size_t begin = 0;
     for (;;) {
         const std::size_t end = beginning.find_first_of("\r\n", begin);
         if (end == std::string::npos ||
             !isHeaderLine(std::string_view(beginning).substr(begin, end - begin))) {
-            return static_cast<std::streamoff>(begin);
+            return begin;
         }
         begin = end + 1;
     }
@@ -64,24 +63,29 @@ std::streamoff endOfHeader(std::ifstream& stream)
 // Up to `count`; empty if the job was canceled.
 std::optional<std::uint64_t> wordsIn(const std::string& path, std::uint64_t count)
 {
-    std::ifstream stream(path, std::ios::binary);
-    const std::streamoff begin = endOfHeader(stream);
-    stream.clear();
-    stream.seekg(begin);
+    const std::unique_ptr<VSILFILE, decltype(&VSIFCloseL)> file(VSIFOpenL(path.c_str(), "rb"),
+                                                                &VSIFCloseL);
+    if (!file) {
+        return 0;
+    }
+    const vsi_l_offset begin = endOfHeader(*file);
+    VSIFSeekL(file.get(), begin, SEEK_SET);
     std::string buffer(std::size_t{1} << 20, '\0');
     std::uint64_t words = 0;
     bool is_in_word = false;
-    while (stream && words < count) {
+    while (words < count) {
         if (OpeningJob::current() != nullptr && OpeningJob::current()->isCanceled()) {
             return std::nullopt;
         }
-        stream.read(buffer.data(), static_cast<std::streamsize>(buffer.size()));
-        const auto end = buffer.begin() + static_cast<std::ptrdiff_t>(stream.gcount());
-        for (auto at = buffer.begin(); at != end; ++at) {
-            if (*at == '\0') {
-                return words;
+        const std::size_t bytes = VSIFReadL(buffer.data(), 1, buffer.size(), file.get());
+        if (bytes == 0) {
+            break;
+        }
+        for (const char c : std::string_view(buffer).substr(0, bytes)) {
+            if (c == '\0') {
+                return std::min(words, count);
             }
-            const bool is_word = !isSpace(*at);
+            const bool is_word = !isSpace(c);
             words += is_word && !is_in_word ? 1 : 0;
             is_in_word = is_word;
         }
@@ -109,8 +113,9 @@ Status checkTextGrid(const std::string& path, std::uint64_t count)
             return Done{};
         }
     }
-    std::error_code failure;
-    const std::uintmax_t bytes = std::filesystem::file_size(path, failure);
+    VSIStatBufL status{};
+    const bool is_there = VSIStatL(path.c_str(), &status) == 0;
+    const std::uint64_t bytes = is_there ? static_cast<std::uint64_t>(status.st_size) : 0;
     // Each number takes at least a digit and a space: beyond this size counting is unnecessary.
     const std::optional<std::uint64_t> words =
         bytes / 2 + 1 < count ? bytes / 2 + 1 : wordsIn(path, count);

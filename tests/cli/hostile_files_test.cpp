@@ -4,12 +4,14 @@
 #include "tests/support/random.h"
 #include "tests/support/temp_folder.h"
 
+#include <cpl_vsi.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <sys/stat.h>
@@ -217,6 +219,29 @@ TEST_F(HostileFiles, RefusesATruncatedTextGrid)
         expectOneLine(output, path);
         EXPECT_THAT(output.err, HasSubstr("its header promises 1024 samples"));
     }
+}
+
+TEST_F(HostileFiles, RefusesATruncatedTextGridInAnArchiveAndBesideACompanion)
+{
+    const std::string whole = test::readFile(test::writeRaster(
+        folder_, "whole.asc", "AAIGrid",
+        test::recipeFor(32, std::vector<std::int16_t>(std::size_t{32} * 32, 1234))));
+    const std::string half = whole.substr(0, whole.size() / 2);
+    const std::string in_archive = folder_.file("map.zip");
+    {
+        const std::unique_ptr<VSILFILE, decltype(&VSIFCloseL)> entry(
+            VSIFOpenL(("/vsizip/" + in_archive + "/map.asc").c_str(), "wb"), &VSIFCloseL);
+        ASSERT_NE(entry, nullptr);
+        ASSERT_EQ(VSIFWriteL(half.data(), 1, half.size(), entry.get()), half.size());
+    }
+    const std::string with_companion = folder_.write("map.asc", half);
+    folder_.write("map.aux", "a companion");
+    const ProgramOutput archive = info(in_archive);
+    expectOneLine(archive, in_archive);
+    EXPECT_THAT(archive.err, HasSubstr("is damaged"));
+    const ProgramOutput companion = info(with_companion);
+    expectOneLine(companion, with_companion);
+    EXPECT_THAT(companion.err, HasSubstr("its header promises 1024 samples"));
 }
 
 TEST_F(HostileFiles, RefusesDecompressionBombs)

@@ -209,6 +209,25 @@ TEST_F(MeasureTest, TheKeyboardPlacesRemovesAndFinishes)
     EXPECT_EQ(measuring().state().items.size(), 1U);
 }
 
+// A hidden layer of another body may be the selected one.
+TEST_F(MeasureTest, TheKeyboardMeasuresTheLayerUnderTheCrosshair)
+{
+    ASSERT_TRUE(openAndWait(*window_, maps_.moon()));
+    SessionController& controller = window_->controller();
+    const LayerId moon = controller.session().layers.front().id;
+    const LayerId mars = controller.session().layers.back().id;
+    controller.activate(mars);
+    ASSERT_EQ(controller.session().active, mars);
+    ASSERT_NO_FATAL_FAILURE(choose(MeasurementKind::Distance));
+    view().setFocus();
+    QEvent leave(QEvent::Leave);
+    QApplication::sendEvent(&view(), &leave);
+    ASSERT_TRUE(view().isCrosshairShown());
+    QTest::keyClick(&view(), Qt::Key_Return);
+    ASSERT_NE(measuring().current(), nullptr);
+    EXPECT_EQ(measuring().current()->layer, moon);
+}
+
 TEST_F(MeasureTest, TheProfileShowsTheElevationsOfItsPlaces)
 {
     ASSERT_NO_FATAL_FAILURE(choose(MeasurementKind::Profile));

@@ -370,34 +370,46 @@ std::optional<MeasureController::Place> MeasureController::placeOf(const RayHit&
         return std::nullopt;
     }
     const auto vertex = vertexAt(geometry_map_->georeference(), hit.grid);
-    const Layer* active = activeLayer(session_);
-    if (!vertex || active == nullptr) {
-        return std::nullopt;
+    for (const Layer& layer : session_.layers) {
+        if (vertex && layer.map == geometry_map_) {
+            return Place{*vertex, layer.id};
+        }
     }
-    return Place{*vertex, active->id};
+    return std::nullopt;
 }
 
-// On the layer that is seen there.
+std::optional<LayerId> MeasureController::layerSeenAt(QPointF position) const
+{
+    if (const auto ground = view_.groundUnder(position)) {
+        const auto& map = view_.ground().maps()[ground->index].map;
+        for (const Layer& layer : session_.layers) {
+            if (layer.map == map) {
+                return layer.id;
+            }
+        }
+    }
+    return std::nullopt;
+}
+
+// On the layer that is seen there, whatever layer is selected.
 std::optional<MeasureController::Place> MeasureController::placeAt(QPointF position) const
 {
     const auto hit = view_.surfaceAt(position);
     std::optional<Place> place = hit ? placeOf(*hit) : std::nullopt;
-    const auto ground = place ? view_.groundUnder(position) : std::nullopt;
-    if (ground) {
-        const auto& map = view_.ground().maps()[ground->index].map;
-        for (const Layer& layer : session_.layers) {
-            if (layer.map == map) {
-                place->layer = layer.id;
-            }
-        }
+    if (place) {
+        place->layer = layerSeenAt(position).value_or(place->layer);
     }
     return place;
 }
 
+// The same by crosshair, stylus or hand.
 std::optional<MeasureController::Place> MeasureController::placeRead() const
 {
     const auto hit = view_.reading();
     std::optional<Place> place = hit ? placeOf(*hit) : std::nullopt;
+    if (const auto position = place ? screenPoint(place->vertex) : std::nullopt) {
+        place->layer = layerSeenAt(*position).value_or(place->layer);
+    }
     return place;
 }
 

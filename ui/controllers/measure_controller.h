@@ -165,6 +165,7 @@ private:
     std::optional<Place> placeAt(QPointF position) const;
     std::optional<Place> placeRead() const;
     std::optional<Place> placeOf(const RayHit& hit) const;
+    std::optional<LayerId> layerSeenAt(QPointF position) const;
     void addPoint(const Place& place);
     std::optional<GroundPosition> positionOf(const MeasuredVertex& vertex) const;
     std::optional<ScenePoint> scenePoint(GroundPosition position) const;

@@ -251,7 +251,7 @@ void MeasurePanel::showResult()
     QString note;
     if (item == nullptr) {
         title_->setText(tr("No measurement is selected"));
-        note = tr("Choose a measurement in the Measure menu, then click on the map.");
+        note = tr("Click on the map to begin, or choose another measurement in the Measure menu.");
     } else {
         title_->setText(item->name);
         const MeasureOutcome& outcome = controller_.outcome(item->id);
