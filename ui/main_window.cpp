@@ -694,6 +694,7 @@ void MainWindow::connectMeasuring()
     enable();
     actions_->measure->addAction(docks_->measurements()->toggleViewAction());
     measure_marks_->lower();
+    overlays_->labels()->lower(); // names give way to measurements
     picture_saver_->setMarks(*measure_marks_);
 }
 
