@@ -482,6 +482,7 @@ void MainWindow::connectNames()
     vector_tools_ = new VectorTools({.window = *this,
                                      .session = *controller_,
                                      .view = *view_,
+                                     .notices = *notice_center_,
                                      .open = *actions_->open_vector,
                                      .files = *actions_->vector_files},
                                     this);
@@ -693,6 +694,7 @@ void MainWindow::connectMeasuring()
     connect(measure_, &MeasureController::changed, this, enable);
     enable();
     actions_->measure->addAction(docks_->measurements()->toggleViewAction());
+    measure_marks_->setObstacles(overlays_->plates());
     measure_marks_->lower();
     overlays_->labels()->lower(); // names give way to measurements
     picture_saver_->setMarks(*measure_marks_);

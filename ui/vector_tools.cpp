@@ -3,7 +3,9 @@
 #include "ui/canvas/terrain_view.h"
 #include "ui/controllers/session_controller.h"
 #include "ui/controllers/vector_overlays.h"
+#include "ui/text/number_text.h"
 #include "ui/text/sentence.h"
+#include "ui/widgets/notice_center.h"
 
 #include <QAction>
 #include <QColorDialog>
@@ -45,6 +47,7 @@ VectorTools::VectorTools(const Parts& parts, QObject* parent)
     connect(&parts_.open, &QAction::triggered, this, &VectorTools::askFile);
     connect(overlays_, &VectorOverlays::wasRead, this, &VectorTools::add);
     connect(overlays_, &VectorOverlays::failed, this, &VectorTools::failed);
+    connect(overlays_, &VectorOverlays::isOnOtherBody, this, &VectorTools::offerBody);
     connect(&parts_.session, &SessionController::loadingEnded, this, &VectorTools::openWaiting);
     setSession(parts_.session.session());
 }
@@ -61,6 +64,7 @@ void VectorTools::openWaiting()
 {
     for (const QString& file : std::exchange(waiting_, {})) {
         if (parts_.view.map()) {
+            withdrawOffer(QFileInfo(file).absoluteFilePath());
             overlays_->open(file);
         } else {
             Q_EMIT failed(tr("%1: there is no map to draw it on; open a map first").arg(file));
@@ -102,16 +106,44 @@ void VectorTools::askFile()
     dialog->open();
 }
 
-void VectorTools::add(const QString& file, const QStringList& notices)
+// GeoJSON and many exports know only the Earth's longitude and latitude.
+void VectorTools::offerBody(const QString& file, const QString& body, const QString& crs)
+{
+    withdrawOffer(file);
+    offers_.append(
+        {.id = file,
+         //: %1 is a file, %2 is a body
+         .text = tr("%1 says that it is in longitude and latitude on Earth, but the map is on %2")
+                     .arg(isolated(QFileInfo(file).fileName()), body),
+         //: On a button: read a file as longitude and latitude on that body; %1 is a body
+         .actions = {{tr("Use %1").arg(body), [this, file, crs] {
+                          withdrawOffer(file);
+                          overlays_->open(file, crs);
+                      }}}});
+    parts_.notices.setNotices(NoticeSource::VectorFile, offers_);
+}
+
+void VectorTools::withdrawOffer(const QString& file)
+{
+    if (offers_.removeIf([&file](const Notice& offer) { return offer.id == file; }) > 0) {
+        parts_.notices.setNotices(NoticeSource::VectorFile, offers_);
+    }
+}
+
+void VectorTools::add(const QString& file, const QString& crs, const QStringList& notices)
 {
     const std::string path = file.toStdString();
     if (const VectorOverlay* known = overlayOf(path)) {
         VectorOverlay overlay = *known;
         overlay.is_visible = true;
+        overlay.crs = crs.toStdString();
         parts_.session.setOverlay(overlay);
     } else {
         const std::size_t count = parts_.session.session().overlays.size();
-        parts_.session.setOverlay({.path = path, .color = kColors[count % kColors.size()]});
+        parts_.session.setOverlay({.path = path,
+                                   .color = kColors[count % kColors.size()],
+                                   .is_visible = true,
+                                   .crs = crs.toStdString()});
     }
     //: In the status bar, for a few seconds; %1 is a file
     QString message = tr("Opened %1").arg(isolated(QFileInfo(file).fileName()));

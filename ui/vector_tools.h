@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/session/session.h"
+#include "ui/widgets/notice.h"
 
 #include <QObject>
 #include <QString>
@@ -16,6 +17,7 @@ class QMenu;
 
 namespace marsview {
 
+class NoticeCenter;
 class SessionController;
 class TerrainView;
 class VectorOverlays;
@@ -29,6 +31,7 @@ public:
         QMainWindow& window;
         SessionController& session;
         TerrainView& view;
+        NoticeCenter& notices;
         QAction& open;
         QMenu& files; // of open files; it is filled here
     };
@@ -49,7 +52,9 @@ Q_SIGNALS:
 private:
     void askFile();
     void openWaiting();
-    void add(const QString& file, const QStringList& notices);
+    void offerBody(const QString& file, const QString& body, const QString& crs);
+    void withdrawOffer(const QString& file);
+    void add(const QString& file, const QString& crs, const QStringList& notices);
     void fillMenu();
     void askColor(const std::string& path);
     void goTo(const std::string& path);
@@ -58,6 +63,7 @@ private:
     Parts parts_;
     VectorOverlays* overlays_ = nullptr;
     std::vector<VectorOverlay> shown_; // in the menu
+    QList<Notice> offers_;             // to read files on the map's body, by path
     QStringList waiting_;              // for the maps that are being loaded
     QString folder_;
 };

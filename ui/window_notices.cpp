@@ -44,7 +44,13 @@ void WindowNotices::update()
     center.setNotices(NoticeSource::Device, ofDevice());
     center.setNotices(NoticeSource::Picture, active != nullptr ? ofPicture() : QList<Notice>());
     center.setNotices(NoticeSource::Sample, ofSample());
-    center.setNotices(NoticeSource::Layer, active != nullptr ? ofLayer(*active) : QList<Notice>());
+    QList<Notice> corrections;
+    QList<Notice> of_layer;
+    if (active != nullptr) {
+        addNotices(*active, corrections, of_layer);
+    }
+    center.setNotices(NoticeSource::Correction, corrections);
+    center.setNotices(NoticeSource::Layer, of_layer);
     center.setNotices(NoticeSource::Storage, ofStorage());
 }
 
@@ -122,28 +128,51 @@ QList<Notice> WindowNotices::ofSample() const
                           [&session] { session.keepSample(); }}}}};
 }
 
-QList<Notice> WindowNotices::ofLayer(const Layer& layer) const
+void WindowNotices::addNotices(const Layer& layer,
+                               QList<Notice>& corrections,
+                               QList<Notice>& others) const
 {
     const Map& map = *layer.map;
-    QList<Notice> notices;
     // The first notice of a preview says in numbers that it is one.
     const std::size_t first = map.isPreview() ? 1 : 0;
     if (map.isPreview()) {
-        notices.append(ofPreview(layer));
+        others.append(ofPreview(layer));
     }
     const auto& suggestion = map.info().crs_suggestion;
     const std::string of_suggestion = suggestion ? noticeOf(*suggestion) : std::string();
+    const auto& nodata = map.info().nodata_suggestion;
+    const std::string of_nodata = nodata ? noticeOfNodata(*nodata) : std::string();
     const auto& texts = map.info().notices;
     for (std::size_t i = first; i < texts.size(); ++i) {
         const QString text = QString::fromStdString(texts[i]);
-        notices.append({.id = idOf(layer.id, text),
-                        .text = asSentence(text),
-                        .show_details = [show = commands_.show_fact, text] { show(text); }});
+        Notice notice{.id = idOf(layer.id, text),
+                      .text = asSentence(text),
+                      .show_details = [show = commands_.show_fact, text] { show(text); }};
         if (suggestion && texts[i] == of_suggestion) {
-            addChoices(notices.back(), *suggestion, layer);
+            addChoices(notice, *suggestion, layer);
+            corrections.append(notice);
+        } else if (nodata && texts[i] == of_nodata) {
+            addNodata(notice, *nodata, layer);
+            corrections.prepend(notice);
+        } else {
+            others.append(notice);
         }
     }
-    return notices;
+}
+
+void WindowNotices::addNodata(Notice& notice, double raw, const Layer& layer) const
+{
+    const QString value = sampleText(raw);
+    //: %1 is a number
+    notice.text =
+        tr("Samples of %1 often mark nodata, but the file declares no nodata value").arg(value);
+    SessionController& session = parts_.session;
+    RasterOverrides overrides = layer.map->spec().overrides;
+    overrides.nodata = raw;
+    //: On a button: read samples of that value as nodata; %1 is a number
+    notice.actions.append({tr("Set %1 as Nodata").arg(value), [&session, id = layer.id, overrides] {
+                               session.overrideGeoreferencing(id, overrides);
+                           }});
 }
 
 // One click for each system that would fit; every one is a step that can be undone.

@@ -52,7 +52,9 @@ private:
     QList<Notice> ofReplay() const;
     QList<Notice> ofPicture() const;
     QList<Notice> ofSample() const;
-    QList<Notice> ofLayer(const Layer& layer) const;
+    /// Appends those of the layer: `corrections` are what the user should decide first.
+    void addNotices(const Layer& layer, QList<Notice>& corrections, QList<Notice>& others) const;
+    void addNodata(Notice& notice, double raw, const Layer& layer) const;
     void addChoices(Notice& notice, const CrsSuggestion& suggestion, const Layer& layer) const;
     Notice ofPreview(const Layer& layer) const;
     QList<Notice> ofStorage() const;

@@ -210,6 +210,30 @@ Status applyBody(RasterInfo& info, const RasterOverrides& overrides)
     return Done{};
 }
 
+// A value that programs write where they have no elevation.
+std::optional<double> undeclaredNodata(const RasterInfo& info, const SampleStatistics& statistics)
+{
+    if (info.nodata) {
+        return std::nullopt;
+    }
+    constexpr double kFloatMax = 3.4028234663852886e38;
+    constexpr double kNetcdfFill = 9.969209968386869e36;
+    constexpr std::array kLowMarks{-32768.0, -32767.0, -9999.0, -99999.0, -kFloatMax};
+    constexpr std::array kHighMarks{1e20, kNetcdfFill, kFloatMax};
+    const auto is_one_of = [](const auto& marks, double raw) {
+        return std::find(marks.begin(), marks.end(), raw) != marks.end();
+    };
+    if (is_one_of(kLowMarks, statistics.raw_minimum)) {
+        return statistics.raw_minimum;
+    }
+    const bool is_highest = (info.type == SampleType::Int16 && statistics.raw_maximum == 32767.0) ||
+                            (info.type == SampleType::UInt16 && statistics.raw_maximum == 65535.0);
+    if (is_highest || is_one_of(kHighMarks, statistics.raw_maximum)) {
+        return statistics.raw_maximum;
+    }
+    return std::nullopt;
+}
+
 } // namespace
 
 ElevationScale RasterInfo::elevationScale() const noexcept
@@ -262,15 +286,15 @@ void noteSuspiciousSamples(RasterInfo& info, const SampleStatistics& statistics)
             "contains no elevations: all of its {} samples are nodata", statistics.sample_count));
         return;
     }
-    constexpr std::array kUsualVoidMarks{-32768.0, -32767.0, -9999.0, -99999.0,
-                                         -3.4028234663852886e38};
-    const bool is_usual_mark = std::find(kUsualVoidMarks.begin(), kUsualVoidMarks.end(),
-                                         statistics.raw_minimum) != kUsualVoidMarks.end();
+    info.nodata_suggestion = undeclaredNodata(info, statistics);
+    if (info.nodata_suggestion) {
+        info.notices.push_back(noticeOfNodata(*info.nodata_suggestion));
+    }
     constexpr double kHeightMaxM = 1e6; // if the body is unknown
     const double height_max_m = bodyRadius(info).value_or(kHeightMaxM);
     for (const double raw : {statistics.raw_minimum, statistics.raw_maximum}) {
         const double height_m = info.elevationScale().height(raw);
-        if (!(std::abs(height_m) <= height_max_m)) {
+        if (!(std::abs(height_m) <= height_max_m) && raw != info.nodata_suggestion) {
             info.notices.push_back(
                 fmt::format("the sample {} makes an elevation of {} m, which is implausible; set "
                             "it as nodata, or set the unit or the scale",
@@ -278,12 +302,14 @@ void noteSuspiciousSamples(RasterInfo& info, const SampleStatistics& statistics)
             break;
         }
     }
-    if (!info.nodata && is_usual_mark) {
-        info.notices.push_back(
-            fmt::format("the lowest sample is {}, which often marks nodata, but the file declares "
-                        "no nodata value; if it does, set it as nodata",
-                        statistics.raw_minimum));
-    }
+}
+
+std::string noticeOfNodata(double raw)
+{
+    return fmt::format(
+        "samples of {} at an end of the range often mark nodata, but the file "
+        "declares no nodata value; if they do, set it as nodata",
+        raw);
 }
 
 void notePlacement(RasterInfo& info)

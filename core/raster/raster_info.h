@@ -63,6 +63,9 @@ struct RasterInfo {
     AxisHints axis_hints;       // axes and body from metadata other than a CRS
     /// For a grid without a CRS that appears to be in degrees.
     std::optional<CrsSuggestion> crs_suggestion;
+    /// A raw value at an end of the samples' range that usually marks nodata, where the file
+    /// declares none. Set by noteSuspiciousSamples().
+    std::optional<double> nodata_suggestion;
 
     /// Observations, assumptions and corrections, as sentences for the user.
     std::vector<std::string> notices;
@@ -119,8 +122,11 @@ std::optional<OverrideField> refusedField(const Error& error);
 Result<RasterInfo> withOverrides(RasterInfo info, const RasterOverrides& overrides);
 
 /// Adds a notice if the file seems to have undeclared voids, has only voids, or has values that
-/// cannot be elevations.
+/// cannot be elevations. Sets the nodata suggestion.
 void noteSuspiciousSamples(RasterInfo& info, const SampleStatistics& statistics);
+
+/// The sentence in RasterInfo::notices that corresponds to a nodata suggestion.
+std::string noticeOfNodata(double raw);
 
 /// Decides whether values are heights or radii (see RasterInfo::reference_radius_m) and names the
 /// datum accordingly. Call whenever scale, unit, CRS or body changed.

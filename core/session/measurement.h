@@ -44,6 +44,8 @@ struct Measurement {
     std::vector<MeasuredVertex> vertices{};
     LayerId layer = LayerId::None; // on which it was made
     std::chrono::system_clock::time_point time{};
+    std::string note{};          // by the user
+    std::optional<Rgb8> color{}; // empty: the usual one
     AreaOptions area{};                        // of Area
     std::optional<double> step_m{};            // of Profile
     std::optional<double> baseline_m{};        // of Slope

@@ -61,6 +61,19 @@ FieldValue number(const std::optional<double>& value)
     return value ? number(*value) : FieldValue();
 }
 
+FieldValue text(const std::string& value)
+{
+    return value.empty() ? FieldValue() : FieldValue(value);
+}
+
+FieldValue colorOf(const Measurement& measurement)
+{
+    const auto& color = measurement.color;
+    return color ? FieldValue(
+                       fmt::format("#{:02x}{:02x}{:02x}", color->red, color->green, color->blue))
+                 : FieldValue();
+}
+
 // In the order of Kind::results.
 struct ResultValues {
     std::vector<FieldValue> operator()(const Distance& d) const
@@ -259,6 +272,8 @@ FeatureCollection collectionOf(const std::vector<const NamedMeasurement*>& measu
     for (const Kind& kind : kinds()) {
         FeatureLayer layer{.name = kind.layer,
                            .fields = {{.name = "name", .type = FieldType::Text},
+                                      {.name = "note", .type = FieldType::Text},
+                                      {.name = "color", .type = FieldType::Text},
                                       {.name = "layer", .type = FieldType::Text},
                                       {.name = "time", .type = FieldType::Text}},
                            .features = {}};
@@ -272,8 +287,8 @@ FeatureCollection collectionOf(const std::vector<const NamedMeasurement*>& measu
             }
             Feature feature = geometryOf(measurement, geometry ? &*geometry : nullptr);
             const auto seconds = std::chrono::floor<std::chrono::seconds>(measurement.time);
-            feature.values = {measurement.name, named->layer_name,
-                              fmt::format("{:%FT%T}Z", seconds)};
+            feature.values = {measurement.name, text(measurement.note), colorOf(measurement),
+                              named->layer_name, fmt::format("{:%FT%T}Z", seconds)};
             if (measurement.result && measurement.result->values) {
                 for (FieldValue& value : std::visit(ResultValues{}, *measurement.result->values)) {
                     feature.values.push_back(std::move(value));

@@ -23,7 +23,7 @@ struct NamedMeasurement {
 
 /// A collection for each ellipsoid, in longitude and latitude on its body, and one in map
 /// coordinates for maps without a body. Each has a layer for each kind of measurement that occurs.
-/// The fields are the name, the layer, the time, and the results with their units in their names;
+/// The fields are the name, the note, the color as "#ffdd40", the layer, the time, and the results with their units in their names;
 /// they are empty without a result.
 ///
 /// Lines and borders follow the shortest lines on the ellipsoid: consecutive positions are at most

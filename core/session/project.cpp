@@ -231,10 +231,21 @@ std::optional<ProjectTime> timeFrom(const std::string& text)
            chrono::milliseconds{std::llround(1000.0 * second)};
 }
 
+std::string colorText(const Rgb8& color)
+{
+    return fmt::format("#{:02x}{:02x}{:02x}", color.red, color.green, color.blue);
+}
+
 Json measurementJson(const ProjectMeasurement& measurement)
 {
     Json json = Json::object();
     json["name"] = measurement.name;
+    if (!measurement.note.empty()) {
+        json["note"] = measurement.note;
+    }
+    if (measurement.color) {
+        json["color"] = colorText(*measurement.color);
+    }
     json["kind"] = nameIn(kMeasurements, measurement.kind);
     if (measurement.layer) {
         json["layer"] = *measurement.layer;
@@ -264,9 +275,11 @@ Json overlayJson(const VectorOverlay& overlay, const ProjectFolders& folders)
 {
     Json json = Json::object();
     putSource(json, overlay.path, folders);
-    json["color"] = fmt::format("#{:02x}{:02x}{:02x}", overlay.color.red, overlay.color.green,
-                                overlay.color.blue);
+    json["color"] = colorText(overlay.color);
     json["visible"] = overlay.is_visible;
+    if (!overlay.crs.empty()) {
+        json["crs"] = overlay.crs;
+    }
     return json;
 }
 
@@ -419,12 +432,31 @@ std::optional<std::array<double, 2>> pairFrom(const Json& json)
     return std::isfinite(pair[0]) && std::isfinite(pair[1]) ? std::optional(pair) : std::nullopt;
 }
 
+// Of the member "color"; empty if there is none.
+std::optional<Rgb8> colorFrom(Members& members)
+{
+    std::string text;
+    members.text("color", text);
+    unsigned rgb = 0;
+    char rest = '\0';
+    if (text.size() == 7 && std::sscanf(text.c_str(), "#%6x%c", &rgb, &rest) == 1) { // NOLINT
+        return Rgb8{static_cast<std::uint8_t>(rgb >> 16U), static_cast<std::uint8_t>(rgb >> 8U),
+                    static_cast<std::uint8_t>(rgb)};
+    }
+    if (members.has("color")) {
+        members.refuse("color", "a color such as #ffdd40");
+    }
+    return std::nullopt;
+}
+
 ProjectMeasurement measurementFrom(Members& members, std::size_t layer_count)
 {
     ProjectMeasurement measurement;
     members.text("name", measurement.name);
     members.choice("kind", kMeasurements, measurement.kind);
     members.index("layer", measurement.layer, layer_count);
+    members.text("note", measurement.note);
+    measurement.color = colorFrom(members);
     std::string time = timeText({});
     members.text("time", time);
     if (const auto known = timeFrom(time)) {
@@ -464,17 +496,11 @@ VectorOverlay overlayFrom(Members& members, const ProjectFolders& folders)
 {
     VectorOverlay overlay;
     overlay.path = pathFrom(members, folders);
-    std::string color;
-    members.text("color", color);
-    unsigned rgb = 0;
-    char rest = '\0';
-    if (color.size() == 7 && std::sscanf(color.c_str(), "#%6x%c", &rgb, &rest) == 1) { // NOLINT
-        overlay.color = {static_cast<std::uint8_t>(rgb >> 16U),
-                         static_cast<std::uint8_t>(rgb >> 8U), static_cast<std::uint8_t>(rgb)};
-    } else if (members.has("color")) {
-        members.refuse("color", "a color such as #ffdd40");
+    if (const auto color = colorFrom(members)) {
+        overlay.color = *color;
     }
     members.flag("visible", overlay.is_visible);
+    members.text("crs", overlay.crs);
     return overlay;
 }
 

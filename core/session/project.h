@@ -45,6 +45,8 @@ struct ProjectMeasurement {
     std::optional<std::size_t> layer{};     // an index of Project::layers; empty: it was removed
     std::vector<MeasuredVertex> vertices{}; // all of one type
     ProjectTime time{};                     // at which it was begun
+    std::string note{};
+    std::optional<Rgb8> color{}; // empty: the usual one
 
     bool operator==(const ProjectMeasurement&) const = default;
 };

@@ -67,6 +67,8 @@ struct VectorOverlay {
     std::string path; // unique in a session
     Rgb8 color{255, 221, 64};
     bool is_visible = true;
+    /// Text for Crs::fromText that replaces the file's CRS; empty: the file's own.
+    std::string crs{};
 
     bool operator==(const VectorOverlay&) const = default;
 };

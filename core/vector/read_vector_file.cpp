@@ -328,4 +328,14 @@ Status checkSameBody(const std::string& path,
                              bodyName(map_body, map_crs))};
 }
 
+std::optional<Crs> likelyCrs(const FeatureCollection& content, const Body* map_body)
+{
+    const bool is_plain = content.crs && content.crs->kind() == CrsKind::Geographic &&
+                          content.body != nullptr && content.body->name == "Earth";
+    if (!is_plain || map_body == nullptr || map_body == content.body) {
+        return std::nullopt;
+    }
+    return commonGeographic(*map_body);
+}
+
 } // namespace marsview

@@ -50,4 +50,9 @@ Status checkSameBody(const std::string& path,
                      const std::optional<Crs>& map_crs,
                      const Body* map_body);
 
+/// For features in longitude and latitude on the Earth, as files state whose format knows no other
+/// body: the longitude and latitude of the map's body that they may be meant in. Empty for other
+/// features, and for a map of the Earth or an unknown body.
+std::optional<Crs> likelyCrs(const FeatureCollection& content, const Body* map_body);
+
 } // namespace marsview

@@ -6,6 +6,8 @@
 #include "tests/ui/test_map.h"
 #include "ui/canvas/terrain_view.h"
 #include "ui/controllers/measure_controller.h"
+#include "ui/overlay/measure_marks.h"
+#include "ui/panels/measure_list.h"
 #include "ui/panels/measure_panel.h"
 #include "ui/picture_saver.h"
 #include "ui/plots/profile_plot.h"
@@ -285,6 +287,87 @@ TEST_F(MeasureTest, TheListNamesShowsAndRemoves)
     window_->undoStack().undo();
     EXPECT_EQ(panel().list()->topLevelItemCount(), 1);
     EXPECT_EQ(measuring().state().items.front().name, QStringLiteral("Layer of rock"));
+}
+
+TEST_F(MeasureTest, NotesAndColorsAreStepsOfUndoAndPartOfTheProject)
+{
+    ASSERT_NO_FATAL_FAILURE(choose(MeasurementKind::Distance));
+    click(at(-0.1, 0.0));
+    click(at(0.1, 0.0));
+    measuring().finish();
+    ASSERT_TRUE(isMeasured());
+    const std::uint32_t id = measuring().current()->id;
+    panel().list()->topLevelItem(0)->setText(MeasureList::NoteColumn, QStringLiteral("a fault"));
+    measuring().setColor(id, Rgb8{255, 0, 0});
+    ASSERT_TRUE(QTest::qWaitFor([this] { return view().isPictureComplete(); }, kTimeout));
+    const auto is_red_at = [this](QPoint position) {
+        const QColor seen = view().terrainPicture().pixelColor(position);
+        return seen.red() > 200 && seen.green() < 80 && seen.blue() < 80;
+    };
+    const std::vector<MeasureHandle> handles = measuring().handles();
+    ASSERT_EQ(handles.size(), 2U);
+    const QPointF between = 0.5 * (handles[0].place + handles[1].place);
+    EXPECT_TRUE(is_red_at((0.7 * between + 0.3 * handles[0].place).toPoint()));
+    EXPECT_EQ(window_->undoStack().undoText(), QStringLiteral("Color of Distance 1"));
+    const std::vector<ProjectMeasurement> saved = measuring().saved();
+    ASSERT_EQ(saved.size(), 1U);
+    EXPECT_EQ(saved.front().note, "a fault");
+    EXPECT_EQ(saved.front().color, (Rgb8{255, 0, 0}));
+    measuring().open(saved, projectOrder(window_->session()));
+    EXPECT_EQ(measuring().saved(), saved);
+    EXPECT_EQ(panel().list()->topLevelItem(0)->text(MeasureList::NoteColumn),
+              QStringLiteral("a fault"));
+}
+
+TEST_F(MeasureTest, TheListSortsResultsByTheirSize)
+{
+    ASSERT_NO_FATAL_FAILURE(choose(MeasurementKind::Distance));
+    for (const auto& [half, down] : {std::pair(0.02, -0.1), {0.2, 0.0}, {0.1, 0.1}}) {
+        click(at(-half, down));
+        click(at(half, down));
+        measuring().finish();
+        ASSERT_TRUE(isMeasured());
+    }
+    const auto names = [this] {
+        QStringList ends;
+        for (int i = 0; i < panel().list()->topLevelItemCount(); ++i) {
+            ends.append(panel().list()->topLevelItem(i)->text(MeasureList::NameColumn).last(1));
+        }
+        return ends.join(QLatin1Char(' '));
+    };
+    EXPECT_EQ(names(), QStringLiteral("1 2 3"));
+    panel().list()->sortByColumn(MeasureList::ResultColumn, Qt::DescendingOrder);
+    EXPECT_EQ(names(), QStringLiteral("2 3 1"));
+    // A row stands for its measurement wherever it is.
+    panel().list()->setCurrentItem(panel().list()->topLevelItem(0));
+    EXPECT_TRUE(measuring().current()->name.endsWith(QLatin1Char('2')));
+    panel().list()->topLevelItem(0)->setText(MeasureList::NameColumn, QStringLiteral("Rim 0"));
+    EXPECT_EQ(measuring().current()->name, QStringLiteral("Rim 0"));
+    EXPECT_EQ(names(), QStringLiteral("0 3 1"));
+}
+
+// A label in the corner of the window would stand for a line that is somewhere else.
+TEST_F(MeasureTest, ALabelIsShownOnlyBesideItsPlaceInThePicture)
+{
+    ASSERT_NO_FATAL_FAILURE(choose(MeasurementKind::Distance));
+    click(at(-0.1, 0.0));
+    click(at(0.1, 0.0));
+    measuring().finish();
+    ASSERT_TRUE(isMeasured());
+    const MeasureMarks& marks = *window_->findChild<MeasureMarks*>();
+    const std::vector<QRectF> labels = marks.labelBoxes();
+    ASSERT_EQ(labels.size(), 1U);
+    EXPECT_TRUE(QRectF(view().rect()).contains(labels.front()));
+    const QPointF place = *measuring().labelPlace(measuring().current()->id);
+    EXPECT_TRUE(labels.front().adjusted(-15.0, -15.0, 15.0, 15.0).contains(place));
+    OrbitCamera camera = view().camera();
+    camera.target.x -= 0.2 * camera.distance_m;
+    camera.target.y += 0.2 * camera.distance_m;
+    camera.distance_m *= 0.1;
+    view().setCamera(camera);
+    const auto moved = measuring().labelPlace(measuring().current()->id);
+    ASSERT_FALSE(moved && QRectF(view().rect()).contains(*moved));
+    EXPECT_TRUE(marks.labelBoxes().empty());
 }
 
 // Its line, its points and its label, in a picture twice as large as the view.

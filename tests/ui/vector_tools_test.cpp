@@ -5,12 +5,15 @@
 #include "ui/controllers/vector_overlays.h"
 #include "ui/project/project_controller.h"
 #include "ui/vector_tools.h"
+#include "ui/widgets/notice_bar.h"
 #include "ui/window_actions.h"
 
 #include <QAction>
 #include <QFile>
+#include <QLabel>
 #include <QMenu>
 #include <QSignalSpy>
+#include <QToolButton>
 #include <QUndoStack>
 
 #include <gtest/gtest.h>
@@ -170,6 +173,49 @@ TEST_F(VectorToolsTest, AFileOfAnotherBodyOrNoneIsRefusedWithTheReason)
     EXPECT_TRUE(problem.contains(QStringLiteral("none.gpkg"))) << problem.toStdString();
     EXPECT_TRUE(window_->session().overlays.empty());
     EXPECT_EQ(window_->undoStack().undoText().contains(QStringLiteral("maria")), false);
+}
+
+// GeoJSON without a CRS states the Earth's longitude and latitude.
+TEST_F(VectorToolsTest, AFileOfPlainLongitudesAndLatitudesCanBeReadOnTheMapsBody)
+{
+    ASSERT_NO_FATAL_FAILURE(openMars());
+    const QString path = maps_.path(QStringLiteral("plain.geojson"));
+    QFile out(path);
+    ASSERT_TRUE(out.open(QIODevice::WriteOnly));
+    out.write(R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{},)"
+              R"("geometry":{"type":"Point","coordinates":[16,18.5]}}]})");
+    out.close();
+    const QSignalSpy failures(&window_->vectorTools(), &VectorTools::failed);
+    ASSERT_TRUE(openVector(path));
+    const auto& bar = *window_->findChild<NoticeBar*>();
+    const auto& text = *bar.findChild<QLabel*>(QStringLiteral("noticeText"));
+    auto& button = *bar.findChild<QToolButton*>(QStringLiteral("noticeAction"));
+    EXPECT_EQ(text.text(), QStringLiteral("plain.geojson says that it is in longitude and latitude "
+                                          "on Earth, but the map is on Mars"));
+    EXPECT_EQ(button.text(), QStringLiteral("Use Mars"));
+    EXPECT_TRUE(window_->session().overlays.empty());
+    // Closed, and asked for again.
+    bar.findChild<QToolButton*>(QStringLiteral("noticeClose"))->click();
+    EXPECT_FALSE(bar.isVisible() && text.text().contains(QStringLiteral("plain.geojson")));
+    ASSERT_TRUE(openVector(path));
+    window_->openAll({path});
+    ASSERT_TRUE(rest());
+    EXPECT_TRUE(bar.isVisible());
+    button.click();
+    ASSERT_TRUE(rest());
+    ASSERT_EQ(window_->session().overlays.size(), 1U);
+    EXPECT_TRUE(isColoredAt(16.0, 18.5, window_->session().overlays.front().color));
+    EXPECT_FALSE(bar.isVisible() && text.text().contains(QStringLiteral("plain.geojson")));
+    EXPECT_EQ(failures.count(), 0);
+
+    const QString project = maps_.path(QStringLiteral("plain.mvproj"));
+    ASSERT_TRUE(window_->project().saveAs(project));
+    makeWindow(kSmall);
+    window_->open(project);
+    ASSERT_TRUE(waitFor(
+        [this] { return !window_->controller().isBusy() && !window_->session().layers.empty(); }));
+    ASSERT_TRUE(rest());
+    EXPECT_TRUE(isColoredAt(16.0, 18.5, window_->session().overlays.front().color));
 }
 
 TEST_F(VectorToolsTest, OpenedTogetherWithAMapAFileIsDrawnOnThatMap)

@@ -229,6 +229,25 @@ void MeasureController::rename(std::uint32_t id, const QString& name)
     }
 }
 
+void MeasureController::setNote(std::uint32_t id, const QString& note)
+{
+    MeasureState state = state_;
+    if (MeasureItem* item = editable(state, id)) {
+        item->note = note.trimmed();
+        push(std::move(state), tr("Edit Note"));
+    }
+}
+
+void MeasureController::setColor(std::uint32_t id, const std::optional<Rgb8>& color)
+{
+    MeasureState state = state_;
+    if (MeasureItem* item = editable(state, id)) {
+        item->color = color;
+        const QString text = tr("Color of %1").arg(item->name);
+        push(std::move(state), text);
+    }
+}
+
 void MeasureController::removeAll()
 {
     MeasureState state = state_;
@@ -293,7 +312,9 @@ std::vector<ProjectMeasurement> MeasureController::saved() const
                           ? std::optional(static_cast<std::size_t>(layer - order.begin()))
                           : std::nullopt,
              .vertices = item.vertices,
-             .time = ProjectTime(std::chrono::milliseconds(item.time.toMSecsSinceEpoch()))});
+             .time = ProjectTime(std::chrono::milliseconds(item.time.toMSecsSinceEpoch())),
+             .note = item.note.toStdString(),
+             .color = item.color});
     }
     return saved;
 }
@@ -311,6 +332,8 @@ std::vector<NamedMeasurement> MeasureController::named() const
         measurement.measurement.vertices = item.vertices;
         measurement.measurement.time = std::chrono::system_clock::time_point(
             std::chrono::milliseconds(item.time.toMSecsSinceEpoch()));
+        measurement.measurement.note = item.note.toStdString();
+        measurement.measurement.color = item.color;
         measurement.measurement.result = outcome(item.id).result;
         if (const Layer* layer = layerOf(item)) {
             measurement.layer_name = layer->name;
@@ -337,6 +360,8 @@ void MeasureController::open(const std::vector<ProjectMeasurement>& saved,
                          : LayerId::None;
         item.vertices = measurement.vertices;
         item.is_finished = true;
+        item.note = QString::fromStdString(measurement.note);
+        item.color = measurement.color;
         item.time = QDateTime::fromMSecsSinceEpoch(measurement.time.time_since_epoch().count());
         state.items.push_back(std::move(item));
     }
@@ -674,6 +699,11 @@ void MeasureController::addLeg(const GroundLine& line, Leg leg)
 }
 
 // The strike line with a tick down the dip, through the middle of the points.
+Rgb8 MeasureController::colorOf(const MeasureItem& item) const
+{
+    return item.color.value_or(item.id == state_.current ? kCurrentColor : kOtherColor);
+}
+
 void MeasureController::addSymbol(std::vector<DrapedLine>& lines, const MeasureItem& item) const
 {
     const auto* attitude = outcome(item.id).as<Attitude>();
@@ -689,7 +719,7 @@ void MeasureController::addSymbol(std::vector<DrapedLine>& lines, const MeasureI
     const auto one_end = away(attitude->strike_deg, half_m);
     const auto other_end = away(attitude->strike_deg + 180.0, half_m);
     const auto tick = away(attitude->dip_direction_deg, 0.4 * half_m);
-    const Rgb8 color = item.id == state_.current ? kCurrentColor : kOtherColor;
+    const Rgb8 color = colorOf(item);
     if (one_end && other_end && tick) {
         lines.push_back(
             {.points = {*one_end, *center, *other_end}, .color = color, .width_points = 3.0});
@@ -757,8 +787,9 @@ void MeasureController::drawLines()
     for (const bool is_current : {false, true}) { // the current one over the others
         for (const Leg& leg : legs_) {
             if ((leg.item == state_.current) == is_current) {
+                const MeasureItem* item = itemOf(leg.item);
                 lines.push_back({.points = leg.points,
-                                 .color = is_current ? kCurrentColor : kOtherColor,
+                                 .color = item != nullptr ? colorOf(*item) : kOtherColor,
                                  .width_points = is_current ? 2.5 : 1.8});
             }
         }

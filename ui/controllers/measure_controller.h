@@ -33,6 +33,8 @@ struct MeasureItem {
     std::vector<MeasuredVertex> vertices;
     bool is_finished = false; // clicks begin another one
     QDateTime time;           // at which it was begun
+    QString note;
+    std::optional<Rgb8> color; // of its lines; empty: the usual one
 
     bool operator==(const MeasureItem&) const = default;
     /// Of lines that are closed: an area's border.
@@ -96,6 +98,9 @@ public:
     void select(std::uint32_t id);
     void remove(std::uint32_t id);
     void rename(std::uint32_t id, const QString& name);
+    void setNote(std::uint32_t id, const QString& note);
+    /// Empty for the usual color.
+    void setColor(std::uint32_t id, const std::optional<Rgb8>& color);
     void removeAll();
     void removeLastPoint();
     void finish();
@@ -178,6 +183,7 @@ private:
     }
     void drawLines();
     void addLeg(const GroundLine& line, Leg leg);
+    Rgb8 colorOf(const MeasureItem& item) const;
     void addSymbol(std::vector<DrapedLine>& lines, const MeasureItem& item) const;
     void measureAgain(const MeasureItem& item);
     void take(const Job& job, std::shared_ptr<const MeasurementResult> result, bool is_last);

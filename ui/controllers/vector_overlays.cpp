@@ -58,7 +58,7 @@ VectorOverlays::VectorOverlays(TerrainView& view, QObject* parent)
     });
     connect(&view_, &TerrainView::layersChanged, this, [this] {
         for (const VectorOverlay& overlay : overlays_) {
-            place(overlay.path, false);
+            place({.path = overlay.path, .crs = overlay.crs});
         }
         draw_timer_.start();
     });
@@ -71,9 +71,11 @@ VectorOverlays::~VectorOverlays()
     pool_.waitForDone(); // posted results are discarded with this object
 }
 
-void VectorOverlays::open(const QString& file)
+void VectorOverlays::open(const QString& file, const QString& crs)
 {
-    place(QFileInfo(file).absoluteFilePath().toStdString(), true);
+    place({.path = QFileInfo(file).absoluteFilePath().toStdString(),
+           .crs = crs.toStdString(),
+           .is_asked_for = true});
 }
 
 void VectorOverlays::setSession(const Session& session)
@@ -83,62 +85,80 @@ void VectorOverlays::setSession(const Session& session)
     }
     overlays_ = session.overlays;
     for (const VectorOverlay& overlay : overlays_) {
-        place(overlay.path, false);
+        place({.path = overlay.path, .crs = overlay.crs});
     }
     draw_timer_.start();
 }
 
 // Reads the file, unless it is known, and finds where its features are on the map.
-void VectorOverlays::place(const std::string& path, bool is_asked_for)
+void VectorOverlays::place(const Request& request)
 {
     const std::shared_ptr<const Map> map = view_.map();
     if (!map) {
         return; // when a map is shown
     }
-    Entry& entry = entries_[path];
-    if (!is_asked_for && (entry.has_failed || entry.map.lock() == map)) {
+    Entry& entry = entries_[request.path];
+    const bool is_known = !request.is_asked_for && entry.crs == request.crs;
+    if (is_known && (entry.has_failed || entry.map.lock() == map)) {
         return;
     }
     entry.map = map;
+    entry.crs = request.crs;
     ++running_;
-    pool_.start([this, path, is_asked_for, map, known = is_asked_for ? nullptr : entry.file] {
-        Outcome outcome{.file = known, .placed = nullptr, .problem = std::nullopt};
-        if (!outcome.file) {
-            auto file = readVectorFile(path, monitor_);
-            if (file) {
-                outcome.file = std::make_shared<const VectorFile>(std::move(*file));
-            } else {
-                outcome.problem = file.error();
-            }
-        }
-        if (outcome.file) {
-            const Status fits = checkSameBody(path, outcome.file->content,
-                                              map->georeference().crs(), map->info().body);
-            if (fits) {
-                outcome.placed = placedOn(*map, *outcome.file);
-            } else {
-                outcome.problem = fits.error();
-            }
-        }
+    pool_.start([this, request, map, known = is_known ? entry.file : nullptr] {
         QMetaObject::invokeMethod(
             this,
-            [this, path, is_asked_for, map = std::weak_ptr(map), outcome = std::move(outcome)] {
-                take(path, map, is_asked_for, outcome);
-            },
+            [this, request, map = std::weak_ptr(map),
+             outcome = readFor(request, *map, known, monitor_)] { take(request, map, outcome); },
             Qt::QueuedConnection);
     });
 }
 
-void VectorOverlays::take(const std::string& path,
+VectorOverlays::Outcome VectorOverlays::readFor(const Request& request,
+                                                const Map& map,
+                                                std::shared_ptr<const VectorFile> known,
+                                                JobMonitor& monitor)
+{
+    Outcome outcome{.file = std::move(known), .placed = {}, .problem = {}, .likely = {}};
+    if (!outcome.file) {
+        auto file = readVectorFile(request.path, monitor);
+        if (!file) {
+            outcome.problem = file.error();
+            return outcome;
+        }
+        if (!request.crs.empty()) {
+            Result<Crs> crs = Crs::fromText(request.crs);
+            if (!crs) {
+                outcome.problem =
+                    Error{crs.error().code, request.path + ": " + crs.error().message};
+                return outcome;
+            }
+            file->content.body = crs->body();
+            file->content.crs = std::move(*crs);
+        }
+        outcome.file = std::make_shared<const VectorFile>(std::move(*file));
+    }
+    const FeatureCollection& content = outcome.file->content;
+    const Status fits =
+        checkSameBody(request.path, content, map.georeference().crs(), map.info().body);
+    if (fits) {
+        outcome.placed = placedOn(map, *outcome.file);
+    } else {
+        outcome.problem = fits.error();
+        outcome.likely = likelyCrs(content, map.info().body);
+    }
+    return outcome;
+}
+
+void VectorOverlays::take(const Request& request,
                           const std::weak_ptr<const Map>& map,
-                          bool is_asked_for,
                           Outcome outcome)
 {
     --running_;
-    Entry& entry = entries_[path];
+    Entry& entry = entries_[request.path];
     const bool is_first = !entry.file && !entry.has_failed;
     const bool is_canceled = outcome.problem && outcome.problem->code == ErrorCode::Canceled;
-    if (entry.map.lock() != map.lock() || is_canceled) {
+    if (entry.map.lock() != map.lock() || entry.crs != request.crs || is_canceled) {
         return; // another map is shown by now
     }
     if (outcome.file) {
@@ -149,14 +169,19 @@ void VectorOverlays::take(const std::string& path,
         entry.has_failed = true;
     }
     // On a map of another body an overlay is hidden without a word, unless it was asked for.
-    if (outcome.problem && (is_asked_for || (is_first && !outcome.file))) {
+    if (request.is_asked_for && outcome.likely) {
+        Q_EMIT isOnOtherBody(QString::fromStdString(request.path),
+                             QString::fromStdString(std::string(map.lock()->info().body->name)),
+                             QString::fromStdString(outcome.likely->wkt()));
+    } else if (outcome.problem && (request.is_asked_for || (is_first && !outcome.file))) {
         Q_EMIT failed(QString::fromStdString(outcome.problem->message));
-    } else if (is_asked_for) {
+    } else if (request.is_asked_for) {
         QStringList notices;
         for (const std::string& notice : entry.file->notices) {
             notices.append(QString::fromStdString(notice));
         }
-        Q_EMIT wasRead(QString::fromStdString(path), notices);
+        Q_EMIT wasRead(QString::fromStdString(request.path), QString::fromStdString(request.crs),
+                       notices);
     }
     draw_timer_.start();
     Q_EMIT changed();

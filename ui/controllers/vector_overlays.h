@@ -35,8 +35,9 @@ public:
     /// Cancels what is being read.
     ~VectorOverlays() override;
 
-    /// Reads a file for the map that is shown; wasRead() or failed() follows.
-    void open(const QString& file);
+    /// Reads a file for the map that is shown; wasRead(), failed() or isOnOtherBody() follows.
+    /// `crs` replaces that of the file, as VectorOverlay::crs does.
+    void open(const QString& file, const QString& crs = {});
     /// Draws the overlays of a session, and reads those that are not known yet.
     void setSession(const Session& session);
 
@@ -54,7 +55,10 @@ public:
 
 Q_SIGNALS:
     /// The file that open() asked for can be drawn. A notice is a sentence.
-    void wasRead(const QString& file, const QStringList& notices);
+    void wasRead(const QString& file, const QString& crs, const QStringList& notices);
+    /// The file states longitude and latitude on the Earth, but the map is of `body`; it can be
+    /// opened in `crs` instead.
+    void isOnOtherBody(const QString& file, const QString& body, const QString& crs);
     /// "FILE: WHY"
     void failed(const QString& problem);
     /// Other features are drawn.
@@ -69,6 +73,7 @@ private:
     };
     struct Entry {
         std::shared_ptr<const VectorFile> file; // null before it is read
+        std::string crs;                        // in place of the file's
         std::weak_ptr<const Map> map;           // that it is, or is being, placed on
         std::shared_ptr<const Placed> placed;   // null if it is of another body
         bool has_failed = false;
@@ -77,13 +82,20 @@ private:
         std::shared_ptr<const VectorFile> file;
         std::shared_ptr<const Placed> placed;
         std::optional<Error> problem;
+        std::optional<Crs> likely; // that the file may be meant in, if it is of another body
+    };
+    struct Request {
+        std::string path;
+        std::string crs{}; // in place of the file's
+        bool is_asked_for = false;
     };
 
-    void place(const std::string& path, bool is_asked_for);
-    void take(const std::string& path,
-              const std::weak_ptr<const Map>& map,
-              bool is_asked_for,
-              Outcome outcome);
+    void place(const Request& request);
+    static Outcome readFor(const Request& request,
+                           const Map& map,
+                           std::shared_ptr<const VectorFile> known,
+                           JobMonitor& monitor);
+    void take(const Request& request, const std::weak_ptr<const Map>& map, Outcome outcome);
     static std::shared_ptr<const Placed> placedOn(const Map& map, const VectorFile& file);
     void drawLines();
     void addLines(const VectorOverlay& overlay,

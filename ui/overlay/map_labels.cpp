@@ -21,7 +21,8 @@ constexpr double kRim = 3.0; // points around letters, half of it visible
 constexpr double kLargeFont = 1.25;
 constexpr double kLargeShare = 0.25; // of the picture's height, across what has a large label
 constexpr double kDotRadius = 2.5;
-constexpr double kEdge = 4.0; // points between the edge of the picture and a label
+constexpr double kCursorReach = 22.0; // points around the cursor that it needs
+constexpr double kEdge = 4.0;         // points between the edge of the picture and a label
 constexpr qsizetype kPicturesMax = 600;
 constexpr qint64 kRestShare = 9;   // at most a tenth of the time goes into lines while moving
 constexpr double kGridWidth = 1.0; // points
@@ -59,6 +60,9 @@ MapLabels::MapLabels(TerrainView& view)
     setAccessibleName(tr("Names and graticule"));
     setGeometry(view.rect());
     view.installEventFilter(this);
+    obstacles_timer_.setSingleShot(true);
+    obstacles_timer_.setInterval(0);
+    connect(&obstacles_timer_, &QTimer::timeout, this, &MapLabels::showSight);
     connect(&view, &TerrainView::layersChanged, this, &MapLabels::showScene);
     connect(&view, &TerrainView::mapShown, this, &MapLabels::showScene);
     connect(&view, &TerrainView::exaggerationChanged, this, &MapLabels::showSight);
@@ -96,15 +100,43 @@ void MapLabels::setCoordinateFormat(const CoordinateFormat& format)
     showSight();
 }
 
-void MapLabels::setObstacles(std::vector<const QWidget*> obstacles)
+void MapLabels::setObstacles(std::vector<QWidget*> obstacles)
 {
     obstacles_ = std::move(obstacles);
+    for (QWidget* obstacle : obstacles_) {
+        obstacle->installEventFilter(this);
+    }
+}
+
+void MapLabels::setCursorPlace(const std::optional<QPointF>& place)
+{
+    const auto covered = [this] {
+        std::vector<bool> on_cursor(marks_.size());
+        std::transform(marks_.begin(), marks_.end(), on_cursor.begin(),
+                       [this](const Mark& mark) { return isOnCursor(mark); });
+        return on_cursor;
+    };
+    const std::vector<bool> before = covered();
+    cursor_ = place;
+    if (covered() != before) {
+        update();
+    }
+}
+
+bool MapLabels::isOnCursor(const Mark& mark) const
+{
+    const QPointF reach(kCursorReach, kCursorReach);
+    return cursor_ && mark.label.box.intersects(QRectF(*cursor_ - reach, *cursor_ + reach));
 }
 
 bool MapLabels::eventFilter(QObject* watched, QEvent* event)
 {
     if (watched == parent() && event->type() == QEvent::Resize) {
         setGeometry(parentWidget()->rect());
+    } else if (watched != parent() &&
+               (event->type() == QEvent::Show || event->type() == QEvent::Hide ||
+                event->type() == QEvent::Move || event->type() == QEvent::Resize)) {
+        obstacles_timer_.start();
     }
     return QWidget::eventFilter(watched, event);
 }
@@ -391,6 +423,9 @@ void MapLabels::paintEvent(QPaintEvent* /*event*/)
 {
     QPainter painter(this);
     for (const Mark& mark : marks_) {
+        if (isOnCursor(mark)) {
+            continue;
+        }
         if (mark.point) {
             drawDot(painter, *mark.point);
         }

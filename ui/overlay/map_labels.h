@@ -9,9 +9,11 @@
 #include <QElapsedTimer>
 #include <QHash>
 #include <QPixmap>
+#include <QTimer>
 #include <QWidget>
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace marsview {
@@ -33,7 +35,10 @@ public:
     void setGraticuleShown(bool is_shown);
     void setCoordinateFormat(const CoordinateFormat& format);
     /// Widgets that labels keep clear of while they are visible.
-    void setObstacles(std::vector<const QWidget*> obstacles);
+    void setObstacles(std::vector<QWidget*> obstacles);
+    /// Where the cursor of a touch is, in points; nothing while it is not seen. Names that would
+    /// hide it are left out.
+    void setCursorPlace(const std::optional<QPointF>& place);
 
     struct Label {
         QString text;
@@ -70,6 +75,7 @@ private:
 
     void showScene();
     void showSight();
+    bool isOnCursor(const Mark& mark) const;
     void drawGraticule();
     std::vector<Mark> marksOf(const Sight& sight, NameLabels* names, std::vector<LabelBox> taken);
     void placeValues(const Sight& sight, std::vector<LabelBox>& taken, std::vector<Mark>& marks);
@@ -88,7 +94,9 @@ private:
     std::unique_ptr<NameLabels> names_;          // on the terrain that is shown
     std::vector<std::weak_ptr<const Map>> maps_; // that it was made for
     CoordinateFormat format_;
-    std::vector<const QWidget*> obstacles_;
+    std::vector<QWidget*> obstacles_;
+    QTimer obstacles_timer_; // until all of them have moved
+    std::optional<QPointF> cursor_;
     bool are_names_shown_ = true;
     bool is_graticule_shown_ = false;
     Graticule graticule_;

@@ -81,7 +81,8 @@ MapOverlays::MapOverlays(TerrainView& view)
     place_mark_->lower();
     crosshair_->lower();
     labels_->lower();
-    labels_->setObstacles({minimap_, compass_, scale_bar_, legend_, hint_, force_meter_});
+    const QList<QWidget*> obstacles = plates();
+    labels_->setObstacles({obstacles.begin(), obstacles.end()});
     const auto add = [this](const QString& text, const QString& name, bool is_on, auto show) {
         auto* action = new QAction(text, this);
         action->setObjectName(name);
@@ -102,6 +103,11 @@ MapOverlays::MapOverlays(TerrainView& view)
     layout_->setWanted(hint_, false);
     connect(compass_, &Compass::northRequested, &view_, &TerrainView::turnNorthUp);
     showMap();
+}
+
+QList<QWidget*> MapOverlays::plates() const
+{
+    return {minimap_, compass_, scale_bar_, legend_, hint_, force_meter_};
 }
 
 void MapOverlays::offerHint()
@@ -378,6 +384,10 @@ void MapOverlays::showHand()
     } else {
         hand_pointer_->release();
     }
+    const auto pixel =
+        stylus ? project(view_.camera(), view_.viewport(), stylus->proxy) : std::nullopt;
+    labels_->setCursorPlace(pixel ? std::optional(QPointF(pixel->x, pixel->y) / scale)
+                                  : std::nullopt);
 }
 
 } // namespace marsview

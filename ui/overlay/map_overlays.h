@@ -52,6 +52,8 @@ public:
 
     GestureHint* hint() const noexcept { return hint_; }
     MapLabels* labels() const noexcept { return labels_; }
+    /// The overlays in the corners, on translucent plates: text on the map keeps clear of them.
+    QList<QWidget*> plates() const;
 
     /// Shows the gestures to a newcomer, from the first map on, until they are dismissed.
     void offerHint();

@@ -10,6 +10,7 @@
 #include <QPainterPath>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace marsview {
@@ -18,7 +19,7 @@ namespace {
 constexpr double kHandleRadius = 4.5;
 constexpr double kHandleRim = 1.5;
 constexpr double kHiddenOpacity = 0.35;
-constexpr QPointF kLabelOffset{10.0, -10.0}; // of its lower left corner from its place
+constexpr QPointF kLabelOffset{10.0, -10.0}; // from its place to its nearest corner
 constexpr double kLabelPadding = 4.0;
 
 const QColor kCurrentColor(255, 221, 64);
@@ -70,7 +71,7 @@ std::vector<MeasureMarks::Mark> MeasureMarks::marks() const
     for (auto handle = handles.rbegin(); handle != handles.rend(); ++handle) {
         const bool is_current = handle->item == state.current;
         const double radius = is_current ? kHandleRadius : kHandleRadius - 1.0;
-        marks.push_back({box_around(handle->place, radius + kHandleRim),
+        marks.push_back({box_around(handle->place, radius + kHandleRim), false,
                          [handle = *handle, is_current, radius](QPainter& painter) {
                              QPainterPath dot;
                              dot.addEllipse(handle.place, radius, radius);
@@ -83,34 +84,71 @@ std::vector<MeasureMarks::Mark> MeasureMarks::marks() const
     }
     if (const auto cursor = controller_.profileCursorPlace()) {
         const double radius = kHandleRadius + 2.0;
-        marks.push_back({box_around(*cursor, radius + 4.0), [cursor, radius](QPainter& painter) {
-                             QPainterPath ring;
-                             ring.addEllipse(*cursor, radius, radius);
-                             drawContrasting(painter, ring, Qt::white, 2.0);
-                         }});
+        marks.push_back(
+            {box_around(*cursor, radius + 4.0), false, [cursor, radius](QPainter& painter) {
+                 QPainterPath ring;
+                 ring.addEllipse(*cursor, radius, radius);
+                 drawContrasting(painter, ring, Qt::white, 2.0);
+             }});
     }
     const QFontMetricsF metrics(font());
     for (const MeasureItem& item : state.items) {
         const MeasureOutcome& outcome = controller_.outcome(item.id);
         const auto place = controller_.labelPlace(item.id);
+        // What lies beyond the picture has its numbers in the panel.
         const QString text = outcome.result ? measureSummary(*outcome.result, unit_) : QString();
-        if (!place || text.isEmpty()) {
+        if (!place || text.isEmpty() || !QRectF(rect()).contains(*place)) {
             continue;
         }
         const QSizeF size(metrics.horizontalAdvance(text) + 2.0 * kLabelPadding,
                           metrics.height() + kLabelPadding);
-        QRectF plate(*place + kLabelOffset - QPointF(0.0, size.height()), size);
-        // Within the view where there is room.
-        plate.moveRight(std::min(plate.right(), static_cast<double>(width()) - 2.0));
-        plate.moveTop(std::max(plate.top(), 2.0));
+        const auto box = labelBox(*place, size);
+        if (!box) {
+            continue;
+        }
+        const QRectF plate = *box;
         const QColor color = item.id == state.current ? kCurrentColor : overlayTextColor();
-        marks.push_back({plate, [plate, text, color](QPainter& painter) {
+        marks.push_back({plate, true, [plate, text, color](QPainter& painter) {
                              drawPlate(painter, plate);
                              painter.setPen(color);
                              drawText(painter, plate, Qt::AlignCenter, text);
                          }});
     }
     return marks;
+}
+
+// Beside the place, within the view and clear of the obstacles. Empty if there is no room.
+std::optional<QRectF> MeasureMarks::labelBox(QPointF place, const QSizeF& size) const
+{
+    const double x = kLabelOffset.x();
+    const double y = kLabelOffset.y();
+    const std::array<QPointF, 4> corners{place + QPointF(x, y - size.height()),
+                                         place + QPointF(-x - size.width(), y - size.height()),
+                                         place + QPointF(x, -y),
+                                         place + QPointF(-x - size.width(), -y)};
+    const QRectF room = QRectF(rect()).adjusted(2.0, 2.0, -2.0, -2.0);
+    for (const QPointF& corner : corners) {
+        const QRectF box(corner, size);
+        const bool is_clear =
+            std::none_of(obstacles_.begin(), obstacles_.end(), [&box](const QWidget* obstacle) {
+                return obstacle->isVisible() && box.intersects(obstacle->geometry());
+            });
+        if (is_clear && room.contains(box)) {
+            return box;
+        }
+    }
+    return std::nullopt;
+}
+
+std::vector<QRectF> MeasureMarks::labelBoxes() const
+{
+    std::vector<QRectF> boxes;
+    for (const Mark& mark : marks()) {
+        if (mark.is_label) {
+            boxes.push_back(mark.box);
+        }
+    }
+    return boxes;
 }
 
 void MeasureMarks::paintEvent(QPaintEvent* /*event*/)

@@ -350,7 +350,7 @@ void GeoreferencingPanel::addSampleFacts(const Map& map)
         addFact(tr("Scale, offset"),
                 tr("%1, %2 %3").arg(number(info.scale), number(info.offset), unit));
     }
-    addFact(tr("Nodata"), info.nodata ? number(*info.nodata) : tr("none"));
+    addFact(tr("Nodata"), info.nodata ? sampleText(*info.nodata) : tr("none"));
     addFact(tr("Format"), QString::fromStdString(info.driver));
     const QStringList changed = overriddenNames(map.spec().overrides);
     if (!changed.isEmpty()) {

@@ -2,6 +2,7 @@
 
 #include "core/measure/profile_statistics.h"
 #include "ui/controllers/measure_controller.h"
+#include "ui/panels/measure_list.h"
 #include "ui/plots/profile_plot.h"
 #include "ui/widgets/caption.h"
 
@@ -17,12 +18,10 @@
 #include <QMessageBox>
 #include <QPushButton>
 #include <QSaveFile>
-#include <QScopedValueRollback>
 #include <QSplitter>
 #include <QTableWidget>
 #include <QTextStream>
 #include <QToolButton>
-#include <QTreeWidget>
 #include <QVBoxLayout>
 
 #include <array>
@@ -31,10 +30,7 @@
 namespace marsview {
 namespace {
 
-enum Column { NameColumn, ResultColumn, LayerColumn, ColumnCount };
-
-constexpr int kResultsWidthMax = 360; // a value stays near its label
-constexpr int kIdRole = Qt::UserRole;
+constexpr int kResultsWidthMax = 360;                         // a value stays near its label
 constexpr std::array kScales{0.0, 1.0, 2.0, 5.0, 10.0, 20.0}; // 0: fills the plot
 
 QString field(QString text)
@@ -85,15 +81,7 @@ MeasurePanel::MeasurePanel(MeasureController& controller, QWidget* parent)
 void MeasurePanel::makeList()
 {
     auto* side = new QWidget(this);
-    list_ = new QTreeWidget(side);
-    list_->setObjectName(QStringLiteral("measurements"));
-    list_->setAccessibleName(tr("Measurements"));
-    list_->setRootIsDecorated(false);
-    list_->setUniformRowHeights(true);
-    list_->setColumnCount(ColumnCount);
-    list_->setHeaderLabels({tr("Name"), tr("Result"), tr("Layer")});
-    list_->setEditTriggers(QAbstractItemView::EditKeyPressed);
-    list_->setMinimumWidth(180);
+    list_ = new MeasureList(controller_, side);
     auto* save = new QPushButton(tr("Save &Table…"), side);
     save->setToolTip(tr("Save all measurements with their results as CSV or GeoPackage"));
     save->setObjectName(QStringLiteral("saveMeasurements"));
@@ -102,19 +90,6 @@ void MeasurePanel::makeList()
     layout->setContentsMargins(0, 0, 0, 0);
     layout->addWidget(list_);
     layout->addWidget(save, 0, Qt::AlignLeading);
-    connect(list_, &QTreeWidget::currentItemChanged, this, [this](QTreeWidgetItem* row) {
-        if (!is_filling_ && row != nullptr) {
-            controller_.select(row->data(NameColumn, kIdRole).toUInt());
-        }
-    });
-    connect(list_, &QTreeWidget::itemActivated, this, [this](QTreeWidgetItem* row) {
-        controller_.show(row->data(NameColumn, kIdRole).toUInt());
-    });
-    connect(list_, &QTreeWidget::itemChanged, this, [this](QTreeWidgetItem* row, int column) {
-        if (!is_filling_ && column == NameColumn) {
-            controller_.rename(row->data(NameColumn, kIdRole).toUInt(), row->text(NameColumn));
-        }
-    });
 }
 
 void MeasurePanel::makeResults()
@@ -204,40 +179,13 @@ void MeasurePanel::setHeightUnit(HeightUnit unit)
 {
     unit_ = unit;
     plot_->setHeightUnit(unit);
+    list_->setHeightUnit(unit);
     showItems();
 }
 
 void MeasurePanel::showItems()
 {
-    const QScopedValueRollback filling(is_filling_, true);
-    const MeasureState& state = controller_.state();
-    while (list_->topLevelItemCount() > static_cast<int>(state.items.size())) {
-        delete list_->takeTopLevelItem(list_->topLevelItemCount() - 1);
-    }
-    for (std::size_t i = 0; i < state.items.size(); ++i) {
-        const MeasureItem& item = state.items[i];
-        QTreeWidgetItem* row = list_->topLevelItem(static_cast<int>(i));
-        if (row == nullptr) {
-            row = new QTreeWidgetItem(list_);
-            row->setFlags(row->flags() | Qt::ItemIsEditable);
-        }
-        const MeasureOutcome& outcome = controller_.outcome(item.id);
-        const Layer* layer = controller_.layerOf(item);
-        row->setData(NameColumn, kIdRole, item.id);
-        row->setText(NameColumn, item.name);
-        row->setText(ResultColumn,
-                     outcome.result ? measureSummary(*outcome.result, unit_) : QString());
-        row->setText(LayerColumn,
-                     layer != nullptr ? QString::fromStdString(layer->name) : tr("removed"));
-        row->setToolTip(NameColumn, measurementName(item.kind) + QLatin1Char('\n') +
-                                        locale().toString(item.time, QLocale::ShortFormat));
-        if (item.id == state.current) {
-            list_->setCurrentItem(row);
-        }
-    }
-    if (state.current == 0) {
-        list_->setCurrentItem(nullptr);
-    }
+    list_->showItems();
     showProfile();
     showResult();
 }
@@ -385,7 +333,7 @@ bool MeasurePanel::writeProfile(const QString& path)
 
 QString MeasurePanel::tableCsv() const
 {
-    QString text = QStringLiteral("name,kind,layer,time,results,points\n");
+    QString text = QStringLiteral("name,kind,note,layer,time,results,points\n");
     for (const MeasureItem& item : controller_.state().items) {
         const MeasureOutcome& outcome = controller_.outcome(item.id);
         const Layer* layer = controller_.layerOf(item);
@@ -410,6 +358,7 @@ QString MeasurePanel::tableCsv() const
         const QStringList fields{
             field(item.name),
             field(measurementName(item.kind)),
+            field(item.note),
             field(layer != nullptr ? QString::fromStdString(layer->name) : QString()),
             item.time.toString(Qt::ISODate),
             field(results),

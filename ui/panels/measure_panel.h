@@ -10,11 +10,11 @@ class QLabel;
 class QPushButton;
 class QTableWidget;
 class QToolButton;
-class QTreeWidget;
 
 namespace marsview {
 
 class MeasureController;
+class MeasureList;
 class ProfilePlot;
 
 /// Requests changes from the controller, and shows its state.
@@ -25,7 +25,7 @@ public:
     explicit MeasurePanel(MeasureController& controller, QWidget* parent = nullptr);
 
     void setHeightUnit(HeightUnit unit);
-    QTreeWidget* list() const noexcept { return list_; }
+    MeasureList* list() const noexcept { return list_; }
     ProfilePlot* plot() const noexcept { return plot_; }
     /// The rows of the current result, a line each: label, tab, value.
     QString resultsText() const;
@@ -49,8 +49,7 @@ private:
 
     MeasureController& controller_;
     HeightUnit unit_ = HeightUnit::Meters;
-    bool is_filling_ = false;
-    QTreeWidget* list_ = nullptr;
+    MeasureList* list_ = nullptr;
     QWidget* results_side_ = nullptr;
     QLabel* title_ = nullptr;
     QTableWidget* results_ = nullptr;

@@ -52,13 +52,32 @@ ProjectController::ProjectController(SessionController& session,
     connect(&session_.undoStack(), &QUndoStack::cleanChanged, this, &ProjectController::noteChange);
     // Changes of one drag are one step.
     connect(&session_, &SessionController::sessionChanged, this, &ProjectController::noteChange);
+    connect(&session_, &SessionController::opened, this, &ProjectController::noteOpened);
     connect(&session_, &SessionController::loadingEnded, this, &ProjectController::showCamera);
     connect(&view_, &TerrainView::mapShown, this, &ProjectController::showCamera);
 }
 
 bool ProjectController::isModified() const
 {
-    return is_recovered_ || !session_.undoStack().isClean();
+    return is_recovered_ || (!session_.undoStack().isClean() && !isNothingToKeep());
+}
+
+// Everything was undone or removed, and there is no file that still has it.
+bool ProjectController::isNothingToKeep() const
+{
+    const Session& session = session_.session();
+    return file_.isEmpty() &&
+           (session_.undoStack().index() == 0 ||
+            (session.layers.empty() && session.missing.empty() && measuring_.saved().empty()));
+}
+
+// Opening maps can be repeated as easily: nobody is asked whether to save that alone.
+void ProjectController::noteOpened()
+{
+    QUndoStack& stack = session_.undoStack();
+    if (file_.isEmpty() && !is_recovered_ && stack.cleanIndex() == stack.index() - 1) {
+        stack.setClean();
+    }
 }
 
 Project ProjectController::project() const

@@ -40,6 +40,8 @@ public:
 
     /// The path of the project file; empty if it was never saved.
     const QString& file() const noexcept { return file_; }
+    /// Whether closing would lose something. A session that was never saved and in which maps were
+    /// only opened is not modified.
     bool isModified() const;
     /// The session, the measurements and the camera as they would be saved.
     Project project() const;
@@ -74,6 +76,8 @@ Q_SIGNALS:
 
 private:
     void replace(const Project& project, const QString& file);
+    bool isNothingToKeep() const;
+    void noteOpened();
     void noteChange();
     void showCamera();
 

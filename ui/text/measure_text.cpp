@@ -194,6 +194,22 @@ struct Summary {
     }
 };
 
+struct Figure {
+    double operator()(const Distance& distance) const { return distance.geodesic_m; }
+    double operator()(const Profile& profile) const
+    {
+        return profile.points.empty() ? 0.0 : profile.points.back().distance_m;
+    }
+    double operator()(const TerrainArea& area) const { return area.geodesic_m2; }
+    double operator()(const Attitude& attitude) const { return attitude.dip_deg; }
+    double operator()(const Crater& crater) const { return crater.diameter_m; }
+    double operator()(const std::vector<TerrainSlope>& slopes) const
+    {
+        return slopes.empty() ? std::numeric_limits<double>::quiet_NaN()
+                              : slopes.front().elevation_m;
+    }
+};
+
 } // namespace
 
 QString measurementName(MeasurementKind kind)
@@ -253,6 +269,12 @@ QString measureSummary(const MeasurementResult& result, HeightUnit unit)
     const QString text = std::visit(Summary{unit}, *result.values);
     return result.is_approximate && !text.isEmpty() ? leftToRight(QStringLiteral("≈ ") + text)
                                                     : text;
+}
+
+double measureFigure(const MeasurementResult& result)
+{
+    return result.values ? std::visit(Figure{}, *result.values)
+                         : std::numeric_limits<double>::quiet_NaN();
 }
 
 } // namespace marsview

@@ -31,5 +31,7 @@ std::vector<MeasureRow> measureRows(const MeasurementResult& result, HeightUnit 
 /// The figure that stands for the whole result, for lists and labels: "≈" before approximate ones.
 /// Empty where the result is an error.
 QString measureSummary(const MeasurementResult& result, HeightUnit unit);
+/// That figure in meters or square meters, or the dip in degrees. NaN where the result is an error.
+double measureFigure(const MeasurementResult& result);
 
 } // namespace marsview

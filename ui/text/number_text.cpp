@@ -53,6 +53,26 @@ QString shortNumberText(double value, int digits)
     return leftToRight(withMinusSigns(QLocale().toString(value, 'g', digits)));
 }
 
+QString sampleText(double raw)
+{
+    constexpr double kIntegerMax = 1e9;
+    if (std::abs(raw) <= kIntegerMax && raw == std::trunc(raw)) {
+        return numberText(raw, 0);
+    }
+    constexpr int kFloatDigits = 9;
+    constexpr int kDoubleDigits = 17;
+    const bool is_float = static_cast<double>(static_cast<float>(raw)) == raw;
+    const auto is_meant = [raw, is_float](int digits) {
+        const double read = QString::number(raw, 'g', digits).toDouble();
+        return is_float ? static_cast<float>(read) == static_cast<float>(raw) : read == raw;
+    };
+    int digits = 1;
+    while (digits < (is_float ? kFloatDigits : kDoubleDigits) && !is_meant(digits)) {
+        ++digits;
+    }
+    return shortNumberText(raw, digits);
+}
+
 QString countText(std::size_t count)
 {
     return QLocale().toString(static_cast<qulonglong>(count));

@@ -25,6 +25,10 @@ QString numberText(double value, int decimals);
 /// As many digits as `digits` significant ones need at most, otherwise as numberText.
 QString shortNumberText(double value, int digits);
 
+/// A raw value of samples, in full if it is an integer, otherwise with the fewest digits that mean
+/// it in its type: "−3.4028235E38".
+QString sampleText(double raw);
+
 /// A count, in groups.
 QString countText(std::size_t count);
 

@@ -9,7 +9,8 @@ namespace {
 
 bool isForgottenWithItsCondition(NoticeSource source)
 {
-    return source == NoticeSource::Device || source == NoticeSource::Picture;
+    return source == NoticeSource::Device || source == NoticeSource::Picture ||
+           source == NoticeSource::VectorFile;
 }
 
 } // namespace

@@ -18,13 +18,15 @@ enum class NoticeSource {
     Device,
     Picture,
     Project,
+    VectorFile, // that was just asked for
+    Correction, // of how the active layer is read
     Sample,
     Layer,
     Storage,
 };
 
 /// Keeps the notices of every source and which of them were closed. A closed notice about the
-/// device or the picture returns when its condition ends and occurs again; every other stays closed
+/// device, the picture or a vector file returns when its condition ends and occurs again; every other stays closed
 /// as long as the window lives, because undo and other active layers make its condition come and
 /// go. GUI thread. Must not outlive the bar.
 class NoticeCenter final : public QObject {
@@ -39,7 +41,7 @@ public:
     QList<Notice> open() const;
 
 private:
-    static constexpr std::size_t kSourceCount = 6;
+    static constexpr std::size_t kSourceCount = 8;
 
     void dismissAll();
     void runAction(const QString& id, int action);

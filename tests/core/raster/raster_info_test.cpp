@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <string>
 #include <utility>
@@ -324,6 +325,47 @@ TEST(Overrides, BadRadiiAreRefusedEvenWithoutACrs)
             EXPECT_FALSE(withOverrides(bare, overrides)) << has_degrees << " " << body;
         }
     }
+}
+
+TEST(UndeclaredNodata, ValuesThatUsuallyMarkItAreSuggested)
+{
+    const auto suggested = [](SampleType type, double low, double high) {
+        RasterInfo info = mars();
+        info.type = type;
+        SampleStatistics statistics;
+        statistics.sample_count = 4;
+        statistics.raw_minimum = low;
+        statistics.raw_maximum = high;
+        noteSuspiciousSamples(info, statistics);
+        const bool is_noted =
+            info.nodata_suggestion && std::count(info.notices.begin(), info.notices.end(),
+                                                 noticeOfNodata(*info.nodata_suggestion)) == 1;
+        EXPECT_EQ(is_noted, info.nodata_suggestion.has_value());
+        return info.nodata_suggestion;
+    };
+    EXPECT_EQ(suggested(SampleType::Int16, -32767.0, 2400.0), -32767.0);
+    EXPECT_EQ(suggested(SampleType::Int16, -32768.0, 2400.0), -32768.0);
+    EXPECT_EQ(suggested(SampleType::Float32, -9999.0, 2400.0), -9999.0);
+    const double lowest = -std::numeric_limits<float>::max();
+    EXPECT_EQ(suggested(SampleType::Float32, lowest, 2400.0), lowest);
+    EXPECT_EQ(suggested(SampleType::Float32, -10.0, static_cast<double>(9.96921e36F)),
+              static_cast<double>(9.96921e36F));
+    EXPECT_EQ(suggested(SampleType::UInt16, 0.0, 65535.0), 65535.0);
+    EXPECT_EQ(suggested(SampleType::Float32, 0.0, 65535.0), std::nullopt);
+    EXPECT_EQ(suggested(SampleType::Int16, -8201.0, 21241.0), std::nullopt);
+}
+
+TEST(UndeclaredNodata, ADeclaredValueIsTrusted)
+{
+    RasterInfo info = mars();
+    info.nodata = -32768.0;
+    SampleStatistics statistics;
+    statistics.sample_count = 4;
+    statistics.raw_minimum = -9999.0;
+    statistics.raw_maximum = 2400.0;
+    noteSuspiciousSamples(info, statistics);
+    EXPECT_EQ(info.nodata_suggestion, std::nullopt);
+    EXPECT_TRUE(info.notices.empty());
 }
 
 } // namespace

@@ -153,6 +153,10 @@ ProjectMeasurement randomMeasurement(Random& random, std::size_t layer_count)
     }
     // Between the years 1970 and 2100.
     measurement.time = ProjectTime(std::chrono::milliseconds(random.below(4'102'444'800'000)));
+    if (random.chance(0.5)) {
+        measurement.note = randomText(random);
+        measurement.color = Rgb8{static_cast<std::uint8_t>(random.below(256)), 0, 255};
+    }
     const bool is_on_body = random.chance(0.7);
     for (std::size_t left = random.below(6); left > 0; --left) {
         if (is_on_body) {
@@ -194,7 +198,8 @@ Project randomProject(Random& random)
                                     .color = {static_cast<std::uint8_t>(random.below(256)),
                                               static_cast<std::uint8_t>(random.below(256)),
                                               static_cast<std::uint8_t>(random.below(256))},
-                                    .is_visible = random.chance(0.5)});
+                                    .is_visible = random.chance(0.5),
+                                    .crs = random.chance(0.5) ? randomText(random) : ""});
     }
     for (std::size_t left = random.below(5); left > 0; --left) {
         project.measurements.push_back(randomMeasurement(random, project.layers.size()));
@@ -394,6 +399,8 @@ TEST(Project, FaultsAreNamed)
          "overlays[0].color is not a color such as #ffdd40"},
         {R"("version":1,"layers":[],"overlays":[{"color":"#ffffff"}])",
          "overlays[0].file is not the path of a file"},
+        {R"("version":1,"layers":[],"measurements":[{"color":"#12345"}])",
+         "measurements[0].color is not a color such as #ffdd40"},
         {R"("version":1,"layers":[],"measurements":[{"kind":"weight"}])",
          "measurements[0].kind is not a known choice"},
         {R"("version":1,"layers":[],"measurements":[{"time":"noon"}])",

@@ -1,6 +1,7 @@
 // Names and the graticule on the map, in a window.
 #include "tests/support/shared_data.h"
 #include "tests/ui/map_window.h"
+#include "ui/overlay/force_meter.h"
 #include "ui/overlay/legend.h"
 #include "ui/overlay/map_labels.h"
 #include "ui/overlay/map_overlays.h"
@@ -151,6 +152,56 @@ TEST_F(MapLabelsTest, SavedPicturesHaveTheLabelsAndLinesOfTheView)
         EXPECT_GT(everywhere, 0.02);
         EXPECT_LT(everywhere, 0.3);
     }
+}
+
+// The force meter appears only while the terrain is touched.
+TEST_F(MapLabelsTest, NamesMakeWayForAnOverlayThatAppears)
+{
+    openMars();
+    ForceMeter& meter = *window_->overlays()->forceMeter();
+    meter.setForce({0.0, 0.0, 1.0}, 3.0);
+    ASSERT_TRUE(waitFor([&] { return meter.isVisible(); }));
+    const QRectF plate = meter.geometry();
+    // A view with names on both sides of it.
+    const auto is_clear = [&] {
+        const auto& names = labels().nameLabels();
+        return std::none_of(names.begin(), names.end(), [&](const MapLabels::Label& name) {
+            return name.box.intersects(plate);
+        });
+    };
+    EXPECT_TRUE(waitFor(is_clear));
+    bool was_covered = false;
+    for (int turn = 0; turn < 24 && !was_covered; ++turn) {
+        OrbitCamera camera = view().camera();
+        camera.azimuth = Angle::degrees(15.0 * turn);
+        meter.release();
+        view().setCamera(camera);
+        was_covered = waitFor([&] { return meter.isHidden(); }) && !is_clear();
+    }
+    ASSERT_TRUE(was_covered) << "no name ever lies where the force meter appears";
+    meter.setForce({0.0, 0.0, 1.0}, 3.0);
+    EXPECT_TRUE(waitFor(is_clear));
+}
+
+TEST_F(MapLabelsTest, ANameNeverHidesTheCursorOfATouch)
+{
+    openMars();
+    ASSERT_FALSE(labels().nameLabels().empty());
+    const QRect name = labels().nameLabels().front().box.toAlignedRect();
+    const auto picture = [&] {
+        QImage image(name.size(), QImage::Format_ARGB32_Premultiplied);
+        image.fill(Qt::transparent);
+        labels().render(&image, {}, name, QWidget::RenderFlags());
+        return image;
+    };
+    QImage empty(name.size(), QImage::Format_ARGB32_Premultiplied);
+    empty.fill(Qt::transparent);
+    const QImage drawn = picture();
+    ASSERT_NE(drawn, empty);
+    labels().setCursorPlace(QRectF(name).center());
+    EXPECT_EQ(picture(), empty);
+    labels().setCursorPlace(std::nullopt);
+    EXPECT_EQ(picture(), drawn);
 }
 
 } // namespace

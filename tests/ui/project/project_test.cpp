@@ -350,4 +350,26 @@ TEST_F(ProjectWindowTest, AutosaveFollowsAChangeAndGoesWithItsUndo)
     EXPECT_EQ(copy_count(), 0);
 }
 
+// Opening is repeated as easily as it is done: there is nothing to ask.
+TEST_F(ProjectWindowTest, OpeningMapsAloneIsNotAChange)
+{
+    makeWindow(kSmall, asking());
+    window_->openSample(maps_.moon("sample"));
+    ASSERT_TRUE(waitUntilSettled(*window_));
+    ASSERT_TRUE(openAndWait(*window_, maps_.mars()));
+    EXPECT_FALSE(window_->isWindowModified());
+    window_->undoStack().undo();
+    EXPECT_FALSE(window_->isWindowModified());
+    window_->undoStack().redo();
+    ASSERT_TRUE(openAndWait(*window_, maps_.mars("other")));
+    EXPECT_FALSE(window_->isWindowModified());
+    window_->controller().setExaggeration(7.0);
+    EXPECT_TRUE(window_->isWindowModified());
+    ASSERT_TRUE(openAndWait(*window_, maps_.moon()));
+    EXPECT_TRUE(window_->isWindowModified()) << "the exaggeration would still be lost";
+    ASSERT_TRUE(window_->project().saveAs(path("a.mvproj")));
+    ASSERT_TRUE(openAndWait(*window_, maps_.moon("more")));
+    EXPECT_TRUE(window_->isWindowModified()) << "the file does not have the new layer";
+}
+
 } // namespace marsview

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace marsview {
 namespace {
 
@@ -53,6 +55,16 @@ TEST(NumberText, WritesHeightsInFeet)
               QStringLiteral("0 … 1000 ft"));
     EXPECT_EQ(heightRangeText({.minimum_m = 0.25, .maximum_m = 0.75}, HeightUnit::Meters),
               QStringLiteral("0.250 … 0.750 m"));
+}
+
+TEST(SampleText, WritesIntegersInFullAndFloatsAsTheyAreMeant)
+{
+    const auto lowest = static_cast<double>(std::numeric_limits<float>::lowest());
+    EXPECT_EQ(sampleText(-32767.0), QStringLiteral("−32767"));
+    EXPECT_EQ(sampleText(static_cast<double>(-1e34F)), QStringLiteral("−1e+34"));
+    EXPECT_EQ(sampleText(lowest), QStringLiteral("−3.4028235e+38"));
+    EXPECT_EQ(sampleText(0.1), QStringLiteral("0.1"));
+    EXPECT_EQ(sampleText(static_cast<double>(0.1F)), QStringLiteral("0.1"));
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 // Notices: which are on the bar, the effect of their buttons, and that closed ones stay closed.
 
+#include "tests/support/run_program.h"
 #include "tests/ui/map_window.h"
 #include "ui/controllers/contact_sounds.h"
 #include "ui/panels/georeferencing_panel.h"
@@ -202,6 +203,34 @@ TEST_F(NoticesTest, TheReplacedSampleCanBeKept)
     EXPECT_EQ(window_->session().layers.at(0).id, sample);
     EXPECT_TRUE(window_->session().layers.at(0).is_sample);
     EXPECT_FALSE(shown().contains(QStringLiteral("sample")));
+}
+
+// A hole of -32767 that the file does not declare: the decision comes before all other notices.
+TEST_F(NoticesTest, UndeclaredNodataIsSetByOneClick)
+{
+    const QString declared = maps_.write(QStringLiteral("lake.asc"), {}, [](int column, int row) {
+        return column > 20 && column < 30 && row > 10 && row < 20 ? -32767.0 : 1000.0 + row;
+    });
+    const QString lake = maps_.path(QStringLiteral("lake.tif"));
+    test::runTool({"gdal_translate", "-q", "-ot", "Int16", "-a_nodata", "none", "-a_srs",
+                   "EPSG:32610", declared.toStdString(), lake.toStdString()});
+    window_->openSample(maps_.mars("sample"));
+    ASSERT_TRUE(waitUntilSettled(*window_));
+    ASSERT_TRUE(openAndWait(*window_, lake));
+    EXPECT_EQ(shown(), QStringLiteral("Samples of −32767 often mark nodata, but the file declares "
+                                      "no nodata value"));
+    QToolButton* set = noticeButton(bar(), "noticeAction");
+    EXPECT_EQ(set->text(), QStringLiteral("Set −32767 as Nodata"));
+    QTest::mouseClick(set, Qt::LeftButton);
+    const auto lowest = [this] {
+        const Layer* layer = activeLayer(window_->session());
+        return layer != nullptr ? layer->map->heightfield().range()->minimum_m : 0.0;
+    };
+    ASSERT_TRUE(waitFor([&] { return lowest() == 1000.0; })) << lowest();
+    EXPECT_FALSE(shown().contains(QStringLiteral("nodata"))) << shown().toStdString();
+    window_->undoStack().undo();
+    EXPECT_EQ(lowest(), -32767.0);
+    EXPECT_TRUE(shown().contains(QStringLiteral("nodata"))) << shown().toStdString();
 }
 
 class SoundMemoryTest : public testing::Test {
