@@ -30,6 +30,7 @@
 namespace marsview {
 namespace {
 
+constexpr int kHeight = 205;                                  // to begin with
 constexpr int kResultsWidthMax = 360;                         // a value stays near its label
 constexpr std::array kScales{0.0, 1.0, 2.0, 5.0, 10.0, 20.0}; // 0: fills the plot
 
@@ -173,6 +174,11 @@ void MeasurePanel::makeProfile()
     layout->setContentsMargins(0, 0, 0, 0);
     layout->addWidget(plot_, 1);
     layout->addLayout(line);
+}
+
+QSize MeasurePanel::sizeHint() const
+{
+    return {QWidget::sizeHint().width(), kHeight};
 }
 
 void MeasurePanel::setHeightUnit(HeightUnit unit)

@@ -29,6 +29,8 @@ public:
     ProfilePlot* plot() const noexcept { return plot_; }
     /// The rows of the current result, a line each: label, tab, value.
     QString resultsText() const;
+    /// Low: most of the window is for the map.
+    QSize sizeHint() const override;
 
 public Q_SLOTS:
     void copyResults();
