@@ -321,27 +321,35 @@ std::vector<ProjectMeasurement> MeasureController::saved() const
 
 std::vector<NamedMeasurement> MeasureController::named() const
 {
-    std::vector<NamedMeasurement> named;
+    std::vector<NamedMeasurement> all;
     for (const MeasureItem& item : state_.items) {
-        if (item.vertices.size() < verticesNeeded(item.kind)) {
-            continue;
+        if (auto measurement = named(item.id)) {
+            all.push_back(std::move(*measurement));
         }
-        NamedMeasurement measurement;
-        measurement.measurement.kind = item.kind;
-        measurement.measurement.name = item.name.toStdString();
-        measurement.measurement.vertices = item.vertices;
-        measurement.measurement.time = std::chrono::system_clock::time_point(
-            std::chrono::milliseconds(item.time.toMSecsSinceEpoch()));
-        measurement.measurement.note = item.note.toStdString();
-        measurement.measurement.color = item.color;
-        measurement.measurement.result = outcome(item.id).result;
-        if (const Layer* layer = layerOf(item)) {
-            measurement.layer_name = layer->name;
-            if (const auto& crs = layer->map->georeference().crs()) {
-                measurement.crs = *crs;
-            }
+    }
+    return all;
+}
+
+std::optional<NamedMeasurement> MeasureController::named(std::uint32_t id) const
+{
+    const MeasureItem* item = itemOf(id);
+    if (item == nullptr || item->vertices.size() < verticesNeeded(item->kind)) {
+        return std::nullopt;
+    }
+    NamedMeasurement named;
+    named.measurement.kind = item->kind;
+    named.measurement.name = item->name.toStdString();
+    named.measurement.vertices = item->vertices;
+    named.measurement.time = std::chrono::system_clock::time_point(
+        std::chrono::milliseconds(item->time.toMSecsSinceEpoch()));
+    named.measurement.note = item->note.toStdString();
+    named.measurement.color = item->color;
+    named.measurement.result = outcome(id).result;
+    if (const Layer* layer = layerOf(*item)) {
+        named.layer_name = layer->name;
+        if (const auto& crs = layer->map->georeference().crs()) {
+            named.crs = *crs;
         }
-        named.push_back(std::move(measurement));
     }
     return named;
 }

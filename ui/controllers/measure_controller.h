@@ -111,6 +111,8 @@ public:
     std::vector<ProjectMeasurement> saved() const;
     /// The same with their results and what is known of their layers, for other programs.
     std::vector<NamedMeasurement> named() const;
+    /// The same for one; empty if it has too few points.
+    std::optional<NamedMeasurement> named(std::uint32_t id) const;
     /// Replaces everything by the measurements of a project, whose layers are those of `layers`.
     /// Not a step of undo.
     void open(const std::vector<ProjectMeasurement>& saved, const std::vector<LayerId>& layers);

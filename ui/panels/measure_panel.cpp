@@ -1,9 +1,13 @@
 #include "ui/panels/measure_panel.h"
 
 #include "core/measure/profile_statistics.h"
+#include "core/session/crater_count.h"
+#include "core/session/measurement_tables.h"
 #include "ui/controllers/measure_controller.h"
+#include "ui/panels/attitudes_view.h"
 #include "ui/panels/measure_list.h"
 #include "ui/plots/profile_plot.h"
+#include "ui/text/sentence.h"
 #include "ui/widgets/caption.h"
 
 #include <QAbstractButton>
@@ -20,12 +24,12 @@
 #include <QSaveFile>
 #include <QSplitter>
 #include <QTableWidget>
-#include <QTextStream>
 #include <QToolButton>
 #include <QVBoxLayout>
 
 #include <array>
 #include <cmath>
+#include <string>
 
 namespace marsview {
 namespace {
@@ -34,20 +38,21 @@ constexpr int kHeight = 205;                                  // to begin with
 constexpr int kResultsWidthMax = 360;                         // a value stays near its label
 constexpr std::array kScales{0.0, 1.0, 2.0, 5.0, 10.0, 20.0}; // 0: fills the plot
 
-QString field(QString text)
-{
-    // As RFC 4180 quotes.
-    if (text.contains(QLatin1Char(',')) || text.contains(QLatin1Char('"')) ||
-        text.contains(QLatin1Char('\n'))) {
-        text.replace(QLatin1Char('"'), QStringLiteral("\"\""));
-        return QLatin1Char('"') + text + QLatin1Char('"');
-    }
-    return text;
-}
-
 QString digits(double value)
 {
     return std::isfinite(value) ? QString::number(value, 'g', 15) : QStringLiteral("nan");
+}
+
+QString field(const QString& text)
+{
+    return QString::fromStdString(csvField(text.toStdString()));
+}
+
+bool writeText(const QString& path, const std::string& text)
+{
+    QSaveFile file(path);
+    return file.open(QIODevice::WriteOnly) &&
+           file.write(text.data(), static_cast<qint64>(text.size())) >= 0 && file.commit();
 }
 
 } // namespace
@@ -65,9 +70,12 @@ MeasurePanel::MeasurePanel(MeasureController& controller, QWidget* parent)
     splitter->addWidget(list_->parentWidget());
     splitter->addWidget(results_side_);
     splitter->addWidget(profile_side_);
+    attitudes_ = new AttitudesView(controller_, this);
+    splitter->addWidget(attitudes_);
     splitter->setStretchFactor(0, 2);
     splitter->setStretchFactor(1, 2);
     splitter->setStretchFactor(2, 5);
+    splitter->setStretchFactor(3, 3);
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(6, 4, 6, 6);
     layout->addWidget(splitter);
@@ -192,6 +200,9 @@ void MeasurePanel::setHeightUnit(HeightUnit unit)
 void MeasurePanel::showItems()
 {
     list_->showItems();
+    const MeasureItem* item = controller_.current();
+    attitudes_->setVisible(item != nullptr && item->kind == MeasurementKind::Attitude);
+    attitudes_->showItems();
     showProfile();
     showResult();
 }
@@ -315,26 +326,13 @@ void MeasurePanel::saveProfile()
     dialog->open();
 }
 
-// The columns of `marsview-cli measure profile`, without those in the map's own units.
 bool MeasurePanel::writeProfile(const QString& path)
 {
     if (QFileInfo(path).suffix().toLower() != QStringLiteral("csv")) {
         return plot_->savePicture(path);
     }
-    const MeasureItem* item = controller_.current();
-    const auto* profile = item != nullptr ? controller_.outcome(item->id).as<Profile>() : nullptr;
-    QSaveFile file(path);
-    if (profile == nullptr || !file.open(QIODevice::WriteOnly)) {
-        return false;
-    }
-    QTextStream stream(&file);
-    stream << "distance_m,lon,lat,elevation_m\n";
-    for (const ProfilePoint& point : profile->points) {
-        stream << digits(point.distance_m) << ',' << digits(point.position.x) << ','
-               << digits(point.position.y) << ',' << digits(point.elevation_m) << '\n';
-    }
-    stream.flush();
-    return file.commit();
+    const auto profile = controller_.named(controller_.state().current);
+    return profile && writeText(path, profileCsv(*profile));
 }
 
 QString MeasurePanel::tableCsv() const
@@ -378,11 +376,13 @@ void MeasurePanel::saveTable()
 {
     auto* dialog = new QFileDialog(this, tr("Save Measurements"), folder_);
     dialog->setAcceptMode(QFileDialog::AcceptSave);
-    dialog->setNameFilters({tr("CSV table (*.csv)"), tr("GeoPackage (*.gpkg)")});
+    dialog->setNameFilters({tr("CSV table (*.csv)"), tr("GeoPackage (*.gpkg)"),
+                            tr("Crater count with positions (*.scc)"),
+                            tr("Crater diameters (*.diam)")});
     dialog->setDefaultSuffix(QStringLiteral("csv"));
     connect(dialog, &QFileDialog::filterSelected, dialog, [dialog](const QString& filter) {
-        const QString suffix = filter.contains(QStringLiteral("gpkg")) ? QStringLiteral("gpkg")
-                                                                       : QStringLiteral("csv");
+        const qsizetype dot = filter.lastIndexOf(QLatin1Char('.'));
+        const QString suffix = filter.mid(dot + 1).chopped(1);
         dialog->setDefaultSuffix(suffix);
         dialog->selectFile(tr("measurements") + QLatin1Char('.') + suffix);
     });
@@ -390,23 +390,33 @@ void MeasurePanel::saveTable()
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     connect(dialog, &QFileDialog::fileSelected, this, [this](const QString& path) {
         folder_ = QFileInfo(path).absolutePath();
-        if (QFileInfo(path).suffix().compare(QStringLiteral("gpkg"), Qt::CaseInsensitive) == 0) {
-            if (const Status written = writeMeasurements(controller_.named(), path.toStdString());
-                !written) {
-                QMessageBox::warning(this, tr("Save Measurements"),
-                                     QString::fromStdString(written.error().message));
-            }
-            return;
-        }
-        QSaveFile file(path);
-        if (!file.open(QIODevice::WriteOnly) || file.write(tableCsv().toUtf8()) < 0 ||
-            !file.commit()) {
-            QMessageBox::warning(
-                this, tr("Save Measurements"),
-                tr("%1 cannot be written; choose another folder").arg(isolated(path)));
+        if (const QString problem = writeTable(path); !problem.isEmpty()) {
+            QMessageBox::warning(this, tr("Save Measurements"), problem);
         }
     });
     dialog->open();
+}
+
+QString MeasurePanel::writeTable(const QString& path)
+{
+    const QString suffix = QFileInfo(path).suffix().toLower();
+    if (suffix == QStringLiteral("gpkg")) {
+        const Status written = writeMeasurements(controller_.named(), path.toStdString());
+        return written ? QString() : QString::fromStdString(written.error().message);
+    }
+    std::string text;
+    if (suffix == QStringLiteral("scc") || suffix == QStringLiteral("diam")) {
+        const auto count = craterCount(controller_.named());
+        if (!count) {
+            return asSentence(QString::fromStdString(count.error().message));
+        }
+        text = suffix == QStringLiteral("scc") ? sccText(*count) : diamText(*count);
+    } else {
+        text = tableCsv().toStdString();
+    }
+    return writeText(path, text)
+               ? QString()
+               : tr("%1 cannot be written; choose another folder").arg(isolated(path));
 }
 
 } // namespace marsview

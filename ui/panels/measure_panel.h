@@ -13,6 +13,7 @@ class QToolButton;
 
 namespace marsview {
 
+class AttitudesView;
 class MeasureController;
 class MeasureList;
 class ProfilePlot;
@@ -27,6 +28,7 @@ public:
     void setHeightUnit(HeightUnit unit);
     MeasureList* list() const noexcept { return list_; }
     ProfilePlot* plot() const noexcept { return plot_; }
+    AttitudesView* attitudes() const noexcept { return attitudes_; }
     /// The rows of the current result, a line each: label, tab, value.
     QString resultsText() const;
     /// Low: most of the window is for the map.
@@ -47,6 +49,9 @@ private:
     void showResult();
     void showProfile();
     bool writeProfile(const QString& path);
+    /// Why it is not possible, for people; empty if the file is written. Asked for by its suffix:
+    /// csv, gpkg, scc or diam.
+    QString writeTable(const QString& path);
     QString tableCsv() const;
 
     MeasureController& controller_;
@@ -58,6 +63,7 @@ private:
     QLabel* note_ = nullptr;
     QPushButton* copy_ = nullptr;
     QPushButton* remove_ = nullptr;
+    AttitudesView* attitudes_ = nullptr;
     QWidget* profile_side_ = nullptr;
     ProfilePlot* plot_ = nullptr;
     QComboBox* scale_ = nullptr;

@@ -1,0 +1,84 @@
+#include "core/session/measurement_tables.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <iterator>
+
+namespace marsview {
+namespace {
+
+// As short as it can be for the number to be read back to the bit.
+std::string digits(double value)
+{
+    return std::isfinite(value) ? fmt::format("{}", value) : std::string("nan");
+}
+
+template <typename T>
+const T* valueOf(const NamedMeasurement& named)
+{
+    const auto& result = named.measurement.result;
+    return result && result->values ? std::get_if<T>(&*result->values) : nullptr;
+}
+
+} // namespace
+
+MapPoint tablePosition(const NamedMeasurement& measurement, GroundPosition position)
+{
+    const auto ellipsoid = measurement.crs ? measurement.crs->ellipsoid() : std::nullopt;
+    const Body* const body = measurement.crs ? measurement.crs->body() : nullptr;
+    const bool is_planetographic =
+        body != nullptr && body->latitude == LatitudeKind::Planetographic;
+    const bool is_sphere = ellipsoid && ellipsoid->equatorial_m == ellipsoid->polar_m;
+    if (!ellipsoid || is_planetographic || is_sphere) {
+        return {position.x, position.y};
+    }
+    return {position.x, ellipsoid->planetocentric(Angle::degrees(position.y)).degrees()};
+}
+
+std::string csvField(const std::string& text)
+{
+    if (text.find_first_of(",\"\n\r") == std::string::npos) {
+        return text;
+    }
+    std::string quoted = "\"";
+    for (const char c : text) {
+        quoted += c == '"' ? "\"\"" : std::string(1, c);
+    }
+    return quoted + '"';
+}
+
+std::string profileCsv(const NamedMeasurement& profile)
+{
+    std::string text = "distance_m,lon,lat,elevation_m\n";
+    if (const auto* values = valueOf<Profile>(profile)) {
+        for (const ProfilePoint& point : values->points) {
+            const MapPoint place = tablePosition(profile, point.position);
+            fmt::format_to(std::back_inserter(text), "{},{},{},{}\n", digits(point.distance_m),
+                           digits(place.x), digits(place.y), digits(point.elevation_m));
+        }
+    }
+    return text;
+}
+
+std::string attitudesCsv(std::span<const NamedMeasurement> measurements)
+{
+    std::string text =
+        "name,lon,lat,elevation_m,strike,dip,dip_direction,strike_error,dip_error,"
+        "rms_m,points,layer,note\n";
+    for (const NamedMeasurement& named : measurements) {
+        if (const auto* attitude = valueOf<Attitude>(named)) {
+            const MapPoint place = tablePosition(named, attitude->center);
+            fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
+                           csvField(named.measurement.name), digits(place.x), digits(place.y),
+                           digits(attitude->center_elevation_m), digits(attitude->strike_deg),
+                           digits(attitude->dip_deg), digits(attitude->dip_direction_deg),
+                           digits(attitude->uncertainty.strike_error_deg),
+                           digits(attitude->uncertainty.dip_error_deg), digits(attitude->rms_m),
+                           attitude->points, csvField(named.layer_name),
+                           csvField(named.measurement.note));
+        }
+    }
+    return text;
+}
+
+} // namespace marsview

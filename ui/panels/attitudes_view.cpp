@@ -1,0 +1,134 @@
+#include "ui/panels/attitudes_view.h"
+
+#include "core/session/measurement_tables.h"
+#include "ui/controllers/measure_controller.h"
+#include "ui/plots/stereonet_plot.h"
+#include "ui/text/measure_text.h"
+
+#include <QComboBox>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QMessageBox>
+#include <QPushButton>
+#include <QSaveFile>
+#include <QVBoxLayout>
+
+#include <cmath>
+#include <utility>
+
+namespace marsview {
+
+AttitudesView::AttitudesView(MeasureController& controller, QWidget* parent)
+    : QWidget(parent)
+    , controller_(controller)
+    , plot_(new StereonetPlot(this))
+    , statistics_(new QLabel(this))
+{
+    statistics_->setWordWrap(true);
+    statistics_->setObjectName(QStringLiteral("orientationStatistics"));
+    statistics_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    auto* diagram = new QComboBox(this);
+    diagram->setAccessibleName(tr("Diagram of attitudes"));
+    diagram->addItems({tr("Stereonet"), tr("Rose Diagram")});
+    connect(diagram, &QComboBox::activated, plot_, [this](int index) {
+        plot_->setDiagram(index == 0 ? StereonetPlot::Diagram::Stereonet
+                                     : StereonetPlot::Diagram::Rose);
+    });
+    auto* save = new QPushButton(tr("Save &Attitudes…"), this);
+    save->setObjectName(QStringLiteral("saveAttitudes"));
+    save->setToolTip(tr("Save all attitudes as CSV, or the diagram as PNG, SVG or PDF"));
+    connect(save, &QPushButton::clicked, this, &AttitudesView::askFile);
+    connect(plot_, &StereonetPlot::planeChosen, &controller_, &MeasureController::select);
+    auto* side = new QVBoxLayout;
+    side->addWidget(diagram, 0, Qt::AlignLeading);
+    side->addWidget(statistics_);
+    side->addStretch(1);
+    side->addWidget(save, 0, Qt::AlignLeading);
+    auto* layout = new QHBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->addWidget(plot_, 1);
+    layout->addLayout(side, 1);
+}
+
+void AttitudesView::showItems()
+{
+    std::vector<NetPlane> planes;
+    const MeasureState& state = controller_.state();
+    for (const MeasureItem& item : state.items) {
+        if (const auto* attitude = controller_.outcome(item.id).as<Attitude>()) {
+            planes.push_back({.id = item.id,
+                              .name = item.name,
+                              .plane = orientationOf(*attitude),
+                              .ellipse = poleEllipse(*attitude)});
+        }
+    }
+    plot_->setPlanes(std::move(planes), state.current);
+    statistics_->setText(statisticsText());
+}
+
+QString AttitudesView::statisticsText() const
+{
+    const auto& known = plot_->statistics();
+    if (!known) {
+        return {};
+    }
+    if (known->count < 2) {
+        return tr("Further attitudes are added to this diagram, with their mean.");
+    }
+    const auto whole = [](double degrees) { return measuredAngleText(degrees, 0); };
+    QString text = tr("%n attitude(s)", nullptr, static_cast<int>(known->count));
+    //: Of planes: %1 is the strike, %2 the dip
+    text += QLatin1Char('\n') + tr("Mean plane: strike %1, dip %2")
+                                    .arg(whole(known->mean.strike_deg), whole(known->mean.dip_deg));
+    //: Of planes: %1 is the trend, %2 the plunge
+    text +=
+        QLatin1Char('\n') +
+        tr("Mean pole: trend %1, plunge %2").arg(whole(known->trend_deg), whole(known->plunge_deg));
+    if (std::isfinite(known->kappa)) {
+        //: Fisher's concentration of poles
+        text += QLatin1Char('\n') + tr("Fisher's κ: %1").arg(shortNumberText(known->kappa, 3));
+        text += QLatin1Char('\n') +
+                //: %1 is the half angle of a cone
+                tr("95 % cone: %1").arg(measuredAngleText(known->confidence_deg, 1));
+    }
+    return text;
+}
+
+void AttitudesView::askFile()
+{
+    auto* dialog = new QFileDialog(this, tr("Save Attitudes"), folder_);
+    dialog->setAcceptMode(QFileDialog::AcceptSave);
+    dialog->setNameFilters({tr("CSV table (*.csv)"), tr("PNG picture (*.png)"),
+                            tr("SVG drawing (*.svg)"), tr("PDF document (*.pdf)")});
+    dialog->setDefaultSuffix(QStringLiteral("csv"));
+    connect(dialog, &QFileDialog::filterSelected, dialog, [dialog](const QString& filter) {
+        const qsizetype dot = filter.lastIndexOf(QLatin1Char('.'));
+        dialog->setDefaultSuffix(filter.mid(dot + 1, 3));
+    });
+    dialog->selectFile(tr("attitudes") + QStringLiteral(".csv"));
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    connect(dialog, &QFileDialog::fileSelected, this, [this](const QString& path) {
+        folder_ = QFileInfo(path).absolutePath();
+        if (!save(path)) {
+            QMessageBox::warning(
+                this, tr("Save Attitudes"),
+                tr("%1 cannot be written; choose another folder").arg(isolated(path)));
+        }
+    });
+    dialog->open();
+}
+
+bool AttitudesView::save(const QString& path) const
+{
+    if (QFileInfo(path).suffix().toLower() != QStringLiteral("csv")) {
+        return plot_->savePicture(path);
+    }
+    QSaveFile file(path);
+    const std::string text = attitudesCsv(controller_.named());
+    return file.open(QIODevice::WriteOnly) &&
+           file.write(text.data(), static_cast<qint64>(text.size())) >= 0 && file.commit();
+}
+
+} // namespace marsview
