@@ -7,16 +7,19 @@
 #include "ui/canvas/terrain_view.h"
 #include "ui/controllers/measure_controller.h"
 #include "ui/overlay/measure_marks.h"
+#include "ui/panels/attitudes_view.h"
 #include "ui/panels/measure_list.h"
 #include "ui/panels/measure_panel.h"
 #include "ui/picture_saver.h"
 #include "ui/plots/profile_plot.h"
+#include "ui/plots/stereonet_plot.h"
 #include "ui/project/project_controller.h"
 #include "ui/window_actions.h"
 
 #include <QActionGroup>
 #include <QApplication>
 #include <QClipboard>
+#include <QFile>
 #include <QLabel>
 #include <QTableWidget>
 #include <QTest>
@@ -273,7 +276,7 @@ TEST_F(MeasureTest, TheListNamesShowsAndRemoves)
     ASSERT_NO_FATAL_FAILURE(choose(MeasurementKind::Attitude));
     click(at(-0.05, 0.0));
     EXPECT_EQ(panel().findChild<QLabel*>(QStringLiteral("measureNote"))->text(),
-              QStringLiteral("Click to place 2 more point(s)."));
+              QStringLiteral("Click to place 2 more points."));
     click(at(0.05, 0.0));
     click(at(0.0, 0.08));
     ASSERT_TRUE(isMeasured());
@@ -287,6 +290,63 @@ TEST_F(MeasureTest, TheListNamesShowsAndRemoves)
     window_->undoStack().undo();
     EXPECT_EQ(panel().list()->topLevelItemCount(), 1);
     EXPECT_EQ(measuring().state().items.front().name, QStringLiteral("Layer of rock"));
+}
+
+TEST_F(MeasureTest, AttitudesAreShownTogetherAndSaved)
+{
+    ASSERT_NO_FATAL_FAILURE(choose(MeasurementKind::Attitude));
+    for (const double down : {-0.15, 0.12}) {
+        click(at(-0.08, down));
+        click(at(0.08, down));
+        click(at(0.0, down + 0.09));
+        measuring().finish();
+        ASSERT_TRUE(isMeasured());
+    }
+    AttitudesView& view = *panel().attitudes();
+    EXPECT_TRUE(view.isVisible());
+    const std::vector<NetPlane>& planes = view.plot()->planes();
+    ASSERT_EQ(planes.size(), 2U);
+    // Both lie on one slope, which is a plane.
+    EXPECT_NEAR(planes[0].plane.strike_deg, planes[1].plane.strike_deg, 2.0);
+    ASSERT_TRUE(view.plot()->statistics());
+    EXPECT_NEAR(view.plot()->statistics()->mean.dip_deg, planes[0].plane.dip_deg, 0.5);
+    EXPECT_TRUE(view.statisticsText().contains(QStringLiteral("Mean plane")));
+    QTest::mouseClick(view.plot(), Qt::LeftButton, {},
+                      view.plot()->placeOf(planes[0].id)->toPoint());
+    const QString path = maps_.path(QStringLiteral("attitudes.csv"));
+    ASSERT_TRUE(view.save(path));
+    QFile file(path);
+    ASSERT_TRUE(file.open(QIODevice::ReadOnly));
+    EXPECT_EQ(file.readAll().count('\n'), 3);
+    measuring().begin(MeasurementKind::Distance);
+    click(at(-0.1, 0.0));
+    click(at(0.1, 0.0));
+    EXPECT_FALSE(view.isVisible());
+}
+
+TEST_F(MeasureTest, CratersInAnAreaAreSavedAsACount)
+{
+    ASSERT_NO_FATAL_FAILURE(choose(MeasurementKind::Crater));
+    for (const QPoint& point : {at(-0.03, 0.0), at(0.03, 0.0), at(0.0, 0.05)}) {
+        click(point);
+    }
+    measuring().finish();
+    ASSERT_TRUE(isMeasured());
+    const QString path = maps_.path(QStringLiteral("count.scc"));
+    EXPECT_TRUE(panel().writeTable(path).contains(QStringLiteral("needs the area")));
+    EXPECT_FALSE(QFile::exists(path));
+    ASSERT_NO_FATAL_FAILURE(choose(MeasurementKind::Area));
+    for (const QPoint& point : {at(-0.2, -0.15), at(0.2, -0.15), at(0.2, 0.2), at(-0.2, 0.2)}) {
+        click(point);
+    }
+    measuring().finish();
+    ASSERT_TRUE(isMeasured());
+    EXPECT_EQ(panel().writeTable(path), QString());
+    QFile file(path);
+    ASSERT_TRUE(file.open(QIODevice::ReadOnly));
+    EXPECT_TRUE(file.readAll().contains("\ncrater = {diam, fraction, lon, lat"));
+    EXPECT_EQ(panel().writeTable(maps_.path(QStringLiteral("count.diam"))), QString());
+    EXPECT_NE(panel().writeTable(maps_.path(QStringLiteral("none/table.csv"))), QString());
 }
 
 TEST_F(MeasureTest, NotesAndColorsAreStepsOfUndoAndPartOfTheProject)

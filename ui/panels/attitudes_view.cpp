@@ -78,7 +78,7 @@ QString AttitudesView::statisticsText() const
         return tr("Further attitudes are added to this diagram, with their mean.");
     }
     const auto whole = [](double degrees) { return measuredAngleText(degrees, 0); };
-    QString text = tr("%n attitude(s)", nullptr, static_cast<int>(known->count));
+    QString text = tr("Attitudes: %1").arg(countText(known->count));
     //: Of planes: %1 is the strike, %2 the dip
     text += QLatin1Char('\n') + tr("Mean plane: strike %1, dip %2")
                                     .arg(whole(known->mean.strike_deg), whole(known->mean.dip_deg));

@@ -222,9 +222,10 @@ void MeasurePanel::showResult()
         const MeasureOutcome& outcome = controller_.outcome(item->id);
         const std::size_t needed = verticesNeeded(item->kind);
         if (item->vertices.size() < needed) {
-            //: %1 is a number
-            note = tr("Click to place %n more point(s).", nullptr,
-                      static_cast<int>(needed - item->vertices.size()));
+            const std::size_t missing = needed - item->vertices.size();
+            note = missing == 1 ? tr("Click to place one more point.")
+                                //: %1 is a number above 1
+                                : tr("Click to place %1 more points.").arg(missing);
         } else if (outcome.result && !outcome.result->values) {
             note = QString::fromStdString(outcome.result->values.error().message);
             if (!note.isEmpty()) {

@@ -31,6 +31,9 @@ public:
     AttitudesView* attitudes() const noexcept { return attitudes_; }
     /// The rows of the current result, a line each: label, tab, value.
     QString resultsText() const;
+    /// Writes all measurements: as a table (csv), as features (gpkg), or the craters among them as a
+    /// count (scc, diam). Why that is not possible; empty if the file is written.
+    QString writeTable(const QString& path);
     /// Low: most of the window is for the map.
     QSize sizeHint() const override;
 
@@ -49,9 +52,6 @@ private:
     void showResult();
     void showProfile();
     bool writeProfile(const QString& path);
-    /// Why it is not possible, for people; empty if the file is written. Asked for by its suffix:
-    /// csv, gpkg, scc or diam.
-    QString writeTable(const QString& path);
     QString tableCsv() const;
 
     MeasureController& controller_;

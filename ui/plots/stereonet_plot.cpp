@@ -18,7 +18,7 @@ namespace marsview {
 namespace {
 
 constexpr int kPictureSide = 600; // points
-constexpr int kPngScale = 2;  // pixels per point of a PNG picture
+constexpr int kPngScale = 2;      // pixels per point of a PNG picture
 constexpr double kMargin = 4.0;
 constexpr double kTick = 5.0;
 constexpr double kPoleRadius = 3.5;
@@ -46,7 +46,7 @@ QPainterPath lineOn(const QRectF& circle, const std::vector<NetPoint>& points)
     QPainterPath path;
     for (const NetPoint& point : points) {
         const QPointF place = placeOn(circle, point);
-        path.isEmpty() ? path.moveTo(place) : path.lineTo(place);
+        path.elementCount() == 0 ? path.moveTo(place) : path.lineTo(place);
     }
     return path;
 }
