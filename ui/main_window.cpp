@@ -9,7 +9,7 @@
 #include "ui/canvas/terrain_view.h"
 #include "ui/contour_tools.h"
 #include "ui/controllers/contact_sounds.h"
-#include "ui/controllers/haptics_controller.h"
+#include "ui/controllers/haptics/haptics_controller.h"
 #include "ui/controllers/measure_controller.h"
 #include "ui/controllers/recent_files.h"
 #include "ui/controllers/vector_overlays.h"
@@ -223,9 +223,9 @@ MainWindow::MainWindow(const WindowOptions& options, QWidget* parent)
     setPreferences(isRemembered() ? preferencesFrom(QSettings()) : Preferences{});
     showSession();
     if (isRemembered() && hasEndedWhileConnected()) {
-        haptics_->holdBackRemembered();
+        haptics_->device().holdBackRemembered(haptics_->settings().device);
     } else {
-        haptics_->connectToRemembered();
+        haptics_->device().connectToRemembered(haptics_->settings().device);
     }
     view_->setFocus();
 }
@@ -594,8 +594,8 @@ void MainWindow::connectReadout()
 
 void MainWindow::markConnection()
 {
-    const bool is_connected =
-        haptics_->connection() == HapticsConnection::Connected && !haptics_->isReplaying();
+    const bool is_connected = haptics_->device().connection() == HapticsConnection::Connected &&
+                              !haptics_->device().isReplaying();
     if (!is_connected) {
         connection_marker_.reset();
     } else if (!connection_marker_) {
@@ -612,8 +612,8 @@ void MainWindow::connectHaptics()
         }
         return paths;
     });
-    connect(haptics_, &HapticsController::connectionChanged, this, &MainWindow::showHaptics);
-    connect(haptics_, &HapticsController::connectionChanged, this, [this] {
+    connect(&haptics_->device(), &DeviceSession::connectionChanged, this, &MainWindow::showHaptics);
+    connect(&haptics_->device(), &DeviceSession::connectionChanged, this, [this] {
         if (isRemembered()) {
             markConnection();
         }
@@ -747,11 +747,11 @@ void MainWindow::connectSounds()
 
 void MainWindow::showHaptics()
 {
-    actions_->emergency_stop->setEnabled(haptics_->canBeStopped());
-    actions_->record_touch->setEnabled(haptics_->isRecording() || haptics_->canRecord());
+    actions_->emergency_stop->setEnabled(haptics_->device().canBeStopped());
+    actions_->record_touch->setEnabled(haptics_->isRecording() || haptics_->device().isRunning());
     actions_->record_touch->setText(haptics_->isRecording() ? tr("Stop &Recording Touch")
                                                             : tr("&Record Touch…"));
-    actions_->save_flight->setEnabled(haptics_->hasTicks());
+    actions_->save_flight->setEnabled(haptics_->device().hasTicks());
     showPreparation();
 }
 
@@ -1107,7 +1107,7 @@ void MainWindow::closeEvent(QCloseEvent* event)
     } else {
         project_->discardAutosave();
     }
-    haptics_->close();
+    haptics_->device().close();
     connection_marker_.reset();
     controller_->stopAll();
     if (isRemembered()) {

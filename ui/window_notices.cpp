@@ -2,7 +2,7 @@
 
 #include "core/tiles/tile_disk_cache.h"
 #include "ui/canvas/terrain_view.h"
-#include "ui/controllers/haptics_controller.h"
+#include "ui/controllers/haptics/haptics_controller.h"
 #include "ui/controllers/session_controller.h"
 #include "ui/text/haptics_text.h"
 #include "ui/text/number_text.h"
@@ -64,14 +64,14 @@ QList<Notice> WindowNotices::ofDevice() const
                  .actions = {{tr("Resume Forces"), [&haptics] { haptics.setStopped(false); }}},
                  .show_details = commands_.show_haptics}};
     }
-    const QString problem = haptics.notice();
+    const QString problem = haptics.device().notice();
     if (problem.isEmpty()) {
         return ofReplay();
     }
     Notice notice{.id = QStringLiteral("device: ") + problem,
                   .text = problem,
                   .show_details = commands_.show_haptics};
-    if (haptics.isLost() && haptics.hasTicks()) {
+    if (haptics.device().isLost() && haptics.device().hasTicks()) {
         //: On a button: after a haptic device was lost
         notice.actions.append({tr("Save Diagnostic Log…"), commands_.save_diagnostic_log});
     }
@@ -82,14 +82,14 @@ QList<Notice> WindowNotices::ofDevice() const
 QList<Notice> WindowNotices::ofReplay() const
 {
     HapticsController& haptics = parts_.haptics;
-    const QString file = haptics.replayedToItsEnd();
+    const QString file = haptics.device().replayedToItsEnd();
     if (file.isEmpty()) {
         return {};
     }
     return {{.id = QStringLiteral("replayed: ") + file,
              .text = replayEndText(file),
              //: On a button: after a recording of a touch was replayed
-             .actions = {{tr("Replay Again"), [&haptics] { haptics.replayAgain(); }}},
+             .actions = {{tr("Replay Again"), [&haptics] { haptics.device().replayAgain(); }}},
              .show_details = commands_.show_haptics}};
 }
 

@@ -67,12 +67,12 @@ TEST_F(ConnectionMarker, PreventsReconnectionAfterACrashWithTheDevice)
                   ("window.connected-" + std::to_string(ended) + "-0.loading"))
         << ended << '\n';
     makeWindow();
-    EXPECT_EQ(haptics().connection(), HapticsConnection::None);
-    EXPECT_TRUE(haptics().notice().contains(QStringLiteral("ended unexpectedly while hand:")))
-        << haptics().notice().toStdString();
+    EXPECT_EQ(device().connection(), HapticsConnection::None);
+    EXPECT_TRUE(device().notice().contains(QStringLiteral("ended unexpectedly while hand:")))
+        << device().notice().toStdString();
     EXPECT_EQ(markers(), 0U);
     // On request it is connected.
-    haptics().connectTo(QStringLiteral("hand:"));
+    device().connectTo(QStringLiteral("hand:"));
     EXPECT_TRUE(isConnectedSoon());
 }
 

@@ -3,7 +3,7 @@
 
 #include "tests/ui/map_window.h"
 #include "tests/ui/test_device.h"
-#include "ui/controllers/haptics_controller.h"
+#include "ui/controllers/haptics/haptics_controller.h"
 
 #include <memory>
 
@@ -21,15 +21,16 @@ protected:
         MapWindowTest::makeWindow(size, options);
     }
     HapticsController& haptics() { return window_->haptics(); }
+    DeviceSession& device() { return haptics().device(); }
     /// Requires a running loop.
-    LoopState state() { return haptics().loop()->state(); }
+    LoopState state() { return device().loop()->state(); }
     bool isConnectedSoon()
     {
-        return waitFor([&] { return haptics().connection() == HapticsConnection::Connected; });
+        return waitFor([&] { return device().connection() == HapticsConnection::Connected; });
     }
     bool connectTo(const QString& uri)
     {
-        haptics().connectTo(uri);
+        device().connectTo(uri);
         return isConnectedSoon();
     }
 

@@ -1,6 +1,5 @@
 #include "ui/panels/haptics_panel.h"
 
-#include "haptics/drivers/replay_driver.h"
 #include "ui/panels/loop_times.h"
 #include "ui/text/haptics_text.h"
 #include "ui/text/number_text.h"
@@ -63,6 +62,7 @@ HapticsPanel::HapticsPanel(HapticsController& controller,
                            QWidget* parent)
     : QWidget(parent)
     , controller_(controller)
+    , device_(controller.device())
     , model_actions_(contact_models)
 {
     QScrollArea* scroll = makeScrollArea(this);
@@ -85,14 +85,13 @@ HapticsPanel::HapticsPanel(HapticsController& controller,
     outer->setContentsMargins(0, 0, 0, 0);
     outer->addWidget(scroll);
 
-    connect(&controller_, &HapticsController::devicesChanged, this, &HapticsPanel::showDevices);
-    connect(&controller_, &HapticsController::connectionChanged, this,
-            &HapticsPanel::showConnection);
+    connect(&device_, &DeviceSession::devicesChanged, this, &HapticsPanel::showDevices);
+    connect(&device_, &DeviceSession::connectionChanged, this, &HapticsPanel::showConnection);
     connect(&controller_, &HapticsController::settingsChanged, this, &HapticsPanel::showSettings);
     connect(&controller_, &HapticsController::stoppedChanged, this, &HapticsPanel::showStopped);
     connect(&controller_, &HapticsController::recordingChanged, this, &HapticsPanel::showRecording);
-    connect(&controller_, &HapticsController::polled, this, &HapticsPanel::showState);
-    connect(&controller_, &HapticsController::replayEnded, recording_,
+    connect(&device_, &DeviceSession::polled, this, &HapticsPanel::showState);
+    connect(&device_, &DeviceSession::replayEnded, recording_,
             [this](const QString& file) { recording_->setText(replayEndText(file)); });
     connect(&controller_, &HapticsController::recordingFailed, recording_, &QLabel::setText);
     connect(&controller_, &HapticsController::savingFailed, recording_, &QLabel::setText);
@@ -122,7 +121,7 @@ void HapticsPanel::makeDevices(QBoxLayout& layout)
     connect(list_, &QListWidget::currentItemChanged, this, &HapticsPanel::showConnectButton);
     connect(list_, &QListWidget::itemActivated, this, [this](QListWidgetItem* item) {
         if (item->data(kUsableRole).toBool()) {
-            controller_.connectTo(item->data(kUriRole).toString());
+            device_.connectTo(item->data(kUriRole).toString());
         }
     });
     layout.addWidget(list_);
@@ -168,7 +167,7 @@ void HapticsPanel::makeForce(QBoxLayout& layout)
     rest_->setToolTip(
         tr("Move the arm to its home position first; positions are measured from there"));
     rest_->hide();
-    connect(rest_, &QPushButton::clicked, &controller_, &HapticsController::setAtRest);
+    connect(rest_, &QPushButton::clicked, &device_, &DeviceSession::setAtRest);
     layout.addWidget(reason_);
     layout.addWidget(rest_);
 
@@ -258,7 +257,7 @@ void HapticsPanel::makeRecording(QBoxLayout& layout)
     replay_ = new QPushButton(this);
     replay_->setObjectName(QStringLiteral("replay"));
     connect(replay_, &QPushButton::clicked, this,
-            [this] { controller_.isReplaying() ? controller_.stopReplay() : chooseReplay(); });
+            [this] { device_.isReplaying() ? device_.stopReplay() : chooseReplay(); });
     for (QPushButton* button : {record_, replay_}) {
         button->setMinimumWidth(0);
         button->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
@@ -285,15 +284,15 @@ void HapticsPanel::showEvent(QShowEvent* event)
 {
     QWidget::showEvent(event);
     fitList();
-    controller_.setLooking(true);
-    controller_.findDevices(); // once also while one is connected
+    device_.setLooking(true);
+    device_.findDevices(); // once also while one is connected
     showConnection();
 }
 
 void HapticsPanel::hideEvent(QHideEvent* event)
 {
     QWidget::hideEvent(event);
-    controller_.setLooking(false);
+    device_.setLooking(false);
 }
 
 // Colors of our own go by the palette.
@@ -311,7 +310,7 @@ void HapticsPanel::showDevices()
     const QString before = chosenUri();
     const QScopedValueRollback filling(is_filling_, true);
     list_->clear();
-    for (const FoundDevice& device : controller_.devices()) {
+    for (const FoundDevice& device : device_.devices()) {
         const QString uri = QString::fromStdString(device.uri);
         const QString name = device.name.empty() ? uri : QString::fromStdString(device.name);
         const QString reason = asSentence(device.reason);
@@ -327,7 +326,7 @@ void HapticsPanel::showDevices()
         if (!device.isUsable()) {
             item->setForeground(palette().color(QPalette::PlaceholderText));
         }
-        if (uri == (before.isEmpty() ? controller_.uri() : before)) {
+        if (uri == (before.isEmpty() ? device_.uri() : before)) {
             list_->setCurrentItem(item);
         }
     }
@@ -364,17 +363,17 @@ QString HapticsPanel::chosenUri() const
 
 void HapticsPanel::toggleConnection()
 {
-    if (controller_.connection() != HapticsConnection::None) {
-        controller_.disconnectDevice();
+    if (device_.connection() != HapticsConnection::None) {
+        device_.disconnectDevice();
     } else if (!chosenUri().isEmpty()) {
-        controller_.connectTo(chosenUri());
+        device_.connectTo(chosenUri());
     }
 }
 
 void HapticsPanel::showConnectButton()
 {
     const QListWidgetItem* item = list_->currentItem();
-    switch (controller_.connection()) {
+    switch (device_.connection()) {
     case HapticsConnection::None:
         connect_->setText(tr("&Connect"));
         connect_->setEnabled(item != nullptr && item->data(kUsableRole).toBool());
@@ -393,10 +392,10 @@ void HapticsPanel::showConnectButton()
 // The device that is connected stands out, and is the current one when it comes.
 void HapticsPanel::markConnected()
 {
-    const bool is_connected = controller_.connection() == HapticsConnection::Connected;
+    const bool is_connected = device_.connection() == HapticsConnection::Connected;
     for (int i = 0; i < list_->count(); ++i) {
         QListWidgetItem* item = list_->item(i);
-        const bool is_it = is_connected && item->data(kUriRole).toString() == controller_.uri();
+        const bool is_it = is_connected && item->data(kUriRole).toString() == device_.uri();
         QFont font = item->font();
         if (is_it && !font.bold()) {
             list_->setCurrentItem(item);
@@ -410,26 +409,25 @@ void HapticsPanel::showConnection()
 {
     markConnected();
     showConnectButton();
-    switch (controller_.connection()) {
+    switch (device_.connection()) {
     case HapticsConnection::None:
-        status_->setText(!controller_.problem().isEmpty() ? controller_.problem()
-                                                          : tr("No device is connected."));
+        status_->setText(!device_.problem().isEmpty() ? device_.problem()
+                                                      : tr("No device is connected."));
         break;
     case HapticsConnection::Opening:
         //: %1 names a device
-        status_->setText(tr("Connecting to %1…").arg(controller_.uri()));
+        status_->setText(tr("Connecting to %1…").arg(device_.uri()));
         break;
     case HapticsConnection::Connected: {
-        if (controller_.isReplaying()) {
-            const QString file =
-                QString::fromStdString(replayedFile(controller_.uri().toStdString()));
-            status_->setText(!controller_.problem().isEmpty()
-                                 ? controller_.problem()
-                                 //: %1 is a file
-                                 : tr("Replaying %1").arg(QFileInfo(file).fileName()));
+        if (device_.isReplaying()) {
+            status_->setText(
+                !device_.problem().isEmpty()
+                    ? device_.problem()
+                    //: %1 is a file
+                    : tr("Replaying %1").arg(QFileInfo(device_.replayedFile()).fileName()));
             break;
         }
-        const DeviceCapabilities& device = controller_.loop()->device();
+        const DeviceCapabilities& device = device_.loop()->device();
         //: %1 is a device, %2 a force
         status_->setText(
             tr("%1, up to %2")
@@ -492,7 +490,7 @@ void HapticsPanel::showStiffness()
 void HapticsPanel::showStopped()
 {
     const bool is_stopped = controller_.isStopped();
-    const bool is_of_use = is_stopped || controller_.canBeStopped();
+    const bool is_of_use = is_stopped || device_.canBeStopped();
     stop_->setEnabled(is_of_use);
     stop_->setText(is_stopped ? tr("Resume Forces") : tr("Emergency &Stop"));
     stop_->setToolTip(is_stopped
@@ -509,11 +507,11 @@ void HapticsPanel::showStopped()
 
 void HapticsPanel::showNoState()
 {
-    if (!controller_.canRecord()) {
+    if (!device_.isRunning()) {
         force_->setValue(0);
         force_->setFormat(forceText(0.0));
-        reason_->setText(controller_.loop() != nullptr ? letGoText(ForceOffReason::NoTouch)
-                                                       : QString());
+        reason_->setText(device_.loop() != nullptr ? letGoText(ForceOffReason::NoTouch)
+                                                   : QString());
         rest_->hide();
         times_->clear();
     }
@@ -524,8 +522,8 @@ void HapticsPanel::showState(const LoopState& state)
     if (!isVisible()) {
         return;
     }
-    const bool is_replay = controller_.isReplaying();
-    const double most_n = is_replay ? kForceNMax : controller_.loop()->device().force_n_peak;
+    const bool is_replay = device_.isReplaying();
+    const double most_n = is_replay ? kForceNMax : device_.loop()->device().force_n_peak;
     // The force of a stalled loop is unknown.
     const double force_n =
         state.reason == ForceOffReason::LoopStalled ? 0.0 : length(state.force_n);
@@ -537,12 +535,10 @@ void HapticsPanel::showState(const LoopState& state)
                       : is_replay             ? tr("No force recorded")
                                               : forceText(force_n));
     if (is_replay) {
-        replayed_->setValue(
-            static_cast<int>(std::lround(controller_.replayedShare() * kReplaySteps)));
+        replayed_->setValue(static_cast<int>(std::lround(device_.replayedShare() * kReplaySteps)));
     }
-    const std::string trouble = state.reason == ForceOffReason::DeviceUnready
-                                    ? controller_.loop()->trouble()
-                                    : std::string();
+    const std::string trouble =
+        state.reason == ForceOffReason::DeviceUnready ? device_.loop()->trouble() : std::string();
     const QString reason = trouble.empty()
                                ? letGoText(state.reason)
                                //: %1 is the device's error
@@ -554,19 +550,18 @@ void HapticsPanel::showState(const LoopState& state)
     if (text != reason_->text()) {
         reason_->setText(text);
     }
-    rest_->setVisible(state.reason == ForceOffReason::DeviceUnready &&
-                      controller_.canBeSetAtRest());
+    rest_->setVisible(state.reason == ForceOffReason::DeviceUnready && device_.canBeSetAtRest());
     if (times_->isDue()) {
-        times_->showLoop(controller_.loop()->statistics(), controller_.loop()->grants());
+        times_->showLoop(device_.loop()->statistics(), device_.loop()->grants());
     }
 }
 
 void HapticsPanel::showRecording()
 {
     record_->setText(controller_.isRecording() ? tr("S&top Recording") : tr("&Record…"));
-    record_->setEnabled(controller_.isRecording() || controller_.canRecord());
-    flight_->setEnabled(controller_.hasTicks());
-    const bool is_replay = controller_.isReplaying();
+    record_->setEnabled(controller_.isRecording() || device_.isRunning());
+    flight_->setEnabled(device_.hasTicks());
+    const bool is_replay = device_.isReplaying();
     replay_->setText(is_replay ? tr("Stop Re&play") : tr("Re&play…"));
     replay_->setToolTip(is_replay ? tr("End the replay; the camera returns to where it was")
                                   : tr("Play back a recording on this map in place of a device"));
@@ -597,7 +592,7 @@ void HapticsPanel::chooseRecording()
 void HapticsPanel::chooseFlightRecord()
 {
     // Copied now: these ticks would be overwritten while the user chooses a file name.
-    std::vector<TickRecord> ticks = controller_.lastTicks();
+    std::vector<TickRecord> ticks = device_.lastTicks();
     if (ticks.empty()) {
         recording_->setText(tr("Nothing to save yet"));
         return;
@@ -625,7 +620,7 @@ void HapticsPanel::chooseReplay()
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     connect(dialog, &QFileDialog::fileSelected, this, [this](const QString& file) {
         folder_ = QFileInfo(file).absolutePath();
-        controller_.connectTo(QStringLiteral("replay:") + file);
+        device_.connectTo(QStringLiteral("replay:") + file);
     });
     dialog->open();
 }

@@ -1,7 +1,7 @@
 // The panel for touching with a device.
 #pragma once
 
-#include "ui/controllers/haptics_controller.h"
+#include "ui/controllers/haptics/haptics_controller.h"
 
 #include <QWidget>
 
@@ -67,6 +67,7 @@ private:
     QString chosenUri() const;
 
     HapticsController& controller_;
+    DeviceSession& device_;
     QActionGroup& model_actions_;
     QListWidget* list_ = nullptr;
     QPushButton* connect_ = nullptr;

@@ -54,16 +54,16 @@ protected:
     }
     bool touch()
     {
-        haptics().connectTo(QStringLiteral("hand:"));
+        device().connectTo(QStringLiteral("hand:"));
         hand_->moveTo({0.0, 0.0, -0.055});
         return waitFor([&] { return hand_->force_n > 0.5; }) &&
-               waitFor([&] { return haptics().loop()->state().tick > 300; });
+               waitFor([&] { return device().loop()->state().tick > 300; });
     }
     bool lose()
     {
         hand_->is_lost = true;
         hand_->is_there = false;
-        return waitFor([&] { return haptics().connection() == HapticsConnection::None; });
+        return waitFor([&] { return device().connection() == HapticsConnection::None; });
     }
     QFileDialog* dialog() { return window_->findChild<QFileDialog*>(); }
     // The rows that the open dialog saves, without the header.
@@ -94,13 +94,13 @@ TEST_F(FlightRecordTest, CoversTheTimeBeforeItIsSaved)
     ASSERT_TRUE(touch());
     ASSERT_TRUE(action().isEnabled());
     EXPECT_TRUE(button().isEnabled());
-    const std::uint64_t before = haptics().loop()->state().tick;
+    const std::uint64_t before = device().loop()->state().tick;
     action().trigger();
     // A busy machine takes a while to open the dialog.
-    const std::uint64_t asked = haptics().loop()->state().tick;
+    const std::uint64_t asked = device().loop()->state().tick;
     ASSERT_NE(dialog(), nullptr);
     // The loop keeps running while a file name is chosen.
-    ASSERT_TRUE(waitFor([&] { return haptics().loop()->state().tick > asked + 300; }));
+    ASSERT_TRUE(waitFor([&] { return device().loop()->state().tick > asked + 300; }));
     const auto rows = saved(QStringLiteral("flight.csv"));
     ASSERT_GT(rows.size(), 200);
     EXPECT_LE(rows.back()[kTick].toULongLong(), asked);
@@ -115,7 +115,7 @@ TEST_F(FlightRecordTest, CoversTheTimeBeforeItIsSaved)
                              .arg(rows.back()[kTime].toDouble(), 0, 'f', 1);
     EXPECT_EQ(window_->statusBar()->currentMessage(), told);
     EXPECT_EQ(panelText(), told);
-    EXPECT_TRUE(haptics().loop()->isRunning());
+    EXPECT_TRUE(device().loop()->isRunning());
 }
 
 TEST_F(FlightRecordTest, IsAvailableAfterTheDeviceIsLost)
@@ -138,7 +138,7 @@ TEST_F(FlightRecordTest, IsAvailableAfterTheDeviceIsLost)
     ASSERT_GT(rows.size(), 200);
     EXPECT_EQ(rows.back()[kReason], lost());
     EXPECT_NE(rows.front()[kReason], rows.back()[kReason]);
-    EXPECT_NE(haptics().notice(), QString()) << "the notice stays";
+    EXPECT_NE(device().notice(), QString()) << "the notice stays";
 }
 
 TEST_F(FlightRecordTest, ContainsTheLossAfterTheDeviceIsBack)
@@ -146,11 +146,11 @@ TEST_F(FlightRecordTest, ContainsTheLossAfterTheDeviceIsBack)
     ASSERT_TRUE(touch());
     ASSERT_TRUE(lose());
     hand_->is_lost = false;
-    haptics().findDevices();
-    ASSERT_TRUE(waitFor([&] { return !haptics().isFinding(); }));
+    device().findDevices();
+    ASSERT_TRUE(waitFor([&] { return !device().isFinding(); }));
     hand_->is_there = true;
-    ASSERT_TRUE(waitFor(
-        [&] { return haptics().loop() != nullptr && haptics().loop()->state().tick > 300; }));
+    ASSERT_TRUE(
+        waitFor([&] { return device().loop() != nullptr && device().loop()->state().tick > 300; }));
     button().click();
     ASSERT_NE(dialog(), nullptr);
     const auto rows = saved(QStringLiteral("back.csv"));
@@ -161,9 +161,9 @@ TEST_F(FlightRecordTest, ContainsTheLossAfterTheDeviceIsBack)
     EXPECT_GT(losses, 0);
     EXPECT_NE(rows.back()[kReason], lost());
     // The log of a device that was disconnected on purpose is cleared.
-    haptics().disconnectDevice();
+    device().disconnectDevice();
     ASSERT_TRUE(touch());
-    for (const TickRecord& tick : haptics().lastTicks()) {
+    for (const TickRecord& tick : device().lastTicks()) {
         ASSERT_NE(tick.reason, ForceOffReason::DeviceLost);
     }
 }
@@ -172,10 +172,10 @@ TEST_F(FlightRecordTest, ContinuesWithAnotherMap)
 {
     ASSERT_TRUE(touch());
     window_->controller().remove(window_->session().active);
-    ASSERT_FALSE(haptics().loop()->isRunning());
+    ASSERT_FALSE(device().loop()->isRunning());
     EXPECT_TRUE(action().isEnabled());
     ASSERT_TRUE(openAndWait(*window_, maps_.ring()));
-    ASSERT_TRUE(waitFor([&] { return haptics().loop()->state().tick > 300; }));
+    ASSERT_TRUE(waitFor([&] { return device().loop()->state().tick > 300; }));
     action().trigger();
     ASSERT_NE(dialog(), nullptr);
     const auto rows = saved(QStringLiteral("two.csv"));

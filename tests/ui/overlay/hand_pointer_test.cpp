@@ -178,7 +178,7 @@ TEST_F(HandPointerTest, StaysBelowOtherOverlays)
 // The workspace is a box around the visible terrain, whose near corners are outside the picture.
 TEST_F(HandPointerTest, PointsToTheHandOfADevice)
 {
-    window_->haptics().connectTo(QStringLiteral("hand:"));
+    window_->haptics().device().connectTo(QStringLiteral("hand:"));
     OrbitCamera camera = view().camera();
     camera.distance_m /= 2.0;
     camera.tilt = Angle::degrees(65.0);

@@ -55,7 +55,7 @@ protected:
         list().setFocus();
         list().setCurrentRow(row);
         QTest::keyClick(&list(), Qt::Key_Return);
-        return waitFor([&] { return haptics().connection() == HapticsConnection::Connected; });
+        return waitFor([&] { return device().connection() == HapticsConnection::Connected; });
     }
 };
 
@@ -71,7 +71,7 @@ TEST_F(HapticsPanelTest, ListsDevicesWithTheReasonWhyNot)
     list().setCurrentRow(2);
     EXPECT_FALSE(connect.isEnabled());
     QTest::keyClick(&list(), Qt::Key_Return);
-    EXPECT_EQ(haptics().connection(), HapticsConnection::None);
+    EXPECT_EQ(device().connection(), HapticsConnection::None);
     // The last entry has space for its two lines.
     const QRect one = list().visualItemRect(list().item(0));
     EXPECT_GE(list().visualItemRect(list().item(2)).height(), 2 * one.height() - 8);
@@ -95,7 +95,7 @@ TEST_F(HapticsPanelTest, ShowsForceAndTimesWhileConnected)
     }
     EXPECT_TRUE(text("realTime").contains(QStringLiteral("Real-time scheduling")));
     part<QPushButton>("connectDevice").click();
-    EXPECT_EQ(haptics().connection(), HapticsConnection::None);
+    EXPECT_EQ(device().connection(), HapticsConnection::None);
     EXPECT_EQ(force.value(), 0);
     EXPECT_EQ(panel().findChild<TimePlot*>()->moments().size(), 0U);
 }
@@ -126,7 +126,7 @@ TEST_F(HapticsPanelTest, ShowsAReplaysProgressAndStopsIt)
     auto& replay = part<QPushButton>("replay");
     EXPECT_TRUE(progress.isHidden());
     const QString before = replay.text();
-    haptics().connectTo(QStringLiteral("replay:") + file);
+    device().connectTo(QStringLiteral("replay:") + file);
     ASSERT_TRUE(isConnectedSoon());
     EXPECT_TRUE(progress.isVisibleTo(&panel()));
     EXPECT_TRUE(waitFor([&] { return progress.value() > 0; }));
@@ -138,7 +138,7 @@ TEST_F(HapticsPanelTest, ShowsAReplaysProgressAndStopsIt)
     EXPECT_EQ(text("hapticStatus"), QStringLiteral("Replaying touch.csv"));
     EXPECT_EQ(replay.text(), QStringLiteral("Stop Re&play"));
     replay.click();
-    EXPECT_EQ(haptics().connection(), HapticsConnection::None);
+    EXPECT_EQ(device().connection(), HapticsConnection::None);
     EXPECT_TRUE(progress.isHidden());
     EXPECT_EQ(replay.text(), before);
 }
@@ -149,13 +149,13 @@ TEST_F(HapticsPanelTest, SaysThatAReplayHasEndedAndOffersItAgain)
     writeGoals(file, 1500);
     ASSERT_TRUE(connectByKeys(0));
     QStringList states;
-    QObject::connect(&haptics(), &HapticsController::polled, &panel(),
+    QObject::connect(&device(), &DeviceSession::polled, &panel(),
                      [&] { states.append(text("letGoReason")); });
-    haptics().connectTo(QStringLiteral("replay:") + file);
+    device().connectTo(QStringLiteral("replay:") + file);
     // The device comes back by itself, and what has ended is said until it is closed.
-    ASSERT_TRUE(waitFor([&] { return !haptics().replayedToItsEnd().isEmpty(); }));
-    ASSERT_TRUE(waitFor([&] { return haptics().loop() != nullptr; }));
-    EXPECT_EQ(haptics().uri(), QStringLiteral("hand:"));
+    ASSERT_TRUE(waitFor([&] { return !device().replayedToItsEnd().isEmpty(); }));
+    ASSERT_TRUE(waitFor([&] { return device().loop() != nullptr; }));
+    EXPECT_EQ(device().uri(), QStringLiteral("hand:"));
     const QString ended = QStringLiteral("touch.csv was replayed to its end");
     EXPECT_EQ(text("recording"), ended);
     const auto& bar = *window_->findChild<NoticeBar*>();
@@ -164,7 +164,7 @@ TEST_F(HapticsPanelTest, SaysThatAReplayHasEndedAndOffersItAgain)
     EXPECT_EQ(notice->text(), ended);
     EXPECT_EQ(again->text(), QStringLiteral("Replay Again"));
     again->click();
-    EXPECT_TRUE(waitFor([&] { return haptics().isReplaying(); }));
+    EXPECT_TRUE(waitFor([&] { return device().isReplaying(); }));
     EXPECT_NE(notice->text(), ended);
     EXPECT_TRUE(states.filter(QStringLiteral("no layer")).isEmpty())
         << states.join(QLatin1Char('|')).toStdString();
@@ -210,7 +210,7 @@ TEST_F(HapticsPanelTest, SaysWhyADeviceWasLost)
 {
     ASSERT_TRUE(connectByKeys(0));
     hand_->is_lost = true;
-    ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
+    ASSERT_TRUE(waitFor([&] { return device().connection() == HapticsConnection::None; }));
     EXPECT_TRUE(text("hapticStatus").contains(QStringLiteral("The plug was pulled")));
 }
 
@@ -221,7 +221,7 @@ TEST_F(HapticsPanelTest, RecordsOnlyWhatIsTouched)
     EXPECT_TRUE(part<QPushButton>("record").isEnabled());
     ASSERT_TRUE(haptics().startRecording(maps_.path(QStringLiteral("touch.csv"))));
     EXPECT_EQ(text("recording"), QStringLiteral("Recording into touch.csv"));
-    ASSERT_TRUE(waitFor([&] { return haptics().loop()->state().tick > 100; }));
+    ASSERT_TRUE(waitFor([&] { return device().loop()->state().tick > 100; }));
     part<QPushButton>("record").click();
     EXPECT_FALSE(haptics().isRecording());
     EXPECT_TRUE(text("recording").contains(QStringLiteral("updates recorded")));
@@ -234,7 +234,7 @@ TEST_F(HapticsPanelTest, LooksForDevicesOnlyWhileItIsOpenAndNothingIsConnected)
     ASSERT_TRUE(connectByKeys(0));
     hand_->is_there = true;
     QTest::qWait(200);
-    EXPECT_FALSE(haptics().isFinding());
+    EXPECT_FALSE(device().isFinding());
     EXPECT_EQ(list().count(), 2);
 }
 

@@ -3,7 +3,7 @@
 #include "core/view/color_ramp.h"
 #include "haptics/trace/goal_file.h"
 #include "tests/support/map_maker.h"
-#include "tests/ui/hand_window.h"
+#include "tests/ui/controllers/haptics/touched_hill.h"
 #include "tests/ui/large_maps.h"
 #include "tests/ui/timeout.h"
 #include "ui/canvas/terrain_view.h"
@@ -28,20 +28,6 @@
 
 namespace marsview {
 namespace {
-
-// Lines with the same goal and the given columns of a recording.
-void writeGoals(const QString& file,
-                int count,
-                const QByteArray& goal,
-                const QByteArray& columns = {})
-{
-    QFile text(file);
-    ASSERT_TRUE(text.open(QIODevice::WriteOnly | QIODevice::Truncate));
-    text.write("x,y,z" + columns + '\n');
-    for (int i = 0; i < count; ++i) {
-        text.write(goal + '\n');
-    }
-}
 
 QByteArray contentOf(const QString& file)
 {
@@ -76,13 +62,14 @@ void expectStrokesInPicture(TerrainView& view, const HapticsController& haptics)
         view.setCamera(camera);
         // Until then, strokes are within a picture of coarser terrain.
         ASSERT_TRUE(wait_for([&] { return view.isPictureComplete(); }));
-        const std::uint64_t begin = haptics.loop()->state().tick;
+        const std::uint64_t begin = haptics.device().loop()->state().tick;
         constexpr std::uint64_t kReturnTicks = 1500; // from where the hand was before
-        ASSERT_TRUE(wait_for([&] { return haptics.loop()->state().tick > begin + kReturnTicks; }));
+        ASSERT_TRUE(
+            wait_for([&] { return haptics.device().loop()->state().tick > begin + kReturnTicks; }));
         int seen = 0;
         int outside = 0;
         ASSERT_TRUE(wait_for([&] {
-            const LoopState now = haptics.loop()->state();
+            const LoopState now = haptics.device().loop()->state();
             // Also while it lifts off, half a second every five seconds.
             seen += now.contact.is_in_contact ? 1 : 0;
             outside +=
@@ -94,28 +81,8 @@ void expectStrokesInPicture(TerrainView& view, const HapticsController& haptics)
     }
 }
 
-class HapticsControllerTest : public HandWindowTest {
+class HapticsControllerTest : public TouchedHillTest {
 protected:
-    void SetUp() override
-    {
-        makeWindow(kSmall);
-        ASSERT_TRUE(openAndWait(*window_, maps_.hill()));
-    }
-    void TearDown() override
-    {
-        hand_->is_held_up = false;
-        window_.reset();
-        EXPECT_EQ(hand_->open_count, 0);
-        EXPECT_EQ(hand_->force_n, 0.0);
-    }
-
-    // Down until there is a force.
-    bool pressDown()
-    {
-        hand_->moveTo({0.0, 0.0, -0.055});
-        return waitFor([&] { return hand_->force_n > 0.5; });
-    }
-
     bool record(const QString& file)
     {
         QSignalSpy recorded(&haptics(), &HapticsController::recorded);
@@ -189,10 +156,10 @@ TEST_F(HapticsControllerTest, ASimulatedHandMovesTheStylusAndFillsTheMeter)
     }));
     EXPECT_TRUE(window_->overlays()->forceMeter()->isInUse());
     EXPECT_GT(state().counts.in_contact, 0U);
-    haptics().disconnectDevice();
+    device().disconnectDevice();
     EXPECT_FALSE(view().shownStylus());
     EXPECT_FALSE(window_->overlays()->forceMeter()->isInUse());
-    EXPECT_EQ(haptics().loop(), nullptr);
+    EXPECT_EQ(device().loop(), nullptr);
 }
 
 TEST_F(HapticsControllerTest, TheProxyRestsOnTheGroundThatIsShown)
@@ -279,68 +246,6 @@ TEST_F(HapticsControllerTest, LiftingAGrabInTheAirZooms)
         << " instead of " << state().frame.scene_per_meter / scale;
 }
 
-TEST_F(HapticsControllerTest, ADeviceThatCannotBeOpenedSaysWhy)
-{
-    haptics().connectTo(QStringLiteral("gone:locked"));
-    EXPECT_EQ(haptics().connection(), HapticsConnection::Opening);
-    ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
-    EXPECT_TRUE(haptics().problem().contains(QStringLiteral("may not be opened")));
-    EXPECT_EQ(haptics().settings().device, QString());
-    ASSERT_TRUE(connectTo(QStringLiteral("sim:")));
-    EXPECT_EQ(haptics().problem(), QString());
-}
-
-TEST_F(HapticsControllerTest, OpeningHoldsNothingUpAndCanBeCanceled)
-{
-    hand_->is_held_up = true;
-    haptics().connectTo(QStringLiteral("hand:"));
-    EXPECT_EQ(haptics().connection(), HapticsConnection::Opening);
-    OrbitCamera camera = view().camera();
-    camera.distance_m *= 0.5;
-    view().setCamera(camera); // the window continues
-    haptics().disconnectDevice();
-    EXPECT_EQ(haptics().connection(), HapticsConnection::None);
-    hand_->is_held_up = false;
-    // A device that opens too late is closed, and never connected.
-    ASSERT_TRUE(connectTo(QStringLiteral("sim:")));
-    EXPECT_TRUE(waitFor([&] { return hand_->open_count == 0; }));
-    EXPECT_EQ(haptics().uri(), QStringLiteral("sim:"));
-}
-
-TEST_F(HapticsControllerTest, ALostDeviceIsToldAndEverythingElseGoesOn)
-{
-    ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
-    ASSERT_TRUE(pressDown());
-    hand_->is_lost = true;
-    ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
-    EXPECT_TRUE(haptics().problem().contains(QStringLiteral("Test hand")));
-    EXPECT_TRUE(haptics().problem().contains(QStringLiteral("The plug was pulled")));
-    EXPECT_EQ(hand_->open_count, 0);
-    EXPECT_FALSE(view().shownStylus());
-    EXPECT_TRUE(openAndWait(*window_, maps_.ring()));
-}
-
-TEST_F(HapticsControllerTest, ALostDeviceThatIsThereAgainIsConnectedAnew)
-{
-    ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
-    ASSERT_TRUE(waitFor([&] { return state().tick > 10; }));
-    hand_->is_lost = true;
-    hand_->is_there = false;
-    ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
-    const auto look = [&] {
-        haptics().findDevices();
-        return waitFor([&] { return !haptics().isFinding(); });
-    };
-    ASSERT_TRUE(look());
-    EXPECT_EQ(haptics().connection(), HapticsConnection::None);
-    // The panel is hidden; the search for the device continues all the same.
-    hand_->is_lost = false;
-    hand_->is_there = true;
-    constexpr int kPatienceMs = 20'000; // the search runs every few seconds
-    EXPECT_TRUE(QTest::qWaitFor(
-        [&] { return haptics().connection() == HapticsConnection::Connected; }, kPatienceMs));
-}
-
 TEST_F(HapticsControllerTest, AnotherMapIsTouchedInPlaceOfTheFirst)
 {
     ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
@@ -356,8 +261,8 @@ TEST_F(HapticsControllerTest, AnotherMapIsTouchedInPlaceOfTheFirst)
     window_->controller().remove(window_->session().active);
     window_->controller().remove(window_->session().active);
     EXPECT_TRUE(waitFor([&] { return hand_->force_n == 0.0; }));
-    EXPECT_FALSE(haptics().loop()->isRunning());
-    EXPECT_EQ(haptics().connection(), HapticsConnection::Connected);
+    EXPECT_FALSE(device().loop()->isRunning());
+    EXPECT_EQ(device().connection(), HapticsConnection::Connected);
 }
 
 TEST_F(HapticsControllerTest, TheHandGoesFromTheUpperMapOntoTheLowerAndBack)
@@ -430,12 +335,12 @@ TEST_F(HapticsControllerTest, TheEmergencyStopHoldsForADeviceThatIsBeingOpened)
 {
     hand_->is_held_up = true;
     hand_->moveTo({0.0, 0.0, -0.055});
-    haptics().connectTo(QStringLiteral("hand:"));
-    ASSERT_EQ(haptics().connection(), HapticsConnection::Opening);
+    device().connectTo(QStringLiteral("hand:"));
+    ASSERT_EQ(device().connection(), HapticsConnection::Opening);
     QTest::keyClick(&view(), Qt::Key_Pause);
     EXPECT_TRUE(haptics().isStopped());
     hand_->is_held_up = false;
-    ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::Connected; }));
+    ASSERT_TRUE(waitFor([&] { return device().connection() == HapticsConnection::Connected; }));
     ASSERT_TRUE(waitFor([&] { return state().tick > 300; })); // and the force has returned by then
     EXPECT_EQ(state().reason, ForceOffReason::EmergencyStop);
     EXPECT_EQ(hand_->force_n, 0.0);
@@ -443,48 +348,12 @@ TEST_F(HapticsControllerTest, TheEmergencyStopHoldsForADeviceThatIsBeingOpened)
     EXPECT_TRUE(waitFor([&] { return hand_->force_n > 0.5; }));
 }
 
-TEST_F(HapticsControllerTest, AReplayThatEndsWhileStoppedIsNotLost)
-{
-    const QString file = maps_.path(QStringLiteral("short.csv"));
-    writeGoals(file, 400, "500900,4000600,5000");
-    ASSERT_TRUE(connectTo(QStringLiteral("replay:") + file));
-    haptics().setStopped(true);
-    ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
-    EXPECT_EQ(haptics().problem(), QString());
-    EXPECT_EQ(haptics().replayedToItsEnd(), file);
-    EXPECT_FALSE(haptics().isLost());
-    EXPECT_FALSE(haptics().canBeStopped()); // the program is not waiting for anything
-    haptics().setStopped(false);
-}
-
-// As when the camera flies after the hand in the moment in which the recording ends.
-TEST_F(HapticsControllerTest, AReplayEndsThoughTheCameraMovesAsItDoes)
-{
-    const QString file = maps_.path(QStringLiteral("short.csv"));
-    writeGoals(file, 400, "500900,4000600,5000");
-    ASSERT_TRUE(connectTo(QStringLiteral("replay:") + file));
-    ASSERT_TRUE(waitFor([&] { return state().tick > 0; }));
-    const QDeadlineTimer deadline(kTimeout);
-    while (!haptics().loop()->hasEnded() && !deadline.hasExpired()) {
-        QThread::msleep(1); // without events: nothing is polled
-    }
-    ASSERT_TRUE(haptics().loop()->hasEnded());
-    OrbitCamera camera = view().camera();
-    camera.distance_m *= 0.9;
-    view().setCamera(camera);
-    EXPECT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
-    EXPECT_EQ(haptics().replayedToItsEnd(), file);
-    haptics().replayAgain();
-    EXPECT_TRUE(isConnectedSoon());
-    EXPECT_TRUE(haptics().isReplaying());
-}
-
 TEST_F(HapticsControllerTest, SaysThatARecordingCannotBegin)
 {
     QSignalSpy failed(&haptics(), &HapticsController::recordingFailed);
     EXPECT_FALSE(haptics().startRecording(QStringLiteral("/nowhere/touch.csv")));
     ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
-    ASSERT_TRUE(waitFor([&] { return haptics().canRecord(); }));
+    ASSERT_TRUE(waitFor([&] { return device().isRunning(); }));
     EXPECT_FALSE(haptics().startRecording(QStringLiteral("/nowhere/touch.csv")));
     ASSERT_EQ(failed.count(), 2);
     EXPECT_TRUE(failed[1][0].toString().startsWith(QStringLiteral("/nowhere/touch.csv: ")));
@@ -530,17 +399,17 @@ TEST_F(HapticsControllerTest, ARecordingReplaysToTheSameProxies)
 
     // The program as well: the same goals without a device, and then the device again.
     ASSERT_TRUE(connectTo(QStringLiteral("replay:") + file));
-    EXPECT_TRUE(haptics().isReplaying());
+    EXPECT_TRUE(device().isReplaying());
     EXPECT_TRUE(
         waitFor([&] { return view().shownStylus() && view().shownStylus()->is_in_contact; }));
-    EXPECT_EQ(haptics().problem(), QString());
-    ASSERT_TRUE(waitFor([&] { return !haptics().isReplaying() && haptics().loop() != nullptr; }));
-    EXPECT_EQ(haptics().uri(), QStringLiteral("sim:speed=0.2,lift_s=1"));
+    EXPECT_EQ(device().problem(), QString());
+    ASSERT_TRUE(waitFor([&] { return !device().isReplaying() && device().loop() != nullptr; }));
+    EXPECT_EQ(device().uri(), QStringLiteral("sim:speed=0.2,lift_s=1"));
     EXPECT_EQ(haptics().settings().device, QStringLiteral("sim:speed=0.2,lift_s=1"));
     // Not if the replay is ended by the user; in that case the device is still remembered.
     ASSERT_TRUE(connectTo(QStringLiteral("replay:") + file));
-    haptics().disconnectDevice();
-    EXPECT_EQ(haptics().connection(), HapticsConnection::None);
+    device().disconnectDevice();
+    EXPECT_EQ(device().connection(), HapticsConnection::None);
     EXPECT_EQ(haptics().settings().device, QStringLiteral("sim:speed=0.2,lift_s=1"));
 }
 
@@ -549,39 +418,39 @@ TEST_F(HapticsControllerTest, SaysWhereARecordingIsOfAnotherMapOrTouch)
     const QString file = maps_.path(QStringLiteral("touch.csv"));
     const auto replay = [&](const QByteArray& goal, const QByteArray& columns = {}) {
         writeGoals(file, 3000, goal, columns);
-        haptics().connectTo(QStringLiteral("replay:") + file);
-        EXPECT_EQ(haptics().problem(), QString());
-        EXPECT_TRUE(waitFor([&] { return !haptics().problem().isEmpty(); }));
-        return haptics().problem();
+        device().connectTo(QStringLiteral("replay:") + file);
+        EXPECT_EQ(device().problem(), QString());
+        EXPECT_TRUE(waitFor([&] { return !device().problem().isEmpty(); }));
+        return device().problem();
     };
     const QByteArray parts = ",map,part,model,radius_m,exaggeration";
     const QString other = QStringLiteral(
         "touch.csv was recorded with God-Object at exaggeration 3; it is replayed with "
         "Continuous Walk (exact) at 1.");
     EXPECT_EQ(replay("500900,4000600,5000,1,1,god-object,1,3", parts), other);
-    EXPECT_TRUE(haptics().isReplaying());
-    EXPECT_EQ(haptics().notice(), other);
+    EXPECT_TRUE(device().isReplaying());
+    EXPECT_EQ(device().notice(), other);
     // The notice follows changes of the contact settings.
     haptics().setContactModel(ContactModelKind::GodObject);
-    EXPECT_TRUE(haptics().problem().contains(QStringLiteral("with God-Object at 1.")));
+    EXPECT_TRUE(device().problem().contains(QStringLiteral("with God-Object at 1.")));
     view().setExaggeration(3.0);
-    EXPECT_EQ(haptics().problem(), QString());
+    EXPECT_EQ(device().problem(), QString());
     view().setExaggeration(1.0);
     haptics().setContactModel(kContactModelDefault);
-    EXPECT_EQ(haptics().problem(), other);
+    EXPECT_EQ(device().problem(), other);
 
     EXPECT_TRUE(replay("0,0,0").contains(QStringLiteral("are outside the map")));
-    EXPECT_EQ(haptics().connection(), HapticsConnection::None);
+    EXPECT_EQ(device().connection(), HapticsConnection::None);
     // The device is connected again if the recording cannot replace it.
     for (const char* goal : {"0,0,0", "none"}) {
         ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
         const QString problem = replay(goal);
         EXPECT_TRUE(problem.contains(QStringLiteral("touch.csv"))) << problem.toStdString();
         EXPECT_TRUE(waitFor([&] {
-            return haptics().loop() != nullptr && haptics().uri() == QStringLiteral("hand:");
+            return device().loop() != nullptr && device().uri() == QStringLiteral("hand:");
         })) << goal;
-        EXPECT_EQ(haptics().problem(), problem) << "not yet read";
-        haptics().disconnectDevice();
+        EXPECT_EQ(device().problem(), problem) << "not yet read";
+        device().disconnectDevice();
     }
 }
 
@@ -597,7 +466,7 @@ TEST_F(HapticsControllerTest, KeepsTheHandOfARecordingInThePicture)
         return !view().isMoving() && view().shownStylus() &&
                view().isInPicture(view().shownStylus()->proxy);
     }));
-    EXPECT_TRUE(haptics().isReplaying());
+    EXPECT_TRUE(device().isReplaying());
     EXPECT_NEAR(view().camera().distance_m, 300.0, 50.0) << "only sideways";
 }
 
@@ -615,7 +484,7 @@ TEST_F(HapticsControllerTest, ASimulatedHandStrokesWithinThePictureOfAnyMap)
         maps_.placed("projected", "EPSG:32611", {500000.0, 30.0, 0.0, 4000000.0, 0.0, -30.0});
     for (const QString& map : {global, projected}) {
         SCOPED_TRACE(map.toStdString());
-        haptics().disconnectDevice();
+        device().disconnectDevice();
         ASSERT_TRUE(openAndWait(*window_, map));
         ASSERT_TRUE(connectTo(QStringLiteral("sim:"))); // with the path that it has by default
         expectStrokesInPicture(view(), haptics());
@@ -627,17 +496,17 @@ TEST_F(HapticsControllerTest, TheCameraReturnsWhenAReplayEndsOrIsStopped)
     const OrbitCamera before = lookAtACorner();
     const QString file = maps_.path(QStringLiteral("touch.csv"));
     ASSERT_TRUE(replayOutOfSight(file, before));
-    EXPECT_GT(haptics().replayedShare(), 0.0);
-    EXPECT_LT(haptics().replayedShare(), 1.0);
-    haptics().stopReplay();
-    EXPECT_EQ(haptics().connection(), HapticsConnection::None);
-    EXPECT_EQ(haptics().problem(), QString());
+    EXPECT_GT(device().replayedShare(), 0.0);
+    EXPECT_LT(device().replayedShare(), 1.0);
+    device().stopReplay();
+    EXPECT_EQ(device().connection(), HapticsConnection::None);
+    EXPECT_EQ(device().problem(), QString());
     EXPECT_TRUE(waitFor([&] { return view().camera() == before; }));
 
     writeGoals(file, 1500, "500900,4000600,0");
     ASSERT_TRUE(connectTo(QStringLiteral("replay:") + file));
     ASSERT_TRUE(waitFor([&] { return view().cameraGoal() != before; }));
-    ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
+    ASSERT_TRUE(waitFor([&] { return device().connection() == HapticsConnection::None; }));
     EXPECT_TRUE(waitFor([&] { return view().camera() == before; }));
 }
 
@@ -647,7 +516,7 @@ TEST_F(HapticsControllerTest, TheCameraStaysWhereTheUserMovesItDuringAReplay)
     view().step(NavigationStep::TurnLeft);
     ASSERT_TRUE(waitFor([&] { return !view().isMoving(); }));
     const OrbitCamera chosen = view().camera();
-    haptics().stopReplay();
+    device().stopReplay();
     EXPECT_FALSE(view().isMoving());
     EXPECT_EQ(view().camera(), chosen);
 }
@@ -660,17 +529,17 @@ TEST_F(HapticsControllerTest, SaysThatARecordingIsOfAMapThatIsNotOpen)
     ASSERT_TRUE(waitFor([&] { return state().contact.is_in_contact; }));
     const QString file = maps_.path(QStringLiteral("touch.csv"));
     ASSERT_TRUE(record(file));
-    haptics().disconnectDevice();
+    device().disconnectDevice();
     ASSERT_TRUE(connectTo(QStringLiteral("replay:") + file));
     ASSERT_TRUE(waitFor([&] { return view().shownStylus().has_value(); }));
-    EXPECT_EQ(haptics().problem(), QString());
-    haptics().disconnectDevice();
+    EXPECT_EQ(device().problem(), QString());
+    device().disconnectDevice();
 
     window_->controller().remove(activeLayer(window_->session())->id);
     ASSERT_TRUE(openAndWait(*window_, maps_.moon())); // of the same extent
-    haptics().connectTo(QStringLiteral("replay:") + file);
-    EXPECT_TRUE(waitFor([&] { return !haptics().problem().isEmpty(); }));
-    const std::string problem = haptics().problem().toStdString();
+    device().connectTo(QStringLiteral("replay:") + file);
+    EXPECT_TRUE(waitFor([&] { return !device().problem().isEmpty(); }));
+    const std::string problem = device().problem().toStdString();
     const std::string expected =
         "touch.csv was recorded on a map that is not open: 40 × 30 samples, Mars.";
     EXPECT_EQ(problem.substr(0, expected.size()), expected) << problem;
@@ -685,30 +554,8 @@ TEST_F(HapticsControllerTest, ARecordingOfALowerMapIsReplayed)
     const QString file = maps_.path(QStringLiteral("touch.csv"));
     writeGoals(file, 1000, "16,15,5000"); // outside the topmost map
     ASSERT_TRUE(connectTo(QStringLiteral("replay:") + file));
-    ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
-    EXPECT_EQ(haptics().replayedToItsEnd(), file);
-}
-
-// Also if it was unplugged in the meantime.
-TEST_F(HapticsControllerTest, ADeviceThatIsGoneAfterAReplayIsConnectedWhenItIsThere)
-{
-    const QString file = maps_.path(QStringLiteral("touch.csv"));
-    writeGoals(file, 1000, "500900,4000600,5000");
-    for (const bool is_lost_before : {true, false}) {
-        ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
-        hand_->is_there = false;
-        if (is_lost_before) {
-            hand_->is_lost = true;
-            ASSERT_TRUE(waitFor([&] { return haptics().isLost(); }));
-        }
-        ASSERT_TRUE(connectTo(QStringLiteral("replay:") + file));
-        ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
-        hand_->is_lost = false;
-        hand_->is_there = true;
-        EXPECT_TRUE(waitFor([&] { return haptics().loop() != nullptr; })) << is_lost_before;
-        EXPECT_EQ(haptics().uri(), QStringLiteral("hand:"));
-        haptics().disconnectDevice();
-    }
+    ASSERT_TRUE(waitFor([&] { return device().connection() == HapticsConnection::None; }));
+    EXPECT_EQ(device().replayedToItsEnd(), file);
 }
 
 TEST_F(HapticsControllerTest, ARecordingEndsWithItsMap)
@@ -732,18 +579,9 @@ TEST_F(HapticsControllerTest, ARecordingEndsWithItsMap)
     EXPECT_FALSE(haptics().startRecording(map)) << "onto the map itself";
     EXPECT_FALSE(haptics().startRecording(maps_.path(QStringLiteral("hill.asc"))))
         << "onto one below it, which is not visible";
-    haptics().saveTicks(haptics().lastTicks(), map);
+    haptics().saveTicks(device().lastTicks(), map);
     EXPECT_EQ(contentOf(map), before);
-    EXPECT_TRUE(haptics().loop()->isRunning()); // it is touched all the same
-}
-
-TEST_F(HapticsControllerTest, NothingRunsWhileNothingIsConnected)
-{
-    EXPECT_EQ(haptics().loop(), nullptr);
-    QSignalSpy polled(&haptics(), &HapticsController::polled);
-    QTest::qWait(200);
-    EXPECT_EQ(polled.count(), 0);
-    EXPECT_FALSE(haptics().isFinding());
+    EXPECT_TRUE(device().loop()->isRunning()); // it is touched all the same
 }
 
 TEST_F(HapticsControllerTest, SettingsAndDeviceAreRemembered)
@@ -761,35 +599,11 @@ TEST_F(HapticsControllerTest, SettingsAndDeviceAreRemembered)
     makeWindow(kSmall, WindowOptions::Geometry::Remembered);
     settings.device = QStringLiteral("hand:");
     EXPECT_EQ(haptics().settings(), settings);
-    EXPECT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::Connected; }));
-    haptics().disconnectDevice();
+    EXPECT_TRUE(waitFor([&] { return device().connection() == HapticsConnection::Connected; }));
+    device().disconnectDevice();
     makeWindow(kSmall, WindowOptions::Geometry::Remembered);
-    EXPECT_EQ(haptics().connection(), HapticsConnection::None);
+    EXPECT_EQ(device().connection(), HapticsConnection::None);
     EXPECT_EQ(haptics().settings().stiffness_n_per_m, 120.0);
-    QSettings().remove(QStringLiteral("haptics"));
-}
-
-TEST_F(HapticsControllerTest, ARememberedDeviceThatIsNotThereBothersNobody)
-{
-    QSettings().setValue(QStringLiteral("haptics/device"), QStringLiteral("gone:"));
-    makeWindow(kSmall, WindowOptions::Geometry::Remembered);
-    EXPECT_EQ(haptics().connection(), HapticsConnection::Opening);
-    ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
-    EXPECT_NE(haptics().problem(), QString()); // shown in the panel
-    EXPECT_EQ(haptics().notice(), QString());
-    EXPECT_EQ(haptics().settings().device, QStringLiteral("gone:"));
-    haptics().connectTo(QStringLiteral("gone:"));
-    ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
-    EXPECT_NE(haptics().notice(), QString());
-    QSettings().remove(QStringLiteral("haptics"));
-}
-
-TEST_F(HapticsControllerTest, ARememberedDeviceThatIsThereAndRefusesIsToldOf)
-{
-    QSettings().setValue(QStringLiteral("haptics/device"), QStringLiteral("gone:locked"));
-    makeWindow(kSmall, WindowOptions::Geometry::Remembered);
-    ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
-    EXPECT_TRUE(haptics().notice().contains(QStringLiteral("may not be opened")));
     QSettings().remove(QStringLiteral("haptics"));
 }
 
@@ -834,10 +648,10 @@ protected:
     // full resolution.
     bool touches(const WorkspacePoint& at, double tolerance_m)
     {
-        if (haptics_->loop() == nullptr) {
+        if (haptics_->device().loop() == nullptr) {
             return false;
         }
-        const LoopState now = haptics_->loop()->state();
+        const LoopState now = haptics_->device().loop()->state();
         const ScenePoint proxy = now.contact.proxy;
         return now.contact.is_in_contact && length(now.hand - at) < 1e-9 && hand_->force_n > 0.1 &&
                std::abs(proxy.z - whole_.height(proxy.x, proxy.y) * view_->exaggeration()) <
@@ -861,7 +675,7 @@ protected:
 
 TEST_F(HapticsControllerOfTiles, TouchesTheGroundAtFullResolution)
 {
-    haptics_->connectTo(QStringLiteral("hand:"));
+    haptics_->device().connectTo(QStringLiteral("hand:"));
     EXPECT_TRUE(comesToTouch({0.0, 0.0, -0.055}, kExactM));
     EXPECT_TRUE(comesToTouch({-0.04, 0.02, -0.055}, kExactM));
 }
@@ -869,8 +683,8 @@ TEST_F(HapticsControllerOfTiles, TouchesTheGroundAtFullResolution)
 TEST_F(HapticsControllerOfTiles, ASimulatedHandStrokesWithinThePicture)
 {
     ASSERT_TRUE(QTest::qWaitFor([&] { return view_->isPictureComplete(); }, kTimeout));
-    haptics_->connectTo(QStringLiteral("sim:"));
-    ASSERT_TRUE(QTest::qWaitFor([&] { return haptics_->loop() != nullptr; }, kTimeout));
+    haptics_->device().connectTo(QStringLiteral("sim:"));
+    ASSERT_TRUE(QTest::qWaitFor([&] { return haptics_->device().loop() != nullptr; }, kTimeout));
     expectStrokesInPicture(*view_, *haptics_);
 }
 
@@ -881,7 +695,7 @@ TEST_F(HapticsControllerOfTiles, TouchesCoarseGroundWithoutWaitingForATile)
     large_.holdAllTiles(true);
     large_.forgetTiles();
     const int reads = large_.guiReadCount();
-    haptics_->connectTo(QStringLiteral("hand:"));
+    haptics_->device().connectTo(QStringLiteral("hand:"));
     const WorkspacePoint below{0.01, 0.0, -0.055};
     EXPECT_TRUE(comesToTouch(below, HUGE_VAL));
     EXPECT_FALSE(touches(below, kExactM)) << "the tiles that are held back make a difference";

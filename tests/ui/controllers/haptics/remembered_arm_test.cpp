@@ -5,7 +5,7 @@
 #include "tests/support/temp_folder.h"
 #include "tests/ui/test_map.h"
 #include "tests/ui/timeout.h"
-#include "ui/controllers/haptics_controller.h"
+#include "ui/controllers/haptics/haptics_controller.h"
 #include "ui/panels/haptics_panel.h"
 #include "ui/window_actions.h"
 
@@ -64,13 +64,14 @@ protected:
         ASSERT_TRUE(openAndWait(*window_, maps_.hill()));
     }
     HapticsController& haptics() { return window_->haptics(); }
+    DeviceSession& device() { return haptics().device(); }
     bool comesTo(HapticsConnection connection)
     {
-        return QTest::qWaitFor([&] { return haptics().connection() == connection; }, kTimeout);
+        return QTest::qWaitFor([&] { return device().connection() == connection; }, kTimeout);
     }
     bool connectTo(const QString& uri)
     {
-        haptics().connectTo(uri);
+        device().connectTo(uri);
         return comesTo(HapticsConnection::Connected);
     }
     // Unplugs it and waits until the loss is detected.
@@ -78,7 +79,7 @@ protected:
     {
         hid_.unplug();
         return comesTo(HapticsConnection::None) &&
-               QTest::qWaitFor([&] { return !haptics().isFinding(); }, kTimeout);
+               QTest::qWaitFor([&] { return !device().isFinding(); }, kTimeout);
     }
 
     TestMaps maps_;
@@ -101,7 +102,7 @@ TEST_F(RememberedArmTest, IsConnectedAgainUnderAnotherPath)
     hid_.plugInAgain();
     ASSERT_TRUE(comesTo(HapticsConnection::Connected));
     EXPECT_EQ(hid_.openedPath(), "/dev/hidraw3");
-    EXPECT_EQ(haptics().uri(), QStringLiteral("polhem:serial=4711"));
+    EXPECT_EQ(device().uri(), QStringLiteral("polhem:serial=4711"));
     // And in the next window, at yet another path.
     window_->close();
     hid_.move("/dev/hidraw3", "/dev/hidraw11");
@@ -117,7 +118,7 @@ TEST_F(RememberedArmTest, IsConnectedWhenItComesAfterTheWindow)
     QSettings().setValue(QStringLiteral("haptics/device"), QStringLiteral("polhem:usb=1234:0006"));
     makeWindow();
     ASSERT_TRUE(comesTo(HapticsConnection::None));
-    EXPECT_EQ(haptics().notice(), QString());
+    EXPECT_EQ(device().notice(), QString());
     hid_.plugInAgain();
     ASSERT_TRUE(comesTo(HapticsConnection::Connected));
     EXPECT_EQ(hid_.openedPath(), "/dev/hidraw5");
@@ -136,7 +137,7 @@ TEST_F(RememberedArmTest, IsNotTakenToBeAtRestWhenItIsBack)
     ASSERT_TRUE(unplug());
     hid_.plugInAgain();
     ASSERT_TRUE(comesTo(HapticsConnection::Connected));
-    EXPECT_EQ(haptics().uri(), QStringLiteral("polhem:serial=4711") + options);
+    EXPECT_EQ(device().uri(), QStringLiteral("polhem:serial=4711") + options);
 }
 
 // The oldest boards have no home flag, and the option is the only way.
@@ -155,8 +156,8 @@ TEST_F(RememberedArmTest, AnArmThatDoesNotKnowWhereItIsIsToldByAButton)
     EXPECT_TRUE(QTest::qWaitFor([&] { return !button->isVisible(); }, kTimeout));
     EXPECT_TRUE(QTest::qWaitFor(
         [&] {
-            return haptics().loop() != nullptr && haptics().loop()->state().tick > 0 &&
-                   haptics().loop()->state().reason != ForceOffReason::DeviceUnready;
+            return device().loop() != nullptr && device().loop()->state().tick > 0 &&
+                   device().loop()->state().reason != ForceOffReason::DeviceUnready;
         },
         kTimeout));
     EXPECT_EQ(haptics().settings().device, QStringLiteral("polhem:usb=1234:0006"));

@@ -1,0 +1,148 @@
+// Haptic devices in the window: the only bridge between them, the servo loop, and the view.
+#pragma once
+
+#include "haptics/interaction/hand_view.h"
+#include "haptics/terrain/touch_map.h"
+#include "haptics/trace/replay_check.h"
+#include "haptics/trace/session_recorder.h"
+#include "ui/controllers/detached_jobs.h"
+#include "ui/controllers/haptics/device_session.h"
+#include "ui/controllers/haptics_settings.h"
+#include "ui/text/recording_report.h"
+
+#include <QObject>
+#include <QString>
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace marsview {
+
+class TerrainView;
+
+/// Lets a connected device touch the visible terrain: maps its workspace to it, and passes settings
+/// and ground to the loop. A device that pans, zooms or turns the map moves the view's camera. GUI
+/// thread; must not outlive the view.
+class HapticsController final : public QObject {
+    Q_OBJECT
+
+public:
+    HapticsController(TerrainView& view, DriverMaker make_drivers, QObject* parent = nullptr);
+    /// Emits no signals.
+    ~HapticsController() override;
+
+    DeviceSession& device() noexcept { return *device_; }
+    const DeviceSession& device() const noexcept { return *device_; }
+
+    /// `paths` returns the files of all open maps, shown or not; recordings never overwrite them.
+    void setMapsInUse(std::function<std::vector<std::string>()> paths)
+    {
+        maps_in_use_ = std::move(paths);
+    }
+
+    // Forces.
+
+    const HapticsSettings& settings() const noexcept { return settings_; }
+    /// Takes effect with the next tick. The device in it is only remembered, see
+    /// DeviceSession::connectTo().
+    void setSettings(const HapticsSettings& settings);
+    /// The largest stiffness that the connected device renders; kStiffnessMax without a device.
+    double stiffnessMax() const;
+    void setContactModel(ContactModelKind kind);
+
+    /// Disables the force from the next tick until called with false; also for devices connected
+    /// later.
+    void setStopped(bool is_stopped);
+    bool isStopped() const noexcept { return is_stopped_; }
+
+    // Recording.
+
+    /// Records from now on, also in the middle of a touch, until the map, its exaggeration or the
+    /// contact model changes, or the device is disconnected. Needs a running loop;
+    /// recordingFailed() follows if the recording cannot begin. The file begins with the first
+    /// update of a new contact model, so that `trace --goals` reproduces the proxies bit for bit;
+    /// the force is continuous.
+    Status startRecording(const QString& file);
+    void stopRecording(RecordingEnd end = RecordingEnd::AsWanted);
+    bool isRecording() const noexcept { return recorder_ != nullptr; }
+    const QString& recordingFile() const noexcept { return recording_file_; }
+    /// Saves a diagnostic log on another thread; ticksSaved() or savingFailed() follows.
+    void saveTicks(std::vector<TickRecord> ticks, const QString& file);
+
+Q_SIGNALS:
+    void settingsChanged();
+    void stoppedChanged(bool is_stopped);
+    /// isRecording(), DeviceSession::isRunning().
+    void recordingChanged();
+    /// "FILE: WHY" of what could not be written.
+    void recordingFailed(const QString& problem);
+    /// A recording of so many updates is complete.
+    void recorded(const QString& file, qulonglong updates, marsview::RecordingEnd end);
+    void ticksSaved(const SavedTicks& saved);
+    /// "FILE: WHY".
+    void savingFailed(const QString& problem);
+
+protected:
+    /// Hears the keys of the emergency stop wherever they are pressed.
+    bool eventFilter(QObject* watched, QEvent* event) override;
+
+private:
+    void begin();
+    void end();
+    void letGo();
+    void forget();
+    void follow(const LoopState& state);
+
+    Status checkWritable(const QString& file) const;
+
+    void takeGround();
+    void takeExaggeration();
+    void chooseMap(const LoopState& state);
+    void checkReplay();
+    void tellReplay();
+    void setMap(std::size_t index);
+    void makeMapAgain();
+    void takeSight();
+    void takeBounds();
+    void takeFit(const LoopState& state);
+    void takeStrokes();
+    void followHand(const LoopState& state);
+    void showHand(const LoopState& state);
+    void keepReplayInPicture(const LoopState& state);
+    void returnCamera();
+    void push();
+
+    TerrainView& view_;
+    DeviceSession* device_;
+    std::function<std::vector<std::string>()> maps_in_use_;
+    std::optional<ReplayFit> replay_fit_; // of the recording that is replayed, once it is known
+    int replay_check_ = 0;                // which of the checks counts
+
+    HapticsSettings settings_;
+    ContactModelKind model_ = kContactModelDefault;
+    bool is_stopped_ = false;
+    bool is_grabbing_ = false; // by a key
+
+    double exaggeration_ = 1.0;
+    std::unique_ptr<TouchMap> hand_map_; // null without a map in the picture
+    // Of a replay that has moved the camera: where the camera was, and where the replay sent it.
+    struct Excursion {
+        OrbitCamera before;
+        OrbitCamera sent_to;
+    };
+    std::optional<Excursion> excursion_;
+    HandView hand_view_;     // that the loop's frame_number is of
+    bool is_fitted_ = false; // the loop's fit is that of hand_view_
+    bool is_following_ = false;
+
+    std::unique_ptr<SessionRecorder> recorder_; // before the loop ends
+    QString recording_file_;
+    DetachedJobs jobs_;
+};
+
+} // namespace marsview
