@@ -23,6 +23,7 @@ namespace {
 
 // Of the shorter side of the picture, by a feature that was found.
 constexpr double kFilledShare = 0.8;
+constexpr double kPixelsLeast = 24.0; // of the map, across a view: fewer show nothing
 
 QString filesKey()
 {
@@ -141,9 +142,12 @@ void NameSearch::goTo(const PlaceName& place)
         return;
     }
     parts_.view.setFocus(Qt::OtherFocusReason);
+    // A feature smaller than the map's resolution is shown with its surroundings.
+    const double across_m =
+        std::max(extent->across_m, kPixelsLeast * parts_.view.ground().pixelMeters());
     parts_.view.flyTo(extent->center,
-                      distanceShowing(extent->across_m, kFilledShare,
-                                      parts_.view.camera().field_of_view, parts_.view.viewport()));
+                      distanceShowing(across_m, kFilledShare, parts_.view.camera().field_of_view,
+                                      parts_.view.viewport()));
     parts_.overlays.markPlace(extent->center);
 }
 

@@ -78,7 +78,7 @@ TEST_F(FirstMinuteTest, TheHintNamesTheGesturesUntilItIsClosed)
     open();
     ASSERT_TRUE(hint().isVisible());
     EXPECT_FALSE(hint().accessibleName().isEmpty());
-    for (const char* word : {"Drag", "Right-drag", "Wheel", "Double-click", "Press T"}) {
+    for (const char* word : {"Drag", "Right-drag", "Wheel", "Double-click", "Choose Touch (T)"}) {
         EXPECT_TRUE(hint().accessibleDescription().contains(QString::fromLatin1(word))) << word;
     }
     for (const QWidget* other : std::initializer_list<const QWidget*>{

@@ -72,6 +72,22 @@ TEST_F(NameSearchTest, TypingANameFliesThereSoThatTheFeatureFillsTheView)
     EXPECT_LT(610e3 / height_m, 1.0);
 }
 
+// Airy-0 is 500 m wide, a pixel of the map 15 km.
+TEST_F(NameSearchTest, AFeatureBelowTheMapsResolutionIsShownWithItsSurroundings)
+{
+    openMars();
+    field().setFocus();
+    QTest::keyClicks(&field(), QStringLiteral("airy-0"));
+    ASSERT_TRUE(waitFor([this] { return completer().popup()->isVisible(); }));
+    QTest::keyClick(&field(), Qt::Key_Return);
+    EXPECT_TRUE(waitFor([this] { return isThere(); }));
+    EXPECT_NEAR(target().latitude.degrees(), -5.07, 0.1);
+    const double height_m =
+        metersPerPixel(view().camera(), view().viewport()) * view().viewport().height;
+    EXPECT_GT(height_m, 20.0 * 14818.0);
+    EXPECT_LT(height_m, 60.0 * 14818.0);
+}
+
 TEST_F(NameSearchTest, TheListIsChosenWithKeysAndMouse)
 {
     openMars();

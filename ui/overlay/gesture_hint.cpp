@@ -84,7 +84,7 @@ GestureHint::GestureHint(QWidget* parent)
         //: A list for screen readers: %1 is the list so far, %2 a gesture, %3 its effect
         all = tr("%1. %2: %3").arg(all, texts[i].gesture, texts[i].effect);
     }
-    auto* touch = new QLabel(tr("Press T and drag to feel the terrain"), this);
+    auto* touch = new QLabel(tr("Choose Touch (T) and drag to feel the terrain"), this);
     touch->setFont(bold);
     grid->setRowMinimumHeight(row, 2);
     ++row;
