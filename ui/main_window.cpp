@@ -605,7 +605,7 @@ void MainWindow::markConnection()
 
 void MainWindow::connectHaptics()
 {
-    haptics_->setMapsInUse([this] {
+    haptics_->recorder().setMapsInUse([this] {
         std::vector<std::string> paths;
         for (const Layer& layer : session().layers) {
             paths.push_back(layer.map->spec().path);
@@ -618,7 +618,7 @@ void MainWindow::connectHaptics()
             markConnection();
         }
     });
-    connect(haptics_, &HapticsController::recordingChanged, this, &MainWindow::showHaptics);
+    connect(&haptics_->recorder(), &TouchRecorder::changed, this, &MainWindow::showHaptics);
     connect(haptics_, &HapticsController::settingsChanged, this, [this] {
         if (isRemembered()) {
             QSettings settings;
@@ -626,9 +626,9 @@ void MainWindow::connectHaptics()
         }
     });
     connect(haptics_, &HapticsController::stoppedChanged, this, &MainWindow::showHaptics);
-    connect(haptics_, &HapticsController::recordingFailed, this,
+    connect(&haptics_->recorder(), &TouchRecorder::failed, this,
             [this](const QString& problem) { reportFailure(tr("Cannot Record"), problem); });
-    connect(haptics_, &HapticsController::recorded, this,
+    connect(&haptics_->recorder(), &TouchRecorder::recorded, this,
             [this](const QString& file, qulonglong updates, RecordingEnd end) {
                 statusBar()->showMessage(recordedText(file, updates, end), kMessageDuration);
             });
@@ -637,18 +637,21 @@ void MainWindow::connectHaptics()
         haptics_panel_->list()->setFocus();
     });
     connect(actions_->record_touch, &QAction::triggered, this, [this] {
-        haptics_->isRecording() ? haptics_->stopRecording() : haptics_panel_->chooseRecording();
+        haptics_->recorder().isRecording() ? haptics_->recorder().stop()
+                                           : haptics_panel_->chooseRecording();
     });
     connect(actions_->replay_touch, &QAction::triggered, haptics_panel_,
             &HapticsPanel::chooseReplay);
     connect(actions_->save_flight, &QAction::triggered, haptics_panel_,
             &HapticsPanel::chooseFlightRecord);
-    connect(haptics_, &HapticsController::ticksSaved, this, [this](const SavedTicks& saved) {
-        statusBar()->showMessage(savedTicksText(saved), kMessageDuration);
-    });
-    connect(haptics_, &HapticsController::savingFailed, this, [this](const QString& problem) {
-        reportFailure(tr("Cannot Save Diagnostic Log"), problem);
-    });
+    connect(&haptics_->recorder(), &TouchRecorder::ticksSaved, this,
+            [this](const SavedTicks& saved) {
+                statusBar()->showMessage(savedTicksText(saved), kMessageDuration);
+            });
+    connect(&haptics_->recorder(), &TouchRecorder::savingFailed, this,
+            [this](const QString& problem) {
+                reportFailure(tr("Cannot Save Diagnostic Log"), problem);
+            });
     connect(actions_->emergency_stop, &QAction::triggered, this,
             [this] { haptics_->setStopped(true); });
 }
@@ -748,9 +751,10 @@ void MainWindow::connectSounds()
 void MainWindow::showHaptics()
 {
     actions_->emergency_stop->setEnabled(haptics_->device().canBeStopped());
-    actions_->record_touch->setEnabled(haptics_->isRecording() || haptics_->device().isRunning());
-    actions_->record_touch->setText(haptics_->isRecording() ? tr("Stop &Recording Touch")
-                                                            : tr("&Record Touch…"));
+    actions_->record_touch->setEnabled(haptics_->recorder().isRecording() ||
+                                       haptics_->device().isRunning());
+    actions_->record_touch->setText(haptics_->recorder().isRecording() ? tr("Stop &Recording Touch")
+                                                                       : tr("&Record Touch…"));
     actions_->save_flight->setEnabled(haptics_->device().hasTicks());
     showPreparation();
 }

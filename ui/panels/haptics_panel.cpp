@@ -89,15 +89,15 @@ HapticsPanel::HapticsPanel(HapticsController& controller,
     connect(&device_, &DeviceSession::connectionChanged, this, &HapticsPanel::showConnection);
     connect(&controller_, &HapticsController::settingsChanged, this, &HapticsPanel::showSettings);
     connect(&controller_, &HapticsController::stoppedChanged, this, &HapticsPanel::showStopped);
-    connect(&controller_, &HapticsController::recordingChanged, this, &HapticsPanel::showRecording);
+    connect(&controller_.recorder(), &TouchRecorder::changed, this, &HapticsPanel::showRecording);
     connect(&device_, &DeviceSession::polled, this, &HapticsPanel::showState);
     connect(&device_, &DeviceSession::replayEnded, recording_,
             [this](const QString& file) { recording_->setText(replayEndText(file)); });
-    connect(&controller_, &HapticsController::recordingFailed, recording_, &QLabel::setText);
-    connect(&controller_, &HapticsController::savingFailed, recording_, &QLabel::setText);
-    connect(&controller_, &HapticsController::ticksSaved, recording_,
+    connect(&controller_.recorder(), &TouchRecorder::failed, recording_, &QLabel::setText);
+    connect(&controller_.recorder(), &TouchRecorder::savingFailed, recording_, &QLabel::setText);
+    connect(&controller_.recorder(), &TouchRecorder::ticksSaved, recording_,
             [this](const SavedTicks& saved) { recording_->setText(savedTicksText(saved)); });
-    connect(&controller_, &HapticsController::recorded, this,
+    connect(&controller_.recorder(), &TouchRecorder::recorded, this,
             [this](const QString& file, qulonglong updates, RecordingEnd end) {
                 recording_->setText(recordedText(file, updates, end));
             });
@@ -252,7 +252,7 @@ void HapticsPanel::makeRecording(QBoxLayout& layout)
     record_->setObjectName(QStringLiteral("record"));
     record_->setToolTip(tr("Record the motion of the stylus on this map in a file"));
     connect(record_, &QPushButton::clicked, this, [this] {
-        controller_.isRecording() ? controller_.stopRecording() : chooseRecording();
+        controller_.recorder().isRecording() ? controller_.recorder().stop() : chooseRecording();
     });
     replay_ = new QPushButton(this);
     replay_->setObjectName(QStringLiteral("replay"));
@@ -558,18 +558,18 @@ void HapticsPanel::showState(const LoopState& state)
 
 void HapticsPanel::showRecording()
 {
-    record_->setText(controller_.isRecording() ? tr("S&top Recording") : tr("&Record…"));
-    record_->setEnabled(controller_.isRecording() || device_.isRunning());
+    record_->setText(controller_.recorder().isRecording() ? tr("S&top Recording") : tr("&Record…"));
+    record_->setEnabled(controller_.recorder().isRecording() || device_.isRunning());
     flight_->setEnabled(device_.hasTicks());
     const bool is_replay = device_.isReplaying();
     replay_->setText(is_replay ? tr("Stop Re&play") : tr("Re&play…"));
     replay_->setToolTip(is_replay ? tr("End the replay; the camera returns to where it was")
                                   : tr("Play back a recording on this map in place of a device"));
     replayed_->setVisible(is_replay);
-    if (controller_.isRecording()) {
+    if (controller_.recorder().isRecording()) {
         //: %1 is a file
         recording_->setText(
-            tr("Recording into %1").arg(QFileInfo(controller_.recordingFile()).fileName()));
+            tr("Recording into %1").arg(QFileInfo(controller_.recorder().file()).fileName()));
     }
     showNoState();
 }
@@ -584,7 +584,7 @@ void HapticsPanel::chooseRecording()
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     connect(dialog, &QFileDialog::fileSelected, this, [this](const QString& file) {
         folder_ = QFileInfo(file).absolutePath();
-        (void)controller_.startRecording(file); // recordingFailed() reports errors
+        (void)controller_.recorder().start(file); // failed() reports errors
     });
     dialog->open();
 }
@@ -607,7 +607,7 @@ void HapticsPanel::chooseFlightRecord()
     connect(dialog, &QFileDialog::fileSelected, this,
             [this, ticks = std::move(ticks)](const QString& file) {
                 folder_ = QFileInfo(file).absolutePath();
-                controller_.saveTicks(ticks, file);
+                controller_.recorder().saveTicks(ticks, file);
             });
     dialog->open();
 }

@@ -70,7 +70,7 @@ protected:
     QList<QList<QByteArray>> saved(const QString& name)
     {
         const QString file = maps_.path(name);
-        QSignalSpy spy(&haptics(), &HapticsController::ticksSaved);
+        QSignalSpy spy(&haptics().recorder(), &TouchRecorder::ticksSaved);
         Q_EMIT dialog()->fileSelected(file);
         delete dialog();
         EXPECT_TRUE(waitFor([&] { return spy.count() == 1; }));

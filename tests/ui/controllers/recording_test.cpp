@@ -96,9 +96,9 @@ TEST_F(RecordingTest, StartedWhileTouchingReplaysIdenticallyWithEveryModel)
         haptics().setContactModel(kind);
         ASSERT_TRUE(stroke());
         ASSERT_TRUE(state().contact.is_in_contact);
-        ASSERT_TRUE(haptics().startRecording(file));
+        ASSERT_TRUE(haptics().recorder().start(file));
         ASSERT_TRUE(stroke());
-        haptics().stopRecording();
+        haptics().recorder().stop();
         const Rows recorded = rowsOf(file);
         EXPECT_TRUE(std::all_of(recorded.begin(), recorded.end(), [](const auto& row) {
             return row[5] == "1";
@@ -130,9 +130,9 @@ TEST_F(RecordingTest, OfACoveredMapReplaysIdentically)
     ASSERT_NE(view().ground().maps()[1].frame,
               view().ground().maps()[1].map->georeference().sceneFrame());
     const QString file = maps_.path(QStringLiteral("touch.csv"));
-    ASSERT_TRUE(haptics().startRecording(file));
+    ASSERT_TRUE(haptics().recorder().start(file));
     ASSERT_TRUE(stroke());
-    haptics().stopRecording();
+    haptics().recorder().stop();
     expectSameAgain(lower, file);
 }
 
@@ -149,9 +149,9 @@ TEST_F(RecordingTest, StartsWithoutAnEffectOnTheForce)
         const LoopState before = state();
         const double force_n = hand_->force_n;
         hand_->force_n_min = HUGE_VAL;
-        ASSERT_TRUE(haptics().startRecording(file));
+        ASSERT_TRUE(haptics().recorder().start(file));
         ASSERT_TRUE(waitFor([&] { return state().tick > before.tick + 200; }));
-        haptics().stopRecording();
+        haptics().recorder().stop();
         is_disturbed = state().counts.let_go != before.counts.let_go;
         if (!is_disturbed && before.reason == ForceOffReason::None) {
             EXPECT_NEAR(hand_->force_n_min, force_n, 0.05 * force_n);

@@ -219,11 +219,11 @@ TEST_F(HapticsPanelTest, RecordsOnlyWhatIsTouched)
     EXPECT_FALSE(part<QPushButton>("record").isEnabled());
     ASSERT_TRUE(connectByKeys(0));
     EXPECT_TRUE(part<QPushButton>("record").isEnabled());
-    ASSERT_TRUE(haptics().startRecording(maps_.path(QStringLiteral("touch.csv"))));
+    ASSERT_TRUE(haptics().recorder().start(maps_.path(QStringLiteral("touch.csv"))));
     EXPECT_EQ(text("recording"), QStringLiteral("Recording into touch.csv"));
     ASSERT_TRUE(waitFor([&] { return device().loop()->state().tick > 100; }));
     part<QPushButton>("record").click();
-    EXPECT_FALSE(haptics().isRecording());
+    EXPECT_FALSE(haptics().recorder().isRecording());
     EXPECT_TRUE(text("recording").contains(QStringLiteral("updates recorded")));
 }
 

@@ -1,6 +1,5 @@
 #include "ui/controllers/haptics/haptics_controller.h"
 
-#include "core/raster/output_check.h"
 #include "haptics/interaction/workspace_walls.h"
 #include "ui/canvas/terrain_view.h"
 #include "ui/controllers/hand_sight.h"
@@ -30,6 +29,8 @@ HapticsController::HapticsController(TerrainView& view, DriverMaker make_drivers
     : QObject(parent)
     , view_(view)
     , device_(new DeviceSession(std::move(make_drivers), this))
+    , recorder_(new TouchRecorder(
+          *device_, [this] { return hand_map_->make(model_, exaggeration_); }, this))
     , exaggeration_(view.exaggeration())
     , jobs_(*this)
 {
@@ -37,7 +38,6 @@ HapticsController::HapticsController(TerrainView& view, DriverMaker make_drivers
     connect(device_, &DeviceSession::ending, this, &HapticsController::end);
     connect(device_, &DeviceSession::ended, this, &HapticsController::letGo);
     connect(device_, &DeviceSession::forgotten, this, &HapticsController::forget);
-    connect(device_, &DeviceSession::runningChanged, this, &HapticsController::recordingChanged);
     connect(device_, &DeviceSession::polled, this, &HapticsController::follow);
     connect(&view_, &TerrainView::layersChanged, this, &HapticsController::takeGround);
     connect(&view_, &TerrainView::exaggerationChanged, this, &HapticsController::takeExaggeration);
@@ -60,6 +60,7 @@ HapticsController::~HapticsController()
 {
     blockSignals(true);
     device_->blockSignals(true);
+    recorder_->blockSignals(true);
     excursion_.reset();
     end();
     device_->close();
@@ -91,7 +92,7 @@ void HapticsController::end()
 {
     replay_fit_.reset();
     returnCamera();
-    stopRecording();
+    recorder_->stop();
 }
 
 void HapticsController::letGo()
@@ -116,32 +117,6 @@ void HapticsController::follow(const LoopState& state)
         keepReplayInPicture(state);
         chooseMap(state);
     }
-}
-
-void HapticsController::saveTicks(std::vector<TickRecord> ticks, const QString& file)
-{
-    if (const Status writable = checkWritable(file); !writable) {
-        Q_EMIT savingFailed(QString::fromStdString(writable.error().message));
-        return;
-    }
-    SavedTicks saved{.file = file, .count = ticks.size()};
-    for (std::size_t i = 1; i < ticks.size(); ++i) {
-        const bool is_same_run = ticks[i].tick > ticks[i - 1].tick;
-        const std::int64_t ns = ticks[i].time_ns - ticks[i - 1].time_ns;
-        saved.seconds += is_same_run ? 1e-9 * static_cast<double>(ns) : 0.0;
-    }
-    jobs_.run([this, ticks = std::move(ticks), saved](const auto& outlet) {
-        const Status written = saveFlight(ticks, saved.file.toStdString());
-        const QString problem =
-            written ? QString() : QString::fromStdString(written.error().message);
-        outlet->post([this, saved, problem] {
-            if (problem.isEmpty()) {
-                Q_EMIT ticksSaved(saved);
-            } else {
-                Q_EMIT savingFailed(problem);
-            }
-        });
-    });
 }
 
 void HapticsController::setSettings(const HapticsSettings& settings)
@@ -179,66 +154,6 @@ void HapticsController::setStopped(bool is_stopped)
     }
 }
 
-Status HapticsController::startRecording(const QString& file)
-{
-    stopRecording();
-    const auto refused = [this](Error error) {
-        Q_EMIT recordingFailed(QString::fromStdString(error.message));
-        return error;
-    };
-    if (!device_->isRunning()) {
-        return refused(
-            {ErrorCode::Invalid,
-             tr("%1: nothing to record; connect a device and open a map").arg(file).toStdString()});
-    }
-    if (Status writable = checkWritable(file); !writable) {
-        return refused(std::move(writable).error());
-    }
-    // From a model that nothing has touched yet, so that a replay has all that it needs. It begins
-    // at the old one's proxy: the hand feels nothing of that.
-    const std::shared_ptr<ServoMap> fresh = hand_map_->make(model_, exaggeration_);
-    Result<std::unique_ptr<SessionRecorder>> recorder =
-        SessionRecorder::begin(*device_->loop(), file.toStdString(), fresh->serial);
-    if (!recorder) {
-        return refused(std::move(recorder).error());
-    }
-    device_->settings().map = fresh;
-    push();
-    recorder_ = std::move(recorder).value();
-    recording_file_ = file;
-    Q_EMIT recordingChanged();
-    return Done{};
-}
-
-// A recording must not overwrite the open maps or the recording that is replayed.
-Status HapticsController::checkWritable(const QString& file) const
-{
-    FilesInUse files{.maps = {}, .read = {}, .written = {file.toStdString()}};
-    if (maps_in_use_) {
-        files.maps = maps_in_use_();
-    }
-    if (device_->isReplaying()) {
-        files.read.push_back(device_->replayedFile().toStdString());
-    }
-    return checkOutputs(files);
-}
-
-void HapticsController::stopRecording(RecordingEnd end)
-{
-    if (!recorder_) {
-        return;
-    }
-    const Status written = recorder_->finish();
-    const qulonglong updates = recorder_->updates();
-    recorder_.reset();
-    Q_EMIT recordingChanged();
-    if (written) {
-        Q_EMIT recorded(recording_file_, updates, end);
-    } else {
-        Q_EMIT recordingFailed(QString::fromStdString(written.error().message));
-    }
-}
-
 // The hand stays on its map as long as that is shown, and begins on the uppermost.
 void HapticsController::takeGround()
 {
@@ -247,7 +162,7 @@ void HapticsController::takeGround()
     }
     const auto& maps = view_.ground().maps();
     if (maps.empty()) {
-        stopRecording(RecordingEnd::WithItsMap);
+        recorder_->stop(RecordingEnd::WithItsMap);
         hand_map_.reset();
         device_->settings().map = nullptr;
         push();
@@ -319,7 +234,7 @@ void HapticsController::tellReplay()
 
 void HapticsController::setMap(std::size_t index)
 {
-    stopRecording(RecordingEnd::WithItsMap);
+    recorder_->stop(RecordingEnd::WithItsMap);
     hand_map_ = std::make_unique<TouchMap>(view_.ground().maps()[index]);
     device_->settings().map = hand_map_->make(model_, exaggeration_);
     push();
@@ -348,7 +263,7 @@ void HapticsController::takeExaggeration()
 void HapticsController::chooseMap(const LoopState& state)
 {
     const SceneSurface& ground = view_.ground();
-    if (ground.maps().size() < 2 || !hand_map_ || recorder_) {
+    if (ground.maps().size() < 2 || !hand_map_ || recorder_->isRecording()) {
         return;
     }
     // Where the hand is: the goal never leaves the map that it touches.

@@ -4,20 +4,17 @@
 #include "haptics/interaction/hand_view.h"
 #include "haptics/terrain/touch_map.h"
 #include "haptics/trace/replay_check.h"
-#include "haptics/trace/session_recorder.h"
 #include "ui/controllers/detached_jobs.h"
 #include "ui/controllers/haptics/device_session.h"
+#include "ui/controllers/haptics/touch_recorder.h"
 #include "ui/controllers/haptics_settings.h"
-#include "ui/text/recording_report.h"
 
 #include <QObject>
 #include <QString>
 
 #include <cstddef>
-#include <functional>
 #include <memory>
 #include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -39,11 +36,8 @@ public:
     DeviceSession& device() noexcept { return *device_; }
     const DeviceSession& device() const noexcept { return *device_; }
 
-    /// `paths` returns the files of all open maps, shown or not; recordings never overwrite them.
-    void setMapsInUse(std::function<std::vector<std::string>()> paths)
-    {
-        maps_in_use_ = std::move(paths);
-    }
+    /// A recording ends with its map or with the connection.
+    TouchRecorder& recorder() noexcept { return *recorder_; }
 
     // Forces.
 
@@ -60,32 +54,9 @@ public:
     void setStopped(bool is_stopped);
     bool isStopped() const noexcept { return is_stopped_; }
 
-    // Recording.
-
-    /// Records from now on, also in the middle of a touch, until the map, its exaggeration or the
-    /// contact model changes, or the device is disconnected. Needs a running loop;
-    /// recordingFailed() follows if the recording cannot begin. The file begins with the first
-    /// update of a new contact model, so that `trace --goals` reproduces the proxies bit for bit;
-    /// the force is continuous.
-    Status startRecording(const QString& file);
-    void stopRecording(RecordingEnd end = RecordingEnd::AsWanted);
-    bool isRecording() const noexcept { return recorder_ != nullptr; }
-    const QString& recordingFile() const noexcept { return recording_file_; }
-    /// Saves a diagnostic log on another thread; ticksSaved() or savingFailed() follows.
-    void saveTicks(std::vector<TickRecord> ticks, const QString& file);
-
 Q_SIGNALS:
     void settingsChanged();
     void stoppedChanged(bool is_stopped);
-    /// isRecording(), DeviceSession::isRunning().
-    void recordingChanged();
-    /// "FILE: WHY" of what could not be written.
-    void recordingFailed(const QString& problem);
-    /// A recording of so many updates is complete.
-    void recorded(const QString& file, qulonglong updates, marsview::RecordingEnd end);
-    void ticksSaved(const SavedTicks& saved);
-    /// "FILE: WHY".
-    void savingFailed(const QString& problem);
 
 protected:
     /// Hears the keys of the emergency stop wherever they are pressed.
@@ -97,8 +68,6 @@ private:
     void letGo();
     void forget();
     void follow(const LoopState& state);
-
-    Status checkWritable(const QString& file) const;
 
     void takeGround();
     void takeExaggeration();
@@ -119,7 +88,7 @@ private:
 
     TerrainView& view_;
     DeviceSession* device_;
-    std::function<std::vector<std::string>()> maps_in_use_;
+    TouchRecorder* recorder_;
     std::optional<ReplayFit> replay_fit_; // of the recording that is replayed, once it is known
     int replay_check_ = 0;                // which of the checks counts
 
@@ -140,8 +109,6 @@ private:
     bool is_fitted_ = false; // the loop's fit is that of hand_view_
     bool is_following_ = false;
 
-    std::unique_ptr<SessionRecorder> recorder_; // before the loop ends
-    QString recording_file_;
     DetachedJobs jobs_;
 };
 

@@ -85,13 +85,13 @@ class HapticsControllerTest : public TouchedHillTest {
 protected:
     bool record(const QString& file)
     {
-        QSignalSpy recorded(&haptics(), &HapticsController::recorded);
-        if (!haptics().startRecording(file)) {
+        QSignalSpy recorded(&haptics().recorder(), &TouchRecorder::recorded);
+        if (!haptics().recorder().start(file)) {
             return false;
         }
         const std::uint64_t until = state().counts.in_contact + 600;
         const bool is_long_enough = waitFor([&] { return state().counts.in_contact > until; });
-        haptics().stopRecording();
+        haptics().recorder().stop();
         EXPECT_EQ(state().counts.not_recorded, 0U);
         return is_long_enough && recorded.count() == 1 && recorded[0][1].toULongLong() > 500;
     }
@@ -350,14 +350,14 @@ TEST_F(HapticsControllerTest, TheEmergencyStopHoldsForADeviceThatIsBeingOpened)
 
 TEST_F(HapticsControllerTest, SaysThatARecordingCannotBegin)
 {
-    QSignalSpy failed(&haptics(), &HapticsController::recordingFailed);
-    EXPECT_FALSE(haptics().startRecording(QStringLiteral("/nowhere/touch.csv")));
+    QSignalSpy failed(&haptics().recorder(), &TouchRecorder::failed);
+    EXPECT_FALSE(haptics().recorder().start(QStringLiteral("/nowhere/touch.csv")));
     ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
     ASSERT_TRUE(waitFor([&] { return device().isRunning(); }));
-    EXPECT_FALSE(haptics().startRecording(QStringLiteral("/nowhere/touch.csv")));
+    EXPECT_FALSE(haptics().recorder().start(QStringLiteral("/nowhere/touch.csv")));
     ASSERT_EQ(failed.count(), 2);
     EXPECT_TRUE(failed[1][0].toString().startsWith(QStringLiteral("/nowhere/touch.csv: ")));
-    EXPECT_FALSE(haptics().isRecording());
+    EXPECT_FALSE(haptics().recorder().isRecording());
 }
 
 TEST_F(HapticsControllerTest, StiffnessAndScaleAreFelt)
@@ -561,25 +561,25 @@ TEST_F(HapticsControllerTest, ARecordingOfALowerMapIsReplayed)
 TEST_F(HapticsControllerTest, ARecordingEndsWithItsMap)
 {
     ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
-    ASSERT_TRUE(haptics().startRecording(maps_.path(QStringLiteral("a.csv"))));
-    EXPECT_TRUE(haptics().isRecording());
+    ASSERT_TRUE(haptics().recorder().start(maps_.path(QStringLiteral("a.csv"))));
+    EXPECT_TRUE(haptics().recorder().isRecording());
     haptics().setContactModel(ContactModelKind::GodObject);
     view().setExaggeration(2.0 * view().exaggeration());
-    EXPECT_TRUE(haptics().isRecording()) << "it is the same map";
-    QSignalSpy recorded(&haptics(), &HapticsController::recorded);
+    EXPECT_TRUE(haptics().recorder().isRecording()) << "it is the same map";
+    QSignalSpy recorded(&haptics().recorder(), &TouchRecorder::recorded);
     ASSERT_TRUE(openAndWait(*window_, maps_.hill(QStringLiteral("other.asc"))));
-    EXPECT_FALSE(haptics().isRecording());
+    EXPECT_FALSE(haptics().recorder().isRecording());
     ASSERT_EQ(recorded.count(), 1);
     EXPECT_EQ(recorded[0][2].value<RecordingEnd>(), RecordingEnd::WithItsMap);
-    const Status refused = haptics().startRecording(QStringLiteral("/no/such/folder/a.csv"));
+    const Status refused = haptics().recorder().start(QStringLiteral("/no/such/folder/a.csv"));
     EXPECT_FALSE(refused);
-    EXPECT_FALSE(haptics().isRecording());
+    EXPECT_FALSE(haptics().recorder().isRecording());
     const QString map = maps_.path(QStringLiteral("other.asc"));
     const QByteArray before = contentOf(map);
-    EXPECT_FALSE(haptics().startRecording(map)) << "onto the map itself";
-    EXPECT_FALSE(haptics().startRecording(maps_.path(QStringLiteral("hill.asc"))))
+    EXPECT_FALSE(haptics().recorder().start(map)) << "onto the map itself";
+    EXPECT_FALSE(haptics().recorder().start(maps_.path(QStringLiteral("hill.asc"))))
         << "onto one below it, which is not visible";
-    haptics().saveTicks(device().lastTicks(), map);
+    haptics().recorder().saveTicks(device().lastTicks(), map);
     EXPECT_EQ(contentOf(map), before);
     EXPECT_TRUE(device().loop()->isRunning()); // it is touched all the same
 }
