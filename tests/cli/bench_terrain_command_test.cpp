@@ -155,6 +155,38 @@ TEST(BenchTerrainCommand, RunsEachMeasurementAlone)
     EXPECT_FALSE(bench.contains("frames"));
 }
 
+TEST(BenchTerrainCommand, FailsInOneSentenceIfTheMapCannotBeOpened)
+{
+    const TempFolder folder;
+    for (const std::string& map : {std::string("/dev/zero"), folder.file("missing.tif"),
+                                   folder.write("text.tif", "not a raster")}) {
+        const ProgramOutput output = runCli({"bench", "terrain", map});
+        EXPECT_EQ(output.exit_status, 1) << map;
+        EXPECT_EQ(output.out, "") << map;
+        EXPECT_EQ(output.err, runCli({"info", map}).err) << map;
+        EXPECT_EQ(std::count(output.err.begin(), output.err.end(), '\n'), 1) << output.err;
+        const ProgramOutput json = runCli({"bench", "terrain", map, "--json"});
+        EXPECT_EQ(json.exit_status, 1) << map;
+        EXPECT_EQ(json.out, "") << map;
+        EXPECT_EQ(nlohmann::json::parse(json.err)["error"]["what"], map);
+    }
+}
+
+TEST(BenchTerrainCommand, FailsIfNothingCouldBeMeasured)
+{
+    const TempFolder folder;
+    const std::string map = made(folder, "map.tif", {"--size", "300x200"});
+    const ProgramOutput json = runCli({"bench", "terrain", map, "--only", "remote", "--json"});
+    EXPECT_EQ(json.exit_status, 1);
+    EXPECT_EQ(json.out, "");
+    EXPECT_THAT(nlohmann::json::parse(json.err)["error"]["message"].get<std::string>(),
+                testing::StartsWith("not an address"));
+    const ProgramOutput text = runCli({"bench", "terrain", map, "--only", "remote"});
+    EXPECT_EQ(text.exit_status, 1);
+    EXPECT_EQ(text.err, "marsview-cli: " + map + ": not an address; name a map by its address\n");
+    EXPECT_THAT(text.out, testing::HasSubstr("skipped: " + map + ": not an address"));
+}
+
 TEST(BenchTerrainCommand, MeasuresTheSameSwipesEveryTime)
 {
     const TempFolder folder;

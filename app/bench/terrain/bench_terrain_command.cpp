@@ -289,6 +289,8 @@ Status runMeasurements(const BenchTerrainOptions& options, const std::filesystem
         printLine(fmt::format("{}\n{}, {} cores", options.bench.map.path, processorName(),
                               std::thread::hardware_concurrency()));
     }
+    bool has_result = false;
+    std::optional<Error> failure;
     for (const Measurement& measurement : kMeasurements) {
         if (!isWanted(options, measurement.name)) {
             continue;
@@ -299,6 +301,10 @@ Status runMeasurements(const BenchTerrainOptions& options, const std::filesystem
         if (!found && found.error().code == ErrorCode::Canceled) {
             return Error{ErrorCode::Canceled,
                          fmt::format("{}: measuring was canceled", options.bench.map.path)};
+        }
+        has_result = has_result || found;
+        if (!found && !failure) {
+            failure = found.error();
         }
         json[measurement.name] = found ? *found : BenchJson{{"left_out", found.error().message}};
         if (!options.is_json) {
@@ -314,10 +320,20 @@ Status runMeasurements(const BenchTerrainOptions& options, const std::filesystem
             }
         }
     }
+    if (!has_result && failure) {
+        return *failure;
+    }
     if (options.is_json) {
         printJson(withSchema(json));
     }
     return Done{};
+}
+
+// So that a map that cannot be measured at all fails once, not once per measurement.
+Status checkCanBeOpened(const MapOptions& map)
+{
+    const Result<OpenRaster> raster = openRaster(map);
+    return raster ? checkIsSurface(map.path, raster->info) : Status(raster.error());
 }
 
 Status runTerrain(const BenchTerrainOptions& given)
@@ -342,6 +358,9 @@ Status runTerrain(const BenchTerrainOptions& given)
         if (options.only.front() == kPicture.name) {
             return printOne(options, kPicture);
         }
+    }
+    if (Status opened = checkCanBeOpened(options.bench.map); !opened) {
+        return opened;
     }
     // Prepared maps are in a temporary folder, unless one was specified.
     const ScratchFolder scratch;

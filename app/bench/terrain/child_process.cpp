@@ -6,6 +6,7 @@
 #include <csignal>
 #include <cstring>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <poll.h>
 #include <spawn.h>
 #include <sys/resource.h>
@@ -72,13 +73,20 @@ void readBoth(int out, int err, std::string& out_text, std::string& err_text)
     }
 }
 
-// The last line, without the program's name.
+// The last line, without the program's name, or the error that it describes in JSON.
 std::string reasonIn(std::string text)
 {
     while (!text.empty() && text.back() == '\n') {
         text.pop_back();
     }
     text = text.substr(text.rfind('\n') + 1); // npos + 1 is 0
+    const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
+    if (json.is_object() && json.contains("error")) {
+        const nlohmann::json& error = json["error"];
+        const std::string message = error.value("message", std::string());
+        return error["what"].is_string() ? error["what"].get<std::string>() + ": " + message
+                                         : message;
+    }
     constexpr std::string_view kName = "marsview-cli: ";
     return text.starts_with(kName) ? text.substr(kName.size()) : text;
 }
