@@ -49,6 +49,11 @@ VectorTools::VectorTools(const Parts& parts, QObject* parent)
     connect(overlays_, &VectorOverlays::failed, this, &VectorTools::failed);
     connect(overlays_, &VectorOverlays::isOnOtherBody, this, &VectorTools::offerBody);
     connect(&parts_.session, &SessionController::loadingEnded, this, &VectorTools::openWaiting);
+    // An offer is for the map on which its file was to be drawn.
+    connect(&parts_.view, &TerrainView::mapShown, this, [this] {
+        offers_.clear();
+        parts_.notices.setNotices(NoticeSource::VectorFile, offers_);
+    });
     setSession(parts_.session.session());
 }
 

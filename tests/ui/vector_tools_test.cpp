@@ -194,6 +194,13 @@ TEST_F(VectorToolsTest, AFileOfPlainLongitudesAndLatitudesCanBeReadOnTheMapsBody
                                           "on Earth, but the map is on Mars"));
     EXPECT_EQ(button.text(), QStringLiteral("Use Mars"));
     EXPECT_TRUE(window_->session().overlays.empty());
+    // Another map, on which it would be another question.
+    ASSERT_TRUE(openAndWait(*window_, maps_.moon()));
+    EXPECT_FALSE(bar.isVisible() && text.text().contains(QStringLiteral("plain.geojson")));
+    window_->undoStack().undo();
+    ASSERT_TRUE(rest());
+    ASSERT_TRUE(openVector(path));
+    EXPECT_TRUE(bar.isVisible());
     // Closed, and asked for again.
     bar.findChild<QToolButton*>(QStringLiteral("noticeClose"))->click();
     EXPECT_FALSE(bar.isVisible() && text.text().contains(QStringLiteral("plain.geojson")));
