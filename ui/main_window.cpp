@@ -682,6 +682,7 @@ void MainWindow::connectMeasuring()
     });
     connect(measure_, &MeasureController::kindChanged, this,
             [this](MeasurementKind kind) { actions_->showTool(view_->tool(), kind); });
+    connect(actions_->add_point, &QAction::triggered, this, &MainWindow::addMeasuredPoint);
     connect(actions_->finish_measurement, &QAction::triggered, measure_,
             &MeasureController::finish);
     connect(actions_->remove_measurement, &QAction::triggered, measure_,
@@ -975,6 +976,28 @@ void MainWindow::goToPlace()
         last_place_ = dialog->entry();
         view_->goTo(grid);
         overlays_->markPlace(grid);
+    });
+    dialog->open();
+}
+
+void MainWindow::addMeasuredPoint()
+{
+    if (!view_->map()) {
+        return;
+    }
+    auto* dialog =
+        new GoToDialog(view_->map(), preferences_, last_place_, name_search_->namesOnMap(), this);
+    dialog->setTexts(tr("Add Point"), tr("&Add"));
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    connect(dialog, &GoToDialog::nameChosen, this, [this, dialog](const PlaceName& place) {
+        last_place_ = dialog->entry();
+        if (const auto grid = view_->map()->georeference().toGrid(place.position)) {
+            measure_->addPointAt(*grid);
+        }
+    });
+    connect(dialog, &GoToDialog::placeChosen, this, [this, dialog](GridPoint grid) {
+        last_place_ = dialog->entry();
+        measure_->addPointAt(grid);
     });
     dialog->open();
 }

@@ -128,6 +128,7 @@ public:
     void setPreferences(const Preferences& preferences);
     /// Asks for a name or a coordinate.
     void goToPlace();
+    void addMeasuredPoint();
     /// Focuses the search field, or asks for a name where the toolbar has no room for it.
     void findName();
     /// Puts the position that the status bar shows on the clipboard.

@@ -478,6 +478,9 @@ void WindowActions::makeMeasureMenu(QMainWindow& window)
         for_shown_.append(action);
     }
     measure->addSeparator();
+    add_point = measure->addAction(tr("Add Point &by Coordinates…"));
+    add_point->setStatusTip(tr("Type the coordinates of the next point, or a name"));
+    for_shown_.append(add_point);
     finish_measurement = measure->addAction(tr("&Finish Measurement"));
     finish_measurement->setStatusTip(tr("The next click begins another measurement"));
     remove_measurement = measure->addAction(tr("&Remove Measurement"));

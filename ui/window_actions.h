@@ -73,6 +73,7 @@ struct WindowActions {
     QAction* override_georeferencing = nullptr;
 
     QActionGroup* measure_kinds = nullptr; // data(): the MeasurementKind
+    QAction* add_point = nullptr;
     QAction* finish_measurement = nullptr;
     QAction* remove_measurement = nullptr;
     QAction* remove_measurements = nullptr; // all

@@ -6,6 +6,7 @@
 #include "tests/ui/test_map.h"
 #include "ui/canvas/terrain_view.h"
 #include "ui/controllers/measure_controller.h"
+#include "ui/dialogs/go_to_dialog.h"
 #include "ui/overlay/measure_marks.h"
 #include "ui/panels/attitudes_view.h"
 #include "ui/panels/measure_list.h"
@@ -21,6 +22,7 @@
 #include <QClipboard>
 #include <QFile>
 #include <QLabel>
+#include <QLineEdit>
 #include <QTableWidget>
 #include <QTest>
 #include <QTreeWidget>
@@ -322,6 +324,32 @@ TEST_F(MeasureTest, AttitudesAreShownTogetherAndSaved)
     click(at(-0.1, 0.0));
     click(at(0.1, 0.0));
     EXPECT_FALSE(view.isVisible());
+}
+
+TEST_F(MeasureTest, PointsCanBeTypedAsCoordinates)
+{
+    for (const char* typed : {"18.5 N 12 E", "14.25 N 17.5 E"}) {
+        window_->actionSet().add_point->trigger();
+        auto* dialog = window_->findChild<GoToDialog*>();
+        ASSERT_NE(dialog, nullptr);
+        EXPECT_EQ(dialog->windowTitle(), QStringLiteral("Add Point"));
+        auto* field = dialog->findChild<QLineEdit*>(QStringLiteral("coordinate"));
+        field->setText(QString::fromLatin1(typed));
+        QTest::keyClick(field, Qt::Key_Return);
+        ASSERT_TRUE(QTest::qWaitFor([this] { return window_->findChild<GoToDialog*>() == nullptr; },
+                                    kTimeout));
+    }
+    EXPECT_EQ(view().tool(), Tool::Measure);
+    const MeasureItem* item = measuring().current();
+    ASSERT_NE(item, nullptr);
+    ASSERT_EQ(item->vertices.size(), 2U);
+    const auto& last = std::get<GeographicPoint>(item->vertices.back());
+    EXPECT_NEAR(last.latitude.degrees(), 14.25, 1e-9);
+    EXPECT_NEAR(last.longitude.degrees(), 17.5, 1e-9);
+    EXPECT_EQ(item->layer, window_->session().active);
+    ASSERT_TRUE(isMeasured());
+    window_->undoStack().undo();
+    EXPECT_EQ(measuring().current()->vertices.size(), 1U);
 }
 
 TEST_F(MeasureTest, CratersInAnAreaAreSavedAsACount)

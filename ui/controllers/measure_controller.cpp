@@ -256,6 +256,16 @@ void MeasureController::removeAll()
     push(std::move(state), tr("Remove All Measurements"));
 }
 
+void MeasureController::addPointAt(GridPoint grid)
+{
+    view_.setTool(Tool::Measure);
+    RayHit hit;
+    hit.grid = grid;
+    if (const auto place = placeOf(hit)) {
+        addPoint(*place);
+    }
+}
+
 void MeasureController::removeLastPoint()
 {
     MeasureState state = state_;

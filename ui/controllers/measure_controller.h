@@ -102,6 +102,8 @@ public:
     /// Empty for the usual color.
     void setColor(std::uint32_t id, const std::optional<Rgb8>& color);
     void removeAll();
+    /// Adds a point of the topmost map, as a click there does. Nothing beyond its projection.
+    void addPointAt(GridPoint grid);
     void removeLastPoint();
     void finish();
     /// Flies to where the whole item can be seen.

@@ -252,6 +252,12 @@ GoToDialog::GoToDialog(std::shared_ptr<const Map> map,
     check();
 }
 
+void GoToDialog::setTexts(const QString& title, const QString& button)
+{
+    setWindowTitle(title);
+    go_button_->setText(button);
+}
+
 GoToEntry GoToDialog::entry() const
 {
     return {.read_as = kind_->currentIndex() > 0 ? std::optional(readAs()) : std::nullopt,

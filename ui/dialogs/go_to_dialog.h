@@ -59,6 +59,8 @@ public:
                NamesOnMap names,
                QWidget* parent = nullptr);
 
+    /// For another use than going there.
+    void setTexts(const QString& title, const QString& button);
     GoToEntry entry() const;
 
 Q_SIGNALS:
