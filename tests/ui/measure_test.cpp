@@ -342,7 +342,7 @@ TEST_F(MeasureTest, PointsCanBeTypedAsCoordinates)
     EXPECT_EQ(view().tool(), Tool::Measure);
     const MeasureItem* item = measuring().current();
     ASSERT_NE(item, nullptr);
-    ASSERT_EQ(item->vertices.size(), 2U);
+    ASSERT_EQ(item->vertices.size(), 2U) << "once for each time";
     const auto& last = std::get<GeographicPoint>(item->vertices.back());
     EXPECT_NEAR(last.latitude.degrees(), 14.25, 1e-9);
     EXPECT_NEAR(last.longitude.degrees(), 17.5, 1e-9);

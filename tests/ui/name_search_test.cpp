@@ -17,6 +17,9 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
 namespace marsview {
 namespace {
 
@@ -86,6 +89,26 @@ TEST_F(NameSearchTest, AFeatureBelowTheMapsResolutionIsShownWithItsSurroundings)
         metersPerPixel(view().camera(), view().viewport()) * view().viewport().height;
     EXPECT_GT(height_m, 20.0 * 14818.0);
     EXPECT_LT(height_m, 60.0 * 14818.0);
+}
+
+// Return goes to the first name although the list is open, and only once.
+TEST_F(NameSearchTest, ReturnInTheDialogTakesTheFirstName)
+{
+    openMars();
+    GoToDialog dialog(view().map(), window_->preferences(), {}, window_->nameSearch().namesOnMap());
+    std::vector<std::string> chosen;
+    QObject::connect(&dialog, &GoToDialog::nameChosen, &dialog,
+                     [&chosen](const PlaceName& place) { chosen.push_back(place.name); });
+    dialog.show();
+    QApplication::setActiveWindow(&dialog);
+    auto* typed = dialog.findChild<QLineEdit*>(QStringLiteral("coordinate"));
+    typed->setFocus();
+    QTest::keyClicks(typed, QStringLiteral("olympus mo"));
+    QWidget* list = typed->findChild<NameCompleter*>()->popup();
+    ASSERT_TRUE(waitFor([&] { return list->isVisible(); }));
+    QTest::keyClick(list, Qt::Key_Return);
+    ASSERT_TRUE(waitFor([&] { return !dialog.isVisible(); }));
+    EXPECT_EQ(chosen, std::vector<std::string>{"Olympus Mons"});
 }
 
 TEST_F(NameSearchTest, TheListIsChosenWithKeysAndMouse)

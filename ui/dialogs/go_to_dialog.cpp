@@ -242,12 +242,16 @@ GoToDialog::GoToDialog(std::shared_ptr<const Map> map,
     connect(field_, &QLineEdit::textChanged, this, &GoToDialog::check);
     connect(kind_, &QComboBox::currentIndexChanged, this, &GoToDialog::check);
     connect(buttons, &QDialogButtonBox::accepted, this, &GoToDialog::go);
+    // Over the list of names Return would otherwise only close the list.
+    connect(field_, &QLineEdit::returnPressed, this, &GoToDialog::go);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
     auto* completer = new NameCompleter(*field_);
     completer->setNames(names_);
     connect(completer, &NameCompleter::chosen, this, [this](const PlaceName& place) {
-        Q_EMIT nameChosen(place);
-        accept();
+        if (isVisible()) {
+            Q_EMIT nameChosen(place);
+            accept();
+        }
     });
     check();
 }
@@ -354,8 +358,12 @@ QString GoToDialog::answerFor(const FoundPlace& place)
     return lines.join(QLatin1Char('\n'));
 }
 
+// Once: a key may press the button after it has already been taken by the field.
 void GoToDialog::go()
 {
+    if (!isVisible()) {
+        return;
+    }
     if (const auto place = placeOnMap(*map_, preferences_.coordinates, readAs(), entry().text)) {
         Q_EMIT placeChosen(place->grid);
         accept();
