@@ -8,6 +8,7 @@
 #include "ui/main_window.h"
 #include "ui/picture_taker.h"
 #include "ui/project/project_menu.h"
+#include "ui/commands/window_commands.h"
 
 #include <QApplication>
 #include <QFileInfo>
@@ -123,7 +124,7 @@ int runWindow(QApplication& application, const marsview::WindowArguments& option
     }
     window.show();
     if (!is_screenshot) {
-        window.projectMenu().offerRecovery();
+        window.commands().project_menu.offerRecovery();
     }
     return QApplication::exec();
 }

@@ -9,8 +9,8 @@
 #include "ui/panels/georeferencing_panel.h"
 #include "ui/panels/haptics_panel.h"
 #include "ui/widgets/light_popup.h"
-#include "ui/window_actions.h"
-#include "ui/window_docks.h"
+#include "ui/window/window_actions.h"
+#include "ui/window/window_docks.h"
 
 #include <QAccessible>
 #include <QActionGroup>

@@ -1,8 +1,9 @@
 // The contour interval and the export of contours, in the window.
 #include "tests/support/shared_data.h"
 #include "tests/ui/map_window.h"
-#include "ui/contour_tools.h"
-#include "ui/window_actions.h"
+#include "ui/commands/contour_tools.h"
+#include "ui/commands/window_commands.h"
+#include "ui/window/window_actions.h"
 
 #include <QAction>
 #include <QFileInfo>
@@ -39,7 +40,7 @@ TEST_F(ContourToolsTest, ATypedIntervalShowsContoursAndCanBeUndone)
 TEST_F(ContourToolsTest, ContoursOfTheActiveLayerAreExported)
 {
     openMountain();
-    ContourTools& tools = window_->contourTools();
+    ContourTools& tools = window_->commands().contours;
     const QString file = maps_.path(QStringLiteral("contours.gpkg"));
     QString exported;
     QObject::connect(&tools, &ContourTools::exported, window_.get(),

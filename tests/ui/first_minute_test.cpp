@@ -3,12 +3,12 @@
 #include "tests/ui/test_map.h"
 #include "tests/ui/timeout.h"
 #include "ui/canvas/terrain_view.h"
-#include "ui/keys_dialog.h"
 #include "ui/overlay/gesture_hint.h"
 #include "ui/overlay/legend.h"
 #include "ui/overlay/map_overlays.h"
 #include "ui/overlay/minimap.h"
-#include "ui/window_actions.h"
+#include "ui/window/keys_dialog.h"
+#include "ui/window/window_actions.h"
 
 #include <QAction>
 #include <QActionGroup>

@@ -5,8 +5,8 @@
 #include "ui/panels/georeferencing_panel.h"
 #include "ui/panels/layer_model.h"
 #include "ui/panels/layers_panel.h"
-#include "ui/status_readout.h"
-#include "ui/window_actions.h"
+#include "ui/window/status_readout.h"
+#include "ui/window/window_actions.h"
 
 #include <QActionGroup>
 #include <QDropEvent>

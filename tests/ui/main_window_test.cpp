@@ -2,11 +2,12 @@
 #include "tests/ui/test_map.h"
 #include "tests/ui/timeout.h"
 #include "ui/canvas/terrain_view.h"
+#include "ui/commands/window_commands.h"
 #include "ui/controllers/recent_files.h"
 #include "ui/main_window.h"
 #include "ui/panels/georeferencing_panel.h"
-#include "ui/status_readout.h"
-#include "ui/window_actions.h"
+#include "ui/window/status_readout.h"
+#include "ui/window/window_actions.h"
 
 #include <QAbstractItemModel>
 #include <QAbstractItemView>
@@ -88,7 +89,7 @@ TEST_F(MainWindowTest, OpensAFolderOfAdjoiningRastersAsOneMap)
     EXPECT_EQ(view().map()->info().columns, 120U);
     EXPECT_EQ(view().map()->heightfield().height({90.0, 10.0}), 30.0 + 20.0);
     EXPECT_TRUE(window_->windowTitle().contains(QStringLiteral("tiles")));
-    EXPECT_TRUE(window_->recentFiles()->files().contains(folder));
+    EXPECT_TRUE(window_->commands().files.recentFiles()->files().contains(folder));
 }
 
 TEST_F(MainWindowTest, ShowsTheRastersOfAFolderThatIsChosen)
@@ -130,7 +131,7 @@ TEST_F(MainWindowTest, OpensTheFileChosenInTheDialog)
 {
     const QString file = maps_.hill();
     ASSERT_TRUE(waitUntilSettled(*window_));
-    window_->chooseFile();
+    window_->actionSet().open->trigger();
     auto* dialog = window_->findChild<QFileDialog*>();
     ASSERT_NE(dialog, nullptr);
     Q_EMIT dialog->filesSelected({file});
@@ -168,7 +169,7 @@ TEST_F(MainWindowTest, KeepsTheMapWhenLoadingIsCanceled)
     ASSERT_TRUE(openAndWait(*window_, file));
     window_->open(maps_.ring());
     EXPECT_TRUE(window_->loader().isLoading());
-    window_->cancelLoading();
+    window_->controller().cancel();
     EXPECT_FALSE(window_->loader().isLoading());
     QTest::qWait(100);
     EXPECT_EQ(shownFile(), file.toStdString());

@@ -2,8 +2,9 @@
 
 #include "core/terrain/surface_slope.h"
 #include "tests/ui/map_window.h"
+#include "ui/commands/map_menu.h"
+#include "ui/commands/window_commands.h"
 #include "ui/dialogs/place_dialog.h"
-#include "ui/map_menu.h"
 
 #include <QApplication>
 #include <QClipboard>
@@ -41,8 +42,8 @@ protected:
         window_.reset();
     }
 
-    QMenu* menu() { return window_->mapMenu()->menu(); }
-    PlaceDialog* card() { return window_->mapMenu()->card(); }
+    QMenu* menu() { return window_->commands().places.mapMenu()->menu(); }
+    PlaceDialog* card() { return window_->commands().places.mapMenu()->card(); }
     QPointF placeOf(GridPoint grid) { return view().positionOf(grid).value(); }
     void rightClick(QPointF at)
     {

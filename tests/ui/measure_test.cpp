@@ -5,17 +5,18 @@
 #include "tests/ui/map_window.h"
 #include "tests/ui/test_map.h"
 #include "ui/canvas/terrain_view.h"
+#include "ui/commands/picture_saver.h"
+#include "ui/commands/window_commands.h"
 #include "ui/controllers/measure_controller.h"
 #include "ui/dialogs/go_to_dialog.h"
 #include "ui/overlay/measure_marks.h"
 #include "ui/panels/attitudes_view.h"
 #include "ui/panels/measure_list.h"
 #include "ui/panels/measure_panel.h"
-#include "ui/picture_saver.h"
 #include "ui/plots/profile_plot.h"
 #include "ui/plots/stereonet_plot.h"
 #include "ui/project/project_controller.h"
-#include "ui/window_actions.h"
+#include "ui/window/window_actions.h"
 
 #include <QActionGroup>
 #include <QApplication>
@@ -514,7 +515,7 @@ TEST_F(MeasureTest, AProjectKeepsTheMeasurements)
     const double dip_deg = measuring().outcome(measuring().current()->id).as<Attitude>()->dip_deg;
     ASSERT_TRUE(window_->isWindowModified());
     const QString file = maps_.path(QStringLiteral("measured.mvproj"));
-    ASSERT_TRUE(window_->project().saveAs(file));
+    ASSERT_TRUE(window_->commands().project.saveAs(file));
     EXPECT_FALSE(window_->isWindowModified());
     // For other programs, beside it.
     const std::string beside =
@@ -552,7 +553,7 @@ TEST_F(MeasureTest, AProjectKeepsTheMeasurements)
     EXPECT_TRUE(window_->isWindowModified());
     window_->undoStack().undo();
     EXPECT_FALSE(window_->isWindowModified());
-    window_->project().startNew();
+    window_->commands().project.startNew();
     EXPECT_TRUE(measuring().state().items.empty());
 }
 

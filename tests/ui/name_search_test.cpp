@@ -1,12 +1,13 @@
 // Finding places by name: the search field, Go to Place, files of names.
 #include "tests/support/shared_data.h"
 #include "tests/ui/map_window.h"
+#include "ui/commands/name_search.h"
+#include "ui/commands/window_commands.h"
 #include "ui/dialogs/go_to_dialog.h"
-#include "ui/main_tool_bar.h"
-#include "ui/name_search.h"
 #include "ui/overlay/map_overlays.h"
 #include "ui/overlay/place_mark.h"
-#include "ui/window_actions.h"
+#include "ui/window/main_tool_bar.h"
+#include "ui/window/window_actions.h"
 
 #include <QAbstractItemView>
 #include <QFile>
@@ -95,7 +96,8 @@ TEST_F(NameSearchTest, AFeatureBelowTheMapsResolutionIsShownWithItsSurroundings)
 TEST_F(NameSearchTest, ReturnInTheDialogTakesTheFirstName)
 {
     openMars();
-    GoToDialog dialog(view().map(), window_->preferences(), {}, window_->nameSearch().namesOnMap());
+    GoToDialog dialog(view().map(), window_->preferences(), {},
+                      window_->commands().names.namesOnMap());
     std::vector<std::string> chosen;
     QObject::connect(&dialog, &GoToDialog::nameChosen, &dialog,
                      [&chosen](const PlaceName& place) { chosen.push_back(place.name); });
@@ -186,8 +188,8 @@ TEST_F(NameSearchTest, ABodyWithoutNamesSaysHowToOpenAFileOfNames)
     ASSERT_TRUE(file.open(QIODevice::WriteOnly));
     file.write("name,lon,lat\nS\u00e4ntis,9.3433,47.2494\nMont Blanc,6.8652,45.8326\n");
     file.close();
-    window_->nameSearch().open(names);
-    ASSERT_TRUE(waitFor([this] { return bool(window_->nameSearch().namesOnMap().names); }));
+    window_->commands().names.open(names);
+    ASSERT_TRUE(waitFor([this] { return bool(window_->commands().names.namesOnMap().names); }));
     field().clear();
     QTest::keyClicks(&field(), QStringLiteral("santis"));
     EXPECT_EQ(listed(completer()), QStringList(QStringLiteral("Säntis")));
@@ -202,7 +204,7 @@ TEST_F(NameSearchTest, AFileWithoutNamesIsRefusedWithTheReason)
     QString problem;
     QObject::connect(window_.get(), &MainWindow::openFailed,
                      [&problem](const QString& text) { problem = text; });
-    window_->nameSearch().open(maps_.path(QStringLiteral("missing.csv")));
+    window_->commands().names.open(maps_.path(QStringLiteral("missing.csv")));
     EXPECT_TRUE(waitFor([&problem] { return problem.contains(QStringLiteral("does not exist")); }));
 }
 

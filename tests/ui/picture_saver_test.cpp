@@ -2,9 +2,9 @@
 #include "tests/ui/map_window.h"
 #include "ui/canvas/picture_drawing.h"
 #include "ui/canvas/picture_writer.h"
-#include "ui/load_status.h"
-#include "ui/picture_saver.h"
-#include "ui/window_actions.h"
+#include "ui/commands/picture_saver.h"
+#include "ui/window/load_status.h"
+#include "ui/window/window_actions.h"
 
 #include <QAction>
 #include <QCheckBox>

@@ -3,8 +3,8 @@
 #include "tests/ui/hand_window.h"
 #include "tests/ui/widget_walk.h"
 #include "ui/panels/haptics_panel.h"
-#include "ui/status_readout.h"
-#include "ui/window_actions.h"
+#include "ui/window/status_readout.h"
+#include "ui/window/window_actions.h"
 
 #include <QApplication>
 #include <QProgressBar>

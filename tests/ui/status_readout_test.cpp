@@ -1,12 +1,13 @@
 #include "tests/ui/map_window.h"
 #include "tests/ui/pointer_moves.h"
+#include "ui/commands/window_commands.h"
 #include "ui/overlay/crosshair.h"
 #include "ui/overlay/map_overlays.h"
 #include "ui/overlay/minimap.h"
 #include "ui/panels/layers_panel.h"
-#include "ui/status_readout.h"
 #include "ui/widgets/coordinate_field.h"
-#include "ui/window_actions.h"
+#include "ui/window/status_readout.h"
+#include "ui/window/window_actions.h"
 
 #include <QAbstractButton>
 #include <QApplication>
@@ -180,7 +181,7 @@ TEST_F(StatusReadoutTest, CopiesMapCoordinatesThatOtherProgramsRead)
     Q_EMIT readout().formatChosen(format);
     EXPECT_EQ(positionText(readout().format(), *view().map(), {9.5, 9.5}),
               QStringLiteral("500.300, −4.000.300 m"));
-    window_->copyCoordinates(GridPoint{9.5, 9.5});
+    window_->commands().places.copyCoordinates(GridPoint{9.5, 9.5});
     EXPECT_EQ(QGuiApplication::clipboard()->text(), QStringLiteral("500300, -4000300"));
     QLocale::setDefault(QLocale::c());
 }

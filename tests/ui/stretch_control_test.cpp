@@ -2,13 +2,13 @@
 #include "tests/ui/test_map.h"
 #include "tests/ui/timeout.h"
 #include "ui/canvas/terrain_view.h"
+#include "ui/commands/stretch_control.h"
 #include "ui/dialogs/stretch_dialog.h"
 #include "ui/dialogs/stretch_plot.h"
 #include "ui/overlay/legend.h"
 #include "ui/overlay/map_overlays.h"
-#include "ui/stretch_control.h"
 #include "ui/widgets/elevation_box.h"
-#include "ui/window_actions.h"
+#include "ui/window/window_actions.h"
 
 #include <QAction>
 #include <QActionGroup>

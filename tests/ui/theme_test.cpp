@@ -1,6 +1,6 @@
 #include "tests/ui/color_contrast.h"
 #include "ui/controllers/preferences.h"
-#include "ui/theme.h"
+#include "ui/window/theme.h"
 
 #include <QApplication>
 #include <QSettings>

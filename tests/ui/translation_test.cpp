@@ -4,19 +4,19 @@
 #include "tests/ui/test_map.h"
 #include "tests/ui/widget_walk.h"
 #include "ui/canvas/terrain_view.h"
+#include "ui/commands/stretch_control.h"
 #include "ui/dialogs/about_dialog.h"
 #include "ui/dialogs/address_dialog.h"
 #include "ui/dialogs/go_to_dialog.h"
 #include "ui/dialogs/preferences_dialog.h"
 #include "ui/dialogs/save_picture_dialog.h"
 #include "ui/dialogs/stretch_dialog.h"
-#include "ui/keys_dialog.h"
 #include "ui/panels/georeferencing_panel.h"
 #include "ui/panels/layer_model.h"
 #include "ui/panels/layers_panel.h"
-#include "ui/stretch_control.h"
 #include "ui/widgets/light_popup.h"
-#include "ui/window_actions.h"
+#include "ui/window/keys_dialog.h"
+#include "ui/window/window_actions.h"
 
 #include <QApplication>
 #include <QLabel>

@@ -1,12 +1,13 @@
 // Vector files on the terrain, in a window. The files are made by GDAL's ogr2ogr.
 #include "tests/support/run_program.h"
 #include "tests/ui/map_window.h"
+#include "ui/commands/vector_tools.h"
+#include "ui/commands/window_commands.h"
 #include "ui/controllers/session_controller.h"
 #include "ui/controllers/vector_overlays.h"
 #include "ui/project/project_controller.h"
-#include "ui/vector_tools.h"
 #include "ui/widgets/notice_bar.h"
-#include "ui/window_actions.h"
+#include "ui/window/window_actions.h"
 
 #include <QAction>
 #include <QFile>
@@ -50,7 +51,7 @@ protected:
         makeWindow(kSmall);
         ASSERT_TRUE(openAndWait(*window_, maps_.mars()));
     }
-    VectorOverlays& overlays() { return window_->vectorTools().overlays(); }
+    VectorOverlays& overlays() { return window_->commands().vector_files.overlays(); }
     bool openVector(const QString& path)
     {
         overlays().open(path);
@@ -124,7 +125,7 @@ TEST_F(VectorToolsTest, OpeningHidingAndClosingAreStepsOfUndoAndPartOfTheProject
     window_->undoStack().undo();
 
     const QString project = maps_.path(QStringLiteral("with.mvproj"));
-    ASSERT_TRUE(window_->project().saveAs(project));
+    ASSERT_TRUE(window_->commands().project.saveAs(project));
     makeWindow(kSmall);
     window_->open(project);
     ASSERT_TRUE(waitFor(
@@ -161,7 +162,7 @@ TEST_F(VectorToolsTest, AFileOfAnotherBodyOrNoneIsRefusedWithTheReason)
 {
     ASSERT_NO_FATAL_FAILURE(openMars());
     QString problem;
-    QObject::connect(&window_->vectorTools(), &VectorTools::failed, window_.get(),
+    QObject::connect(&window_->commands().vector_files, &VectorTools::failed, window_.get(),
                      [&problem](const QString& text) { problem = text; });
     const QString moon = file("maria", "IAU_2015:30100", "IAU_2015:30100");
     overlays().open(moon);
@@ -185,7 +186,7 @@ TEST_F(VectorToolsTest, AFileOfPlainLongitudesAndLatitudesCanBeReadOnTheMapsBody
     out.write(R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{},)"
               R"("geometry":{"type":"Point","coordinates":[16,18.5]}}]})");
     out.close();
-    const QSignalSpy failures(&window_->vectorTools(), &VectorTools::failed);
+    const QSignalSpy failures(&window_->commands().vector_files, &VectorTools::failed);
     ASSERT_TRUE(openVector(path));
     const auto& bar = *window_->findChild<NoticeBar*>();
     const auto& text = *bar.findChild<QLabel*>(QStringLiteral("noticeText"));
@@ -216,7 +217,7 @@ TEST_F(VectorToolsTest, AFileOfPlainLongitudesAndLatitudesCanBeReadOnTheMapsBody
     EXPECT_EQ(failures.count(), 0);
 
     const QString project = maps_.path(QStringLiteral("plain.mvproj"));
-    ASSERT_TRUE(window_->project().saveAs(project));
+    ASSERT_TRUE(window_->commands().project.saveAs(project));
     makeWindow(kSmall);
     window_->open(project);
     ASSERT_TRUE(waitFor(

@@ -2,12 +2,13 @@
 
 #include "tests/ui/test_map.h"
 #include "ui/canvas/terrain_view.h"
+#include "ui/commands/window_commands.h"
 #include "ui/controllers/recent_files.h"
 #include "ui/dialogs/preferences_dialog.h"
-#include "ui/status_readout.h"
-#include "ui/theme.h"
-#include "ui/window_actions.h"
-#include "ui/window_docks.h"
+#include "ui/window/status_readout.h"
+#include "ui/window/theme.h"
+#include "ui/window/window_actions.h"
+#include "ui/window/window_docks.h"
 
 #include <QApplication>
 #include <QComboBox>
@@ -128,16 +129,16 @@ TEST_F(WindowMemoryTest, RemembersTenFilesAndMarksMissingOnes)
     QStringList files;
     for (int i = 0; i < 12; ++i) {
         files.append(maps_.hill(QStringLiteral("m%1.asc").arg(i)));
-        window->recentFiles()->add(files.last());
+        window->commands().files.recentFiles()->add(files.last());
     }
-    EXPECT_EQ(window->recentFiles()->files().size(), 10);
+    EXPECT_EQ(window->commands().files.recentFiles()->files().size(), 10);
     ASSERT_TRUE(QFile::remove(files[11]));
     const QList<QAction*> entries = recentEntries(*window);
     EXPECT_EQ(entries[0]->text(), QStringLiteral("m10.asc"));
     EXPECT_EQ(entries[9]->text(), QStringLiteral("m11.asc (missing)"));
     EXPECT_FALSE(entries[9]->isEnabled());
     entries.last()->trigger(); // Clear Menu
-    EXPECT_TRUE(window->recentFiles()->files().isEmpty());
+    EXPECT_TRUE(window->commands().files.recentFiles()->files().isEmpty());
     EXPECT_FALSE(window->actionSet().recent->isEnabled());
     EXPECT_TRUE(QSettings().value(QStringLiteral("files/recent")).toStringList().isEmpty());
 }
@@ -147,7 +148,7 @@ TEST_F(WindowMemoryTest, CoordinatePreferencesApplyToTheBodyInTheView)
     MainWindow window(testWindowOptions());
     window.show();
     ASSERT_TRUE(openAndWait(window, maps_.moon()));
-    window.showPreferences();
+    window.actionSet().preferences->trigger();
     auto* dialog = window.findChild<PreferencesDialog*>();
     ASSERT_NE(dialog, nullptr);
     auto* page = dialog->findChild<CoordinatesPage*>();

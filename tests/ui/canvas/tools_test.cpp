@@ -3,10 +3,10 @@
 #include "core/view/navigation.h"
 #include "tests/ui/map_window.h"
 #include "ui/canvas/gestures.h"
-#include "ui/keys_dialog.h"
 #include "ui/overlay/compass.h"
 #include "ui/overlay/map_overlays.h"
-#include "ui/window_actions.h"
+#include "ui/window/keys_dialog.h"
+#include "ui/window/window_actions.h"
 
 #include <QAction>
 #include <QActionGroup>
@@ -312,7 +312,7 @@ TEST_F(ToolsTest, ARightClickOpensTheMenuAndARightDragDoesNot)
 
 TEST_F(ToolsTest, TheListOfKeysHasEveryGesture)
 {
-    window_->showKeys();
+    window_->actionSet().keys->trigger();
     auto* dialog = window_->findChild<KeysDialog*>();
     ASSERT_NE(dialog, nullptr);
     QStringList texts;

@@ -4,7 +4,7 @@
 #include "tests/ui/test_map.h"
 #include "ui/canvas/terrain_view.h"
 #include "ui/dialogs/preferences_dialog.h"
-#include "ui/window_actions.h"
+#include "ui/window/window_actions.h"
 
 #include <QActionGroup>
 #include <QApplication>
@@ -202,7 +202,7 @@ TEST_F(ContactModelTest, IsKeptWhenPreferencesChange)
     MainWindow window(testWindowOptions());
     window.show();
     entryOf(window, ContactModelKind::ProxyGraph)->trigger();
-    window.showPreferences();
+    window.actionSet().preferences->trigger();
     auto* dialog = window.findChild<PreferencesDialog*>();
     ASSERT_NE(dialog, nullptr);
     dialog->findChild<QComboBox*>(QStringLiteral("elevationUnit"))->setCurrentIndex(1);

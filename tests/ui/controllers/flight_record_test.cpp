@@ -4,7 +4,7 @@
 #include "ui/canvas/terrain_view.h"
 #include "ui/panels/haptics_panel.h"
 #include "ui/widgets/notice_bar.h"
-#include "ui/window_actions.h"
+#include "ui/window/window_actions.h"
 
 #include <QFile>
 #include <QFileDialog>

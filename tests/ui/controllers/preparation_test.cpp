@@ -7,8 +7,8 @@
 #include "tests/ui/test_map.h"
 #include "tests/ui/timeout.h"
 #include "ui/canvas/terrain_view.h"
-#include "ui/load_status.h"
 #include "ui/widgets/notice_bar.h"
+#include "ui/window/load_status.h"
 
 #include <QLabel>
 #include <QSignalSpy>

@@ -4,13 +4,13 @@
 #include "tests/ui/test_map.h"
 #include "tests/ui/timeout.h"
 #include "ui/canvas/terrain_view.h"
-#include "ui/load_status.h"
 #include "ui/panels/georeferencing_panel.h"
 #include "ui/panels/layer_model.h"
 #include "ui/panels/layers_panel.h"
-#include "ui/status_readout.h"
 #include "ui/widgets/notice_bar.h"
-#include "ui/window_actions.h"
+#include "ui/window/load_status.h"
+#include "ui/window/status_readout.h"
+#include "ui/window/window_actions.h"
 
 #include <QApplication>
 #include <QLabel>

@@ -4,6 +4,7 @@
 #include "tests/ui/test_map.h"
 #include "tests/ui/timeout.h"
 #include "ui/canvas/terrain_view.h"
+#include "ui/commands/window_commands.h"
 #include "ui/controllers/spacemouse_controller.h"
 
 #include <QApplication>
@@ -75,8 +76,8 @@ protected:
         return QTest::qWaitFor(condition, kTimeout);
     }
     TerrainView& view() { return *window_->view(); }
-    bool isConnected() const { return window_->spacemouse().isConnected(); }
-    bool isAwake() const { return window_->spacemouse().isAwake(); }
+    bool isConnected() const { return window_->commands().spacemouse.isConnected(); }
+    bool isAwake() const { return window_->commands().spacemouse.isAwake(); }
     bool plugIn()
     {
         hid_.say(cap(0, 0, 0));

@@ -1,7 +1,7 @@
 #include "tests/ui/test_map.h"
 #include "ui/controllers/recent_files.h"
 #include "ui/dialogs/address_dialog.h"
-#include "ui/window_actions.h"
+#include "ui/window/window_actions.h"
 
 #include <QAction>
 #include <QComboBox>

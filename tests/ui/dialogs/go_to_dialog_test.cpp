@@ -5,8 +5,8 @@
 #include "ui/overlay/map_overlays.h"
 #include "ui/overlay/place_mark.h"
 #include "ui/panels/layers_panel.h"
-#include "ui/status_readout.h"
-#include "ui/window_actions.h"
+#include "ui/window/status_readout.h"
+#include "ui/window/window_actions.h"
 
 #include <QApplication>
 #include <QComboBox>

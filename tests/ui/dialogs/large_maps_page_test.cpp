@@ -9,7 +9,7 @@
 #include "ui/dialogs/large_maps_page.h"
 #include "ui/dialogs/preferences_dialog.h"
 #include "ui/widgets/notice_bar.h"
-#include "ui/window_actions.h"
+#include "ui/window/window_actions.h"
 
 #include <QLabel>
 #include <QMessageBox>

@@ -1,13 +1,13 @@
 // Names and the graticule on the map, in a window.
 #include "tests/support/shared_data.h"
 #include "tests/ui/map_window.h"
+#include "ui/commands/picture_saver.h"
 #include "ui/overlay/force_meter.h"
 #include "ui/overlay/legend.h"
 #include "ui/overlay/map_labels.h"
 #include "ui/overlay/map_overlays.h"
 #include "ui/overlay/minimap.h"
-#include "ui/picture_saver.h"
-#include "ui/window_actions.h"
+#include "ui/window/window_actions.h"
 
 #include <QAction>
 #include <QElapsedTimer>

@@ -4,8 +4,8 @@
 #include "ui/panels/time_plot.h"
 #include "ui/widgets/limit_slider.h"
 #include "ui/widgets/notice_bar.h"
-#include "ui/window_actions.h"
-#include "ui/window_docks.h"
+#include "ui/window/window_actions.h"
+#include "ui/window/window_docks.h"
 
 #include <QActionGroup>
 #include <QCheckBox>

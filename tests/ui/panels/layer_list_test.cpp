@@ -6,8 +6,8 @@
 #include "ui/panels/layer_delegate.h"
 #include "ui/panels/layer_model.h"
 #include "ui/panels/layers_panel.h"
-#include "ui/window_actions.h"
-#include "ui/window_docks.h"
+#include "ui/window/window_actions.h"
+#include "ui/window/window_docks.h"
 
 #include <QApplication>
 #include <QDockWidget>

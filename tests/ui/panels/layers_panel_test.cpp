@@ -2,7 +2,7 @@
 #include "ui/canvas/terrain_view.h"
 #include "ui/panels/layer_model.h"
 #include "ui/panels/layers_panel.h"
-#include "ui/window_actions.h"
+#include "ui/window/window_actions.h"
 
 #include <QApplication>
 #include <QComboBox>

@@ -5,10 +5,10 @@
 #include "ui/panels/crs_field.h"
 #include "ui/panels/georeferencing_panel.h"
 #include "ui/panels/override_form.h"
-#include "ui/theme.h"
 #include "ui/widgets/form_field.h"
 #include "ui/widgets/notice_bar.h"
-#include "ui/window_actions.h"
+#include "ui/window/theme.h"
+#include "ui/window/window_actions.h"
 
 #include <QAbstractItemView>
 #include <QApplication>

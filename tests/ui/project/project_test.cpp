@@ -3,12 +3,13 @@
 #include "core/session/project.h"
 #include "tests/support/temp_folder.h"
 #include "tests/ui/map_window.h"
+#include "ui/commands/window_commands.h"
 #include "ui/controllers/recent_files.h"
 #include "ui/project/project_controller.h"
 #include "ui/project/project_menu.h"
 #include "ui/widgets/notice_bar.h"
 #include "ui/widgets/notice_center.h"
-#include "ui/window_actions.h"
+#include "ui/window/window_actions.h"
 
 #include <QAbstractButton>
 #include <QAction>
@@ -86,7 +87,7 @@ protected:
         controller.setLight(Angle::degrees(123.4), Angle::degrees(56.7));
         controller.activate(below);
     }
-    Project saved() const { return window_->project().project(); }
+    Project saved() const { return window_->commands().project.project(); }
 
     test::TempFolder folder_;
 };
@@ -102,7 +103,7 @@ TEST_F(ProjectWindowTest, OpensWhatWasSavedWithCameraAndLooks)
     camera.distance_m *= 0.5;
     view().setCamera(camera);
     EXPECT_TRUE(window_->isWindowModified());
-    ASSERT_TRUE(window_->project().saveAs(path("a"))); // the extension is added
+    ASSERT_TRUE(window_->commands().project.saveAs(path("a"))); // the extension is added
     EXPECT_FALSE(window_->isWindowModified());
     EXPECT_TRUE(window_->windowTitle().startsWith(QStringLiteral("\u2068a\u2069[*]")) ||
                 window_->windowTitle().startsWith(QStringLiteral("a[*]")))
@@ -126,13 +127,13 @@ TEST_F(ProjectWindowTest, OpensWhatWasSavedWithCameraAndLooks)
     EXPECT_NEAR(camera_after.tilt.degrees(), 50.0, 1e-9);
     EXPECT_FALSE(window_->isWindowModified());
     EXPECT_EQ(window_->undoStack().count(), 0);
-    EXPECT_EQ(window_->projectMenu().recentProjects()->isEnabled(), true);
+    EXPECT_EQ(window_->commands().project_menu.recentProjects()->isEnabled(), true);
 }
 
 TEST_F(ProjectWindowTest, UndoingToTheSavedStateIsNoChange)
 {
     makeChangedWindow();
-    ASSERT_TRUE(window_->project().saveAs(path("a.mvproj")));
+    ASSERT_TRUE(window_->commands().project.saveAs(path("a.mvproj")));
     window_->controller().setExaggeration(7.0);
     EXPECT_TRUE(window_->isWindowModified());
     window_->undoStack().undo();
@@ -173,7 +174,7 @@ TEST_F(ProjectWindowTest, ClosingWithChangesAsks)
 TEST_F(ProjectWindowTest, ClosingSavesOnRequest)
 {
     makeChangedWindow();
-    ASSERT_TRUE(window_->project().saveAs(path("a.mvproj")));
+    ASSERT_TRUE(window_->commands().project.saveAs(path("a.mvproj")));
     window_->controller().setExaggeration(9.0);
     window_->close();
     answer("unsavedChanges", QMessageBox::Save);
@@ -199,7 +200,7 @@ TEST_F(ProjectWindowTest, ClosingAnUnsavedSessionAsksForAFile)
 TEST_F(ProjectWindowTest, ClosingWithoutChangesDoesNotAsk)
 {
     makeChangedWindow();
-    ASSERT_TRUE(window_->project().saveAs(path("a.mvproj")));
+    ASSERT_TRUE(window_->commands().project.saveAs(path("a.mvproj")));
     window_->close();
     EXPECT_FALSE(window_->isVisible());
 }
@@ -207,10 +208,10 @@ TEST_F(ProjectWindowTest, ClosingWithoutChangesDoesNotAsk)
 TEST_F(ProjectWindowTest, NewProjectIsEmpty)
 {
     makeChangedWindow();
-    ASSERT_TRUE(window_->project().saveAs(path("a.mvproj")));
-    window_->projectMenu().newProject()->trigger();
+    ASSERT_TRUE(window_->commands().project.saveAs(path("a.mvproj")));
+    window_->commands().project_menu.newProject()->trigger();
     EXPECT_TRUE(window_->session().layers.empty());
-    EXPECT_TRUE(window_->project().file().isEmpty());
+    EXPECT_TRUE(window_->commands().project.file().isEmpty());
     EXPECT_FALSE(window_->isWindowModified());
     EXPECT_EQ(window_->undoStack().count(), 0);
 }
@@ -224,7 +225,7 @@ TEST_F(ProjectWindowTest, MissingLayersKeepTheirSettingsAndCanBeLocated)
     ASSERT_TRUE(openAndWait(*window_, path("data/one.asc")));
     ASSERT_TRUE(openAndWait(*window_, path("data/two.asc")));
     window_->controller().setStretch(window_->session().layers[0].id, fixedStretch(1.0, 2.0));
-    ASSERT_TRUE(window_->project().saveAs(path("a.mvproj")));
+    ASSERT_TRUE(window_->commands().project.saveAs(path("a.mvproj")));
     const Project before = saved();
     window_.reset();
     ASSERT_TRUE(QFile::rename(path("data/two.asc"), path("elsewhere.asc")));
@@ -235,7 +236,7 @@ TEST_F(ProjectWindowTest, MissingLayersKeepTheirSettingsAndCanBeLocated)
     EXPECT_EQ(window_->session().layers.size(), 1U);
     EXPECT_FALSE(window_->isWindowModified());
     EXPECT_EQ(saved().layers, before.layers);
-    ASSERT_TRUE(window_->project().save());
+    ASSERT_TRUE(window_->commands().project.save());
     const auto again = readProject(folder_.file("a.mvproj"), {});
     ASSERT_TRUE(again);
     EXPECT_EQ(again->layers, before.layers);
@@ -277,13 +278,13 @@ TEST_F(ProjectWindowTest, DamagedProjectChangesNothing)
 TEST_F(ProjectWindowTest, SavingWhileLayersLoadLosesNone)
 {
     makeChangedWindow();
-    ASSERT_TRUE(window_->project().saveAs(path("a.mvproj")));
+    ASSERT_TRUE(window_->commands().project.saveAs(path("a.mvproj")));
     const Project before = saved();
     window_->open(path("a.mvproj"));
     EXPECT_TRUE(window_->controller().isBusy());
     EXPECT_EQ(saved().layers, before.layers);
     EXPECT_EQ(saved().camera, before.camera);
-    window_->cancelLoading();
+    window_->controller().cancel();
     EXPECT_EQ(saved().layers, before.layers);
     EXPECT_EQ(window_->session().missing.size(), 2U);
 }
@@ -291,9 +292,9 @@ TEST_F(ProjectWindowTest, SavingWhileLayersLoadLosesNone)
 TEST_F(ProjectWindowTest, CrashIsFollowedByTheOfferToRestore)
 {
     makeChangedWindow();
-    ASSERT_TRUE(window_->project().saveAs(path("a.mvproj")));
+    ASSERT_TRUE(window_->commands().project.saveAs(path("a.mvproj")));
     window_->controller().setExaggeration(8.0);
-    window_->project().autosaveNow();
+    window_->commands().project.autosaveNow();
     const Project before = saved();
     // A crash leaves the copy and releases the lock; here the copy is moved aside instead.
     fs::path copy;
@@ -303,13 +304,13 @@ TEST_F(ProjectWindowTest, CrashIsFollowedByTheOfferToRestore)
         }
     }
     ASSERT_FALSE(copy.empty());
-    EXPECT_FALSE(window_->project().leftover()) << "this program still runs";
+    EXPECT_FALSE(window_->commands().project.leftover()) << "this program still runs";
     const fs::path kept = folder_.path() / "autosave/crashed.mvproj";
     fs::copy(copy, kept);
     window_.reset();
 
     makeWindow(kSmall, asking());
-    window_->projectMenu().offerRecovery();
+    window_->commands().project_menu.offerRecovery();
     QMessageBox* asked = box("recovery");
     ASSERT_NE(asked, nullptr);
     EXPECT_TRUE(asked->text().contains(QStringLiteral("changes to")));
@@ -321,12 +322,12 @@ TEST_F(ProjectWindowTest, CrashIsFollowedByTheOfferToRestore)
     }
     ASSERT_TRUE(waitFor([this] { return window_->session().layers.size() == 2; }));
     EXPECT_EQ(saved().layers, before.layers);
-    EXPECT_EQ(window_->project().file(), path("a.mvproj"));
+    EXPECT_EQ(window_->commands().project.file(), path("a.mvproj"));
     EXPECT_TRUE(window_->isWindowModified());
     EXPECT_FALSE(fs::exists(kept));
-    ASSERT_TRUE(window_->project().save());
+    ASSERT_TRUE(window_->commands().project.save());
     EXPECT_FALSE(window_->isWindowModified());
-    EXPECT_FALSE(window_->project().leftover());
+    EXPECT_FALSE(window_->commands().project.leftover());
 }
 
 TEST_F(ProjectWindowTest, AutosaveFollowsAChangeAndGoesWithItsUndo)
@@ -341,10 +342,10 @@ TEST_F(ProjectWindowTest, AutosaveFollowsAChangeAndGoesWithItsUndo)
         return count;
     };
     ASSERT_TRUE(waitFor([&] { return copy_count() == 1; }));
-    ASSERT_TRUE(window_->project().saveAs(path("a.mvproj")));
+    ASSERT_TRUE(window_->commands().project.saveAs(path("a.mvproj")));
     EXPECT_EQ(copy_count(), 0);
     window_->controller().setExaggeration(5.0);
-    window_->project().autosaveNow();
+    window_->commands().project.autosaveNow();
     EXPECT_EQ(copy_count(), 1);
     window_->undoStack().undo();
     EXPECT_EQ(copy_count(), 0);
@@ -367,7 +368,7 @@ TEST_F(ProjectWindowTest, OpeningMapsAloneIsNotAChange)
     EXPECT_TRUE(window_->isWindowModified());
     ASSERT_TRUE(openAndWait(*window_, maps_.moon()));
     EXPECT_TRUE(window_->isWindowModified()) << "the exaggeration would still be lost";
-    ASSERT_TRUE(window_->project().saveAs(path("a.mvproj")));
+    ASSERT_TRUE(window_->commands().project.saveAs(path("a.mvproj")));
     ASSERT_TRUE(openAndWait(*window_, maps_.moon("more")));
     EXPECT_TRUE(window_->isWindowModified()) << "the file does not have the new layer";
 }

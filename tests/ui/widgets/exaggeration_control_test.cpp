@@ -1,7 +1,7 @@
 #include "tests/ui/test_map.h"
 #include "ui/canvas/terrain_view.h"
 #include "ui/widgets/exaggeration_control.h"
-#include "ui/window_actions.h"
+#include "ui/window/window_actions.h"
 
 #include <QAction>
 #include <QApplication>

@@ -3,10 +3,10 @@
 #include "tests/ui/color_contrast.h"
 #include "tests/ui/test_map.h"
 #include "ui/dialogs/about_dialog.h"
-#include "ui/theme.h"
 #include "ui/widgets/icons.h"
-#include "ui/window_actions.h"
-#include "ui/window_docks.h"
+#include "ui/window/theme.h"
+#include "ui/window/window_actions.h"
+#include "ui/window/window_docks.h"
 
 #include <QAction>
 #include <QActionGroup>

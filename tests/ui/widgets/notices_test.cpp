@@ -6,8 +6,8 @@
 #include "ui/panels/georeferencing_panel.h"
 #include "ui/widgets/notice_bar.h"
 #include "ui/widgets/notice_center.h"
-#include "ui/window_actions.h"
-#include "ui/window_docks.h"
+#include "ui/window/window_actions.h"
+#include "ui/window/window_docks.h"
 
 #include <QApplication>
 #include <QDockWidget>

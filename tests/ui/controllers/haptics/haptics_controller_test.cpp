@@ -9,7 +9,7 @@
 #include "ui/canvas/terrain_view.h"
 #include "ui/overlay/force_meter.h"
 #include "ui/overlay/map_overlays.h"
-#include "ui/window_actions.h"
+#include "ui/window/window_actions.h"
 
 #include <QDeadlineTimer>
 #include <QFile>

@@ -7,7 +7,7 @@
 #include "tests/ui/timeout.h"
 #include "ui/controllers/haptics/haptics_controller.h"
 #include "ui/panels/haptics_panel.h"
-#include "ui/window_actions.h"
+#include "ui/window/window_actions.h"
 
 #include <QApplication>
 #include <QPushButton>

@@ -1,4 +1,4 @@
-#include "ui/window_docks.h"
+#include "ui/window/window_docks.h"
 
 #include <QAction>
 #include <QApplication>

@@ -1,4 +1,4 @@
-#include "ui/window_notices.h"
+#include "ui/window/window_notices.h"
 
 #include "core/tiles/tile_disk_cache.h"
 #include "ui/canvas/terrain_view.h"

@@ -1,4 +1,4 @@
-#include "ui/picture_saver.h"
+#include "ui/commands/picture_saver.h"
 
 #include "ui/canvas/picture_drawing.h"
 #include "ui/canvas/picture_writer.h"

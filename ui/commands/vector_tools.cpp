@@ -1,4 +1,4 @@
-#include "ui/vector_tools.h"
+#include "ui/commands/vector_tools.h"
 
 #include "ui/canvas/terrain_view.h"
 #include "ui/controllers/session_controller.h"

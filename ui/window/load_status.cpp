@@ -1,4 +1,4 @@
-#include "ui/load_status.h"
+#include "ui/window/load_status.h"
 
 #include "ui/controllers/session_controller.h"
 #include "ui/text/number_text.h"

@@ -1,15 +1,15 @@
-#include "ui/whats_this.h"
+#include "ui/window/whats_this.h"
 
 #include "ui/canvas/terrain_view.h"
-#include "ui/load_status.h"
 #include "ui/overlay/compass.h"
 #include "ui/overlay/legend.h"
 #include "ui/overlay/map_overlays.h"
 #include "ui/overlay/minimap.h"
 #include "ui/overlay/scale_bar_view.h"
-#include "ui/status_readout.h"
-#include "ui/window_actions.h"
-#include "ui/window_docks.h"
+#include "ui/window/load_status.h"
+#include "ui/window/status_readout.h"
+#include "ui/window/window_actions.h"
+#include "ui/window/window_docks.h"
 
 #include <QAction>
 #include <QCoreApplication>

@@ -1,8 +1,8 @@
-#include "ui/action_icons.h"
+#include "ui/window/action_icons.h"
 
 #include "ui/widgets/icons.h"
-#include "ui/window_actions.h"
-#include "ui/window_docks.h"
+#include "ui/window/window_actions.h"
+#include "ui/window/window_docks.h"
 
 #include <QAction>
 #include <QActionGroup>

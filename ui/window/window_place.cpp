@@ -1,4 +1,4 @@
-#include "ui/window_place.h"
+#include "ui/window/window_place.h"
 
 #include <QEvent>
 #include <QScreen>

@@ -1,9 +1,9 @@
-#include "ui/stretch_control.h"
+#include "ui/commands/stretch_control.h"
 
 #include "ui/controllers/histogram_maker.h"
 #include "ui/controllers/session_controller.h"
 #include "ui/dialogs/stretch_dialog.h"
-#include "ui/window_actions.h"
+#include "ui/window/window_actions.h"
 
 #include <QAction>
 #include <QActionGroup>

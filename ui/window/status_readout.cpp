@@ -1,4 +1,4 @@
-#include "ui/status_readout.h"
+#include "ui/window/status_readout.h"
 
 #include "core/session/map.h"
 #include "ui/widgets/coordinate_field.h"

@@ -1,7 +1,7 @@
-#include "ui/main_tool_bar.h"
+#include "ui/window/main_tool_bar.h"
 
 #include "ui/widgets/exaggeration_control.h"
-#include "ui/window_actions.h"
+#include "ui/window/window_actions.h"
 
 #include <QAction>
 #include <QActionGroup>

@@ -1,4 +1,4 @@
-#include "ui/map_menu.h"
+#include "ui/commands/map_menu.h"
 
 #include "ui/canvas/terrain_view.h"
 #include "ui/dialogs/place_dialog.h"

@@ -1,7 +1,7 @@
-#include "ui/keys_dialog.h"
+#include "ui/window/keys_dialog.h"
 
 #include "ui/canvas/gestures.h"
-#include "ui/window_actions.h"
+#include "ui/window/window_actions.h"
 
 #include <QAction>
 #include <QDialogButtonBox>

@@ -1,4 +1,4 @@
-#include "ui/contour_tools.h"
+#include "ui/commands/contour_tools.h"
 
 #include "core/view/terrain_look.h"
 #include "ui/canvas/terrain_view.h"

@@ -1,4 +1,4 @@
-#include "ui/name_search.h"
+#include "ui/commands/name_search.h"
 
 #include "core/view/feature_view.h"
 #include "ui/canvas/terrain_view.h"

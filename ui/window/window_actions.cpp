@@ -1,12 +1,12 @@
-#include "ui/window_actions.h"
+#include "ui/window/window_actions.h"
 
 #include "core/session/layer_groups.h"
 #include "core/session/measurement.h"
-#include "ui/action_icons.h"
 #include "ui/canvas/terrain_view.h"
 #include "ui/text/contact_model_text.h"
 #include "ui/text/ramp_text.h"
 #include "ui/widgets/icons.h"
+#include "ui/window/action_icons.h"
 
 #include <QActionGroup>
 #include <QCoreApplication>

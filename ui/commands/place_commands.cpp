@@ -1,0 +1,171 @@
+#include "ui/commands/place_commands.h"
+
+#include "ui/canvas/terrain_view.h"
+#include "ui/commands/map_menu.h"
+#include "ui/commands/name_search.h"
+#include "ui/commands/preference_commands.h"
+#include "ui/commands/vector_tools.h"
+#include "ui/controllers/measure_controller.h"
+#include "ui/controllers/session_controller.h"
+#include "ui/controllers/vector_overlays.h"
+#include "ui/overlay/map_overlays.h"
+#include "ui/widgets/coordinate_field.h"
+#include "ui/window/main_tool_bar.h"
+#include "ui/window/status_readout.h"
+#include "ui/window/window_actions.h"
+
+#include <QAction>
+#include <QClipboard>
+#include <QGuiApplication>
+#include <QLineEdit>
+#include <QMainWindow>
+#include <QMenu>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace marsview {
+
+PlaceCommands::PlaceCommands(const Parts& parts)
+    : parts_(parts)
+    , map_menu_(
+          new MapMenu(parts.view, [this](const GroundPoint& ground) { return factsAt(ground); }))
+{
+    const WindowActions& actions = parts_.actions;
+    connect(actions.go_to_place, &QAction::triggered, this, &PlaceCommands::goToPlace);
+    connect(actions.find_name, &QAction::triggered, this, &PlaceCommands::findName);
+    connect(actions.add_point, &QAction::triggered, this, &PlaceCommands::addMeasuredPoint);
+    connect(actions.copy_coordinates, &QAction::triggered, this, [this] { copyCoordinates(); });
+    connectReadout();
+}
+
+// Children of the window alone: the view loses the focus while the window is being destroyed.
+void PlaceCommands::connectReadout()
+{
+    TerrainView* view = &parts_.view;
+    StatusReadout* readout = &parts_.readout;
+    connect(view, &TerrainView::pointerMoved, readout,
+            [view, readout](const std::optional<RayHit>& hit) {
+                readout->setSource(view->readingSource());
+                readout->setPlace(
+                    hit ? std::optional(
+                              ReadPlace{.hit = *hit, .screen_pixel_m = view->metersPerPoint(*hit)})
+                        : std::nullopt);
+            });
+    connect(view, &TerrainView::detailChanged, readout, &StatusReadout::setDetail);
+    connect(view, &TerrainView::loadingChanged, readout, &StatusReadout::setLoading);
+    connect(view, &TerrainView::problemChanged, readout, &StatusReadout::setProblem);
+    connect(readout, &StatusReadout::focusChanged, view, &TerrainView::setReadElsewhere);
+    readout->setCopyAction(parts_.actions.copy_coordinates);
+    QMenu* formats = parts_.actions.coordinate_format;
+    connect(formats, &QMenu::aboutToShow, readout, [formats, readout] {
+        formats->clear();
+        readout->fillMenu(*formats);
+    });
+}
+
+PlaceFacts PlaceCommands::factsAt(const GroundPoint& ground) const
+{
+    const TerrainView& view = parts_.view;
+    const Preferences& preferences = parts_.preferences.preferences();
+    const std::shared_ptr<const Map>& map = view.ground().maps()[ground.index].map;
+    const auto& layers = parts_.session.session().layers;
+    const auto layer = std::find_if(layers.begin(), layers.end(),
+                                    [&](const Layer& known) { return known.map == map; });
+    PlaceFacts facts = placeFacts(
+        *map, layer != layers.end() ? QString::fromStdString(layer->name) : QString(), ground.grid,
+        {.format = preferences.coordinates, .unit = preferences.height_unit});
+    constexpr double kReachPoints = 6.0;
+    const ScenePoint place = view.ground().maps()[ground.index].frame.toScene(
+        ground.grid, ground.height_m * view.exaggeration());
+    const double point_m =
+        view.devicePixelRatioF() * metersPerPixel(view.camera(), view.viewport(), place);
+    for (const VectorOverlays::Hit& hit :
+         parts_.vector_files.overlays().featuresAt(place, kReachPoints * point_m)) {
+        facts.facts.push_back({.name = tr("Vector file"), .value = hit.file});
+        for (const auto& [name, value] : hit.attributes) {
+            facts.facts.push_back({.name = name, .value = value});
+        }
+    }
+    return facts;
+}
+
+void PlaceCommands::findName()
+{
+    QLineEdit& field = parts_.tool_bar.searchField();
+    if (!field.isVisible()) {
+        goToPlace();
+        return;
+    }
+    field.setFocus(Qt::ShortcutFocusReason);
+    field.selectAll();
+}
+
+GoToDialog* PlaceCommands::makeDialog()
+{
+    auto* dialog = new GoToDialog(parts_.view.map(), parts_.preferences.preferences(), last_place_,
+                                  parts_.names.namesOnMap(), &parts_.window);
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    const auto remember = [this, dialog] { last_place_ = dialog->entry(); };
+    connect(dialog, &GoToDialog::nameChosen, this, remember);
+    connect(dialog, &GoToDialog::placeChosen, this, remember);
+    return dialog;
+}
+
+void PlaceCommands::goToPlace()
+{
+    if (!parts_.view.map()) {
+        return;
+    }
+    GoToDialog* dialog = makeDialog();
+    connect(dialog, &GoToDialog::nameChosen, &parts_.names, &NameSearch::goTo);
+    connect(dialog, &GoToDialog::placeChosen, this, [this](GridPoint grid) {
+        parts_.view.goTo(grid);
+        parts_.overlays.markPlace(grid);
+    });
+    dialog->open();
+}
+
+void PlaceCommands::addMeasuredPoint()
+{
+    if (!parts_.view.map()) {
+        return;
+    }
+    GoToDialog* dialog = makeDialog();
+    dialog->setTexts(tr("Add Point"), tr("&Add"));
+    MeasureController& measuring = parts_.measuring;
+    connect(dialog, &GoToDialog::nameChosen, this, [this](const PlaceName& place) {
+        if (const auto grid = parts_.view.map()->georeference().toGrid(place.position)) {
+            parts_.measuring.addPointAt(*grid);
+        }
+    });
+    connect(dialog, &GoToDialog::placeChosen, &measuring,
+            [&measuring](GridPoint grid) { measuring.addPointAt(grid); });
+    dialog->open();
+}
+
+void PlaceCommands::copyCoordinates()
+{
+    const QString text = parts_.readout.plainPosition();
+    if (!text.isEmpty()) {
+        QGuiApplication::clipboard()->setText(text);
+        parts_.readout.coordinateField()->showCopied();
+    }
+}
+
+void PlaceCommands::copyCoordinates(GridPoint grid)
+{
+    if (!parts_.view.map()) {
+        return;
+    }
+    const Map& map = *parts_.view.map();
+    const double height_m = map.heightfield().heightNow(grid);
+    QGuiApplication::clipboard()->setText(plainPositionText(
+        parts_.preferences.preferences().coordinates, map, grid,
+        parts_.view.metersPerPoint(
+            {.grid = grid, .height_m = std::isfinite(height_m) ? height_m : 0.0})));
+    parts_.readout.coordinateField()->showCopied();
+}
+
+} // namespace marsview

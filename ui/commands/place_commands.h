@@ -1,0 +1,72 @@
+// The commands on places: going there, identifying, copying their coordinates, measuring them; and
+// the place under the pointer in the status bar.
+#pragma once
+
+#include "ui/dialogs/go_to_dialog.h"
+#include "ui/text/place_facts.h"
+
+#include <QObject>
+
+class QMainWindow;
+
+namespace marsview {
+
+class MainToolBar;
+class MapMenu;
+class MapOverlays;
+class MeasureController;
+class NameSearch;
+class PreferenceCommands;
+class SessionController;
+class StatusReadout;
+class TerrainView;
+class VectorTools;
+struct GroundPoint;
+struct WindowActions;
+
+/// GUI thread; must not outlive what it is made of.
+class PlaceCommands final : public QObject {
+    Q_OBJECT
+
+public:
+    struct Parts {
+        QMainWindow& window;
+        const WindowActions& actions;
+        const SessionController& session;
+        TerrainView& view;
+        MapOverlays& overlays;
+        StatusReadout& readout;
+        MainToolBar& tool_bar;
+        NameSearch& names;
+        MeasureController& measuring;
+        VectorTools& vector_files;
+        const PreferenceCommands& preferences;
+    };
+
+    explicit PlaceCommands(const Parts& parts);
+
+    /// Asks for a name or a coordinate.
+    void goToPlace();
+    /// The same, for a point of the measurement.
+    void addMeasuredPoint();
+    /// Focuses the search field, or asks for a name where the toolbar has no room for it.
+    void findName();
+    /// Puts the position that the status bar shows on the clipboard.
+    void copyCoordinates();
+    /// The same for a place of the scene's grid.
+    void copyCoordinates(GridPoint grid);
+
+    /// The context menu of the map.
+    MapMenu* mapMenu() const noexcept { return map_menu_; }
+
+private:
+    void connectReadout();
+    GoToDialog* makeDialog();
+    PlaceFacts factsAt(const GroundPoint& ground) const;
+
+    Parts parts_;
+    MapMenu* map_menu_ = nullptr;
+    GoToEntry last_place_;
+};
+
+} // namespace marsview

@@ -1,0 +1,47 @@
+#include "ui/commands/view_commands.h"
+
+#include "ui/canvas/map_keys.h"
+#include "ui/canvas/terrain_view.h"
+#include "ui/panels/layers_panel.h"
+#include "ui/window/window_actions.h"
+#include "ui/window/window_docks.h"
+#include "ui/window/window_messages.h"
+
+#include <QAction>
+#include <QActionGroup>
+#include <QListView>
+#include <QMainWindow>
+
+#include <utility>
+
+namespace marsview {
+
+ViewCommands::ViewCommands(const Parts& parts)
+    : parts_(parts)
+{
+    TerrainView* view = &parts_.view;
+    const WindowActions& actions = parts_.actions;
+    (new MapKeys(*view, this))->addTo(*parts_.layers.list());
+    connect(actions.tools, &QActionGroup::triggered, view,
+            [view](QAction* action) { view->setTool(static_cast<Tool>(action->data().toInt())); });
+    connect(actions.home, &QAction::triggered, view, &TerrainView::goHome);
+    connect(actions.north, &QAction::triggered, view, &TerrainView::turnNorthUp);
+    for (QAction* action : std::as_const(actions.steps)) {
+        connect(action, &QAction::triggered, view,
+                [view, step = static_cast<NavigationStep>(action->data().toInt())] {
+                    view->step(step);
+                });
+    }
+    connect(actions.next_panel, &QAction::triggered, this,
+            [this] { parts_.docks.moveFocus(parts_.view, FocusStep::Next); });
+    connect(actions.previous_panel, &QAction::triggered, this,
+            [this] { parts_.docks.moveFocus(parts_.view, FocusStep::Previous); });
+    connect(actions.full_screen, &QAction::triggered, this, [this](bool is_full) {
+        QMainWindow& window = parts_.window;
+        window.setWindowState(window.windowState().setFlag(Qt::WindowFullScreen, is_full));
+    });
+    connect(view, &TerrainView::unavailable, this,
+            [this](const QString& reason) { parts_.messages.report(tr("Cannot Draw"), reason); });
+}
+
+} // namespace marsview

@@ -1,0 +1,37 @@
+// The commands on the view: tools, steps of the camera, moving between map and panels, full screen.
+#pragma once
+
+#include <QObject>
+
+class QMainWindow;
+
+namespace marsview {
+
+class LayersPanel;
+class TerrainView;
+class WindowDocks;
+class WindowMessages;
+struct WindowActions;
+
+/// GUI thread; must not outlive what it is made of.
+class ViewCommands final : public QObject {
+    Q_OBJECT
+
+public:
+    struct Parts {
+        QMainWindow& window;
+        const WindowActions& actions;
+        TerrainView& view;
+        WindowDocks& docks;
+        /// Its list takes the keys of the map too.
+        LayersPanel& layers;
+        WindowMessages& messages;
+    };
+
+    explicit ViewCommands(const Parts& parts);
+
+private:
+    Parts parts_;
+};
+
+} // namespace marsview

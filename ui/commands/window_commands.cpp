@@ -1,0 +1,176 @@
+#include "ui/commands/window_commands.h"
+
+#include "ui/canvas/terrain_view.h"
+#include "ui/commands/picture_saver.h"
+#include "ui/overlay/map_labels.h"
+#include "ui/overlay/map_overlays.h"
+#include "ui/panels/georeferencing_panel.h"
+#include "ui/panels/haptics_panel.h"
+#include "ui/window/main_tool_bar.h"
+#include "ui/window/window_actions.h"
+#include "ui/window/window_docks.h"
+#include "ui/window/window_messages.h"
+#include "ui/window/window_options.h"
+
+#include <QObject>
+
+namespace marsview {
+namespace {
+
+NoticeCommands noticeCommandsOf(const WindowParts& parts)
+{
+    return {.show_fact =
+                [&docks = parts.docks, &panel = parts.georeferencing](const QString& notice) {
+                    docks.reveal(*docks.georeferencing());
+                    panel.showNotice(notice);
+                },
+            .show_haptics = [&docks = parts.docks] { docks.reveal(*docks.haptics()); },
+            .save_diagnostic_log = [&panel = parts.haptics_panel] { panel.chooseFlightRecord(); }};
+}
+
+} // namespace
+
+WindowCommands::WindowCommands(const WindowParts& parts, const WindowOptions& options)
+    : project(parts.session,
+              parts.measuring,
+              parts.view,
+              {.bundled = options.bundled_maps, .autosave_folder = options.autosave_folder})
+    , project_menu({.window = parts.window,
+                    .file_menu = *parts.actions.file,
+                    .session = parts.session,
+                    .project = project,
+                    .notices = parts.notices,
+                    .memory = options.isRemembered() ? RecentFiles::Memory::Settings
+                                                     : RecentFiles::Memory::WindowOnly,
+                    .has_questions = options.questions == WindowOptions::Questions::Ask})
+    , contours({.window = parts.window,
+                .session = parts.session,
+                .view = parts.view,
+                .interval = *parts.actions.contour_interval,
+                .export_contours = *parts.actions.export_contours})
+    , vector_files({.window = parts.window,
+                    .session = parts.session,
+                    .view = parts.view,
+                    .notices = parts.notices,
+                    .open = *parts.actions.open_vector,
+                    .files = *parts.actions.vector_files})
+    , names({.window = parts.window,
+             .view = parts.view,
+             .overlays = parts.overlays,
+             .field = parts.tool_bar.searchField(),
+             .open_names = *parts.actions.open_names,
+             .is_remembered = options.isRemembered()})
+    , preferences({.window = parts.window,
+                   .actions = parts.actions,
+                   .session = parts.session,
+                   .view = parts.view,
+                   .overlays = parts.overlays,
+                   .haptics = parts.haptics,
+                   .readout = parts.readout,
+                   .layers = parts.layers,
+                   .georeferencing = parts.georeferencing,
+                   .measure_panel = parts.measure_panel,
+                   .measure_marks = parts.measure_marks,
+                   .stretch = parts.stretch,
+                   .opener = options.opener,
+                   .is_remembered = options.isRemembered()})
+    , files({.window = parts.window,
+             .actions = parts.actions,
+             .session = parts.session,
+             .projects = project_menu,
+             .vector_files = vector_files,
+             .is_remembered = options.isRemembered()})
+    , view({.window = parts.window,
+            .actions = parts.actions,
+            .view = parts.view,
+            .docks = parts.docks,
+            .layers = parts.layers,
+            .messages = parts.messages})
+    , layers({.actions = parts.actions,
+              .session = parts.session,
+              .docks = parts.docks,
+              .layers = parts.layers,
+              .georeferencing = parts.georeferencing,
+              .tool_bar = parts.tool_bar,
+              .light = parts.light})
+    , progress({.actions = parts.actions,
+                .session = parts.session,
+                .view = parts.view,
+                .pictures = parts.pictures,
+                .status = parts.load_status,
+                .messages = parts.messages})
+    , places({.window = parts.window,
+              .actions = parts.actions,
+              .session = parts.session,
+              .view = parts.view,
+              .overlays = parts.overlays,
+              .readout = parts.readout,
+              .tool_bar = parts.tool_bar,
+              .names = names,
+              .measuring = parts.measuring,
+              .vector_files = vector_files,
+              .preferences = preferences})
+    , measuring({.actions = parts.actions,
+                 .measuring = parts.measuring,
+                 .view = parts.view,
+                 .docks = parts.docks})
+    , haptics({.actions = parts.actions,
+               .session = parts.session,
+               .haptics = parts.haptics,
+               .panel = parts.haptics_panel,
+               .docks = parts.docks,
+               .messages = parts.messages,
+               .is_remembered = options.isRemembered()})
+    , notices({.center = parts.notices,
+               .session = parts.session,
+               .view = parts.view,
+               .haptics = parts.haptics,
+               .fetched_tiles = options.opener.resources.fetched_tiles},
+              noticeCommandsOf(parts))
+    , sound({.action = *parts.actions.contact_sound,
+             .view = parts.view,
+             .messages = parts.messages,
+             .open_sound = options.open_sound,
+             .is_remembered = options.isRemembered()})
+    , spacemouse(parts.view, options.spacemouse)
+    , help(parts.window, parts.view, parts.actions)
+{
+    showMessages(parts.messages);
+    showNames(parts.overlays);
+}
+
+void WindowCommands::showMessages(WindowMessages& messages)
+{
+    const auto report_as = [&messages](const QString& title) {
+        return [&messages, title](const QString& problem) { messages.report(title, problem); };
+    };
+    QObject::connect(&project, &ProjectController::saved, &messages, &WindowMessages::showSaved);
+    QObject::connect(&project, &ProjectController::failed, &messages, report_as(tr("Project")));
+    QObject::connect(&contours, &ContourTools::exported, &messages, &WindowMessages::showSaved);
+    QObject::connect(&contours, &ContourTools::failed, &messages,
+                     report_as(tr("Cannot Export Contours")));
+    QObject::connect(&vector_files, &VectorTools::opened, &messages, &WindowMessages::show);
+    QObject::connect(&vector_files, &VectorTools::failed, &messages,
+                     report_as(tr("Cannot Open Vector File")));
+    QObject::connect(&names, &NameSearch::opened, &messages, &WindowMessages::show);
+    QObject::connect(&names, &NameSearch::failed, &messages, report_as(tr("Cannot Open Names")));
+    QObject::connect(&spacemouse, &SpaceMouseController::connected, &messages,
+                     [&messages](const QString& name) {
+                         //: In the status bar, for a few seconds; %1 is a device
+                         messages.show(tr("%1 moves the camera").arg(name));
+                     });
+    QObject::connect(&spacemouse, &SpaceMouseController::disconnected, &messages,
+                     [&messages](const QString& name) {
+                         //: In the status bar, for a few seconds; %1 is a device
+                         messages.show(tr("%1 was unplugged").arg(name));
+                     });
+}
+
+void WindowCommands::showNames(MapOverlays& overlays)
+{
+    const auto show = [this, &overlays] { overlays.labels()->setNames(names.namesOnMap().names); };
+    QObject::connect(&names, &NameSearch::changed, &names, show);
+    show();
+}
+
+} // namespace marsview

@@ -1,0 +1,124 @@
+#include "ui/commands/work_progress.h"
+
+#include "ui/canvas/terrain_view.h"
+#include "ui/commands/picture_saver.h"
+#include "ui/controllers/session_controller.h"
+#include "ui/text/number_text.h"
+#include "ui/window/load_status.h"
+#include "ui/window/window_actions.h"
+#include "ui/window/window_messages.h"
+
+#include <QAction>
+#include <QFileInfo>
+
+namespace marsview {
+
+WorkProgress::WorkProgress(const Parts& parts)
+    : parts_(parts)
+{
+    connect(parts_.actions.cancel_loading, &QAction::triggered, this, [this] {
+        parts_.session.isBusy() ? parts_.session.cancel() : parts_.pictures.cancel();
+    });
+    connect(&parts_.view, &TerrainView::ready, this, &WorkProgress::settleIfIdle,
+            Qt::QueuedConnection);
+    connect(&parts_.view, &TerrainView::pictureCompleted, this, &WorkProgress::settleIfIdle);
+    followLoading();
+    followPreparing();
+    followSaving();
+}
+
+void WorkProgress::followLoading()
+{
+    SessionController& session = parts_.session;
+    connect(&parts_.status, &LoadStatus::cancelRequested, &session, &SessionController::cancel);
+    connect(&session, &SessionController::loadProgressed, this, [this](const LoadReport& report) {
+        parts_.status.showReport(report);
+        //: Shown in the middle of the window while the first map comes; %1 is a file
+        parts_.view.setHint(tr("Opening %1…").arg(isolated(QFileInfo(report.file).fileName())));
+        showCancel();
+    });
+    connect(&session, &SessionController::loadingEnded, this, [this] {
+        parts_.status.endLoading();
+        parts_.view.setHint({});
+        showCancel();
+        settleIfIdle();
+    });
+    connect(&session, &SessionController::loadingCanceled, this, [this] {
+        //: In the status bar, for a few seconds
+        parts_.messages.show(tr("Loading canceled"));
+    });
+    connect(&session, &SessionController::failed, this, [this](const QString& problem) {
+        parts_.messages.report(tr("Cannot Open Map"), problem);
+    });
+}
+
+void WorkProgress::followPreparing()
+{
+    SessionController& session = parts_.session;
+    connect(&parts_.status, &LoadStatus::stopPreparingRequested, &session,
+            &SessionController::stopPreparing);
+    connect(parts_.actions.stop_preparing, &QAction::triggered, &session,
+            &SessionController::stopPreparing);
+    connect(&session, &SessionController::preparingProgressed, this,
+            [this](const PrepareProgress& progress) {
+                parts_.status.showPreparing(progress);
+                parts_.actions.stop_preparing->setEnabled(true);
+            });
+    connect(&session, &SessionController::preparingEnded, this, [this] {
+        parts_.status.endPreparing();
+        parts_.actions.stop_preparing->setEnabled(false);
+        settleIfIdle();
+    });
+}
+
+void WorkProgress::followSaving()
+{
+    PictureSaver& pictures = parts_.pictures;
+    connect(&parts_.status, &LoadStatus::cancelSavingRequested, &pictures, &PictureSaver::cancel);
+    connect(parts_.actions.save_picture, &QAction::triggered, this, [this] {
+        const Layer* active = activeLayer(parts_.session.session());
+        parts_.pictures.start(
+            active != nullptr ? QFileInfo(QString::fromStdString(active->name)).completeBaseName()
+                              : tr("map"));
+    });
+    connect(&pictures, &PictureSaver::progressed, this, [this](const QString& file, double share) {
+        parts_.status.showSaving(file, share);
+        showCancel();
+    });
+    const auto end_saving = [this] {
+        parts_.status.endSaving();
+        showCancel();
+    };
+    connect(&pictures, &PictureSaver::failed, this, end_saving);
+    connect(&pictures, &PictureSaver::saved, this, end_saving);
+    connect(&pictures, &PictureSaver::canceled, this, end_saving);
+    connect(&pictures, &PictureSaver::canceled, this, [this] {
+        //: In the status bar, for a few seconds
+        parts_.messages.show(tr("Saving canceled"));
+    });
+    connect(&pictures, &PictureSaver::saved, &parts_.messages, &WindowMessages::showSaved);
+    connect(&pictures, &PictureSaver::failed, this, [this](const QString& problem) {
+        parts_.messages.report(tr("Cannot Save Picture"), problem);
+    });
+}
+
+void WorkProgress::showCancel()
+{
+    const bool is_loading = parts_.session.isBusy();
+    const bool is_saving = parts_.pictures.isSaving();
+    QAction& cancel = *parts_.actions.cancel_loading;
+    cancel.setEnabled(is_loading || is_saving);
+    cancel.setText(is_saving && !is_loading ? tr("&Cancel Saving") : tr("&Cancel Loading"));
+    parts_.actions.save_picture->setEnabled(!is_saving);
+}
+
+void WorkProgress::settleIfIdle()
+{
+    const SessionController& session = parts_.session;
+    if (parts_.view.isReady() && !session.isBusy() && !session.isPreparing() &&
+        (shownLayers(session.session()).empty() || parts_.view.isPictureComplete())) {
+        Q_EMIT settled();
+    }
+}
+
+} // namespace marsview

@@ -1,0 +1,49 @@
+// What the window is busy with: loading, building overviews, saving a picture.
+#pragma once
+
+#include <QObject>
+
+namespace marsview {
+
+class LoadStatus;
+class PictureSaver;
+class SessionController;
+class TerrainView;
+class WindowMessages;
+struct WindowActions;
+
+/// Shows it in the status bar and lets the user cancel it. GUI thread; must not outlive what it is
+/// made of.
+class WorkProgress final : public QObject {
+    Q_OBJECT
+
+public:
+    struct Parts {
+        const WindowActions& actions;
+        SessionController& session;
+        TerrainView& view;
+        PictureSaver& pictures;
+        LoadStatus& status;
+        WindowMessages& messages;
+    };
+
+    explicit WorkProgress(const Parts& parts);
+
+    /// Emits settled() if nothing is going on.
+    void settleIfIdle();
+
+Q_SIGNALS:
+    /// Nothing is loading or being prepared, and the picture shows all there is, or there is
+    /// nothing to load.
+    void settled();
+
+private:
+    void followLoading();
+    void followPreparing();
+    void followSaving();
+    void showCancel();
+
+    Parts parts_;
+};
+
+} // namespace marsview
