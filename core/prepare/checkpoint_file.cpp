@@ -13,18 +13,15 @@
 #include <vector>
 
 namespace marsview {
-namespace {
 
-std::string unfinished(const std::string& path)
+std::string CheckpointWriter::unfinishedPath(const std::string& path)
 {
     return path + ".new";
 }
 
-} // namespace
-
 CheckpointWriter::CheckpointWriter(const std::string& path)
     : path_(path)
-    , file_(std::fopen(unfinished(path).c_str(), "wb"))
+    , file_(std::fopen(unfinishedPath(path).c_str(), "wb"))
     , has_failed_(!file_)
 {}
 
@@ -32,7 +29,7 @@ CheckpointWriter::~CheckpointWriter()
 {
     if (file_) {
         file_.reset();
-        std::remove(unfinished(path_).c_str());
+        std::remove(unfinishedPath(path_).c_str());
     }
 }
 
@@ -60,7 +57,7 @@ bool CheckpointWriter::finish()
     }
     file_.reset();
     std::error_code problem;
-    std::filesystem::rename(unfinished(path_), path_, problem);
+    std::filesystem::rename(unfinishedPath(path_), path_, problem);
     flushFolderToDisk(std::filesystem::path(path_).parent_path());
     return !problem;
 }

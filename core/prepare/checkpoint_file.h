@@ -44,6 +44,9 @@ public:
     /// False if the file could not be written; PATH is then unchanged.
     bool finish();
 
+    /// PATH.new; a kill may leave it.
+    static std::string unfinishedPath(const std::string& path);
+
 private:
     struct Close {
         void operator()(std::FILE* file) const noexcept { std::fclose(file); }

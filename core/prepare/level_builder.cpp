@@ -7,15 +7,18 @@
 #include "core/prepare/level_builder.h"
 
 #include "core/base/check.h"
-#include "core/prepare/build_checkpoints.h"
+#include "core/prepare/checkpoints.h"
 #include "core/prepare/disk_room.h"
 #include "core/prepare/level_errors.h"
 #include "core/prepare/level_file_writer.h"
 #include "core/prepare/level_survey.h"
+#include "core/prepare/tile_rows.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <fmt/format.h>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -64,9 +67,12 @@ std::string subjectOf(const LevelBuild& build)
                                  .statistics = {},
                                  .scale = build.scale,
                                  .planes = {}};
-    return fmt::format("checkpoint 2, version {}, at most {} means\n{}", kLevelFileVersion,
+    return fmt::format("level file {}, at most {} means\n{}", kLevelFileVersion,
                        build.mean_blocks_max, writtenHeader(header));
 }
+
+// In this order.
+enum class BuildStage : std::uint8_t { Survey, Means, Errors };
 
 // A complete build of a level file.
 class LevelFileBuild {
@@ -103,34 +109,27 @@ private:
         }
         monitor_.beginStage(0.0, kSurveyShare);
         const auto save_survey = [this](CheckpointWriter& to) { return survey_->save(to); };
-        const auto run = [this](const BuildCheckpoints::Stage& stage) {
-            return checkpoints_.run(stage, readers_, *writer_, monitor_);
-        };
-        if (place_.stage == BuildStage::Survey) {
+        if (stage_ == BuildStage::Survey) {
             Status surveyed =
-                run({.stage = BuildStage::Survey,
-                     .first = place_.row,
-                     .end = layout_.tileRows(TileKind::Samples, 0),
+                run({.end = layout_.tileRows(TileKind::Samples, 0),
                      .work = [this](TileReader& reader,
                                     std::size_t row) { return survey_->surveyRow(reader, row); },
                      .save = save_survey});
             if (!surveyed) {
                 return surveyed;
             }
-            place_ = {.stage = BuildStage::Means, .row = 0, .written = {}};
+            enter(BuildStage::Means);
         }
-        if (place_.stage == BuildStage::Means) {
+        if (stage_ == BuildStage::Means) {
             Status surveyed = run(
-                {.stage = BuildStage::Means,
-                 .first = place_.row,
-                 .end = survey_->meanRowCount(),
+                {.end = survey_->meanRowCount(),
                  .work = [this](TileReader& reader,
                                 std::size_t row) { return survey_->surveyMeanRow(reader, row); },
                  .save = save_survey});
             if (!surveyed) {
                 return surveyed;
             }
-            place_ = {.stage = BuildStage::Errors, .row = 0, .written = {}};
+            enter(BuildStage::Errors);
         }
         const LevelSurvey& survey = survey_->finish();
         monitor_.beginStage(kSurveyShare, kSurveyShare + kErrorsShare);
@@ -138,14 +137,12 @@ private:
         if (auto begun = errors.begin(); !begun) {
             return begun;
         }
-        if (place_.row > 0 && !errors.restore(*state_)) {
+        if (row_ > 0 && !errors.restore(*state_)) {
             return damaged(build_.path, "cannot be resumed");
         }
         state_.reset();
         Status measured =
-            run({.stage = BuildStage::Errors,
-                 .first = place_.row,
-                 .end = layout_.tileRows(TileKind::Samples, 0),
+            run({.end = layout_.tileRows(TileKind::Samples, 0),
                  .work = [&errors](TileReader& reader,
                                    std::size_t row) { return errors.measureRow(reader, row); },
                  .save =
@@ -165,12 +162,17 @@ private:
     Status begin()
     {
         if (auto found = checkpoints_.find()) {
-            auto writer = LevelFileWriter::resume(build_.path, found->place.written);
+            LevelFileWriter::Written written{.bytes = found->place.file_bytes};
+            auto writer = found->place.stage <= static_cast<std::uint8_t>(BuildStage::Errors) &&
+                                  found->state.get(written.checksum)
+                              ? LevelFileWriter::resume(build_.path, written)
+                              : damaged(build_.path, "cannot be resumed");
             if (writer) {
                 writer_ = std::move(writer).value();
                 makeSurvey();
                 if (survey_->restore(found->state)) {
-                    place_ = found->place;
+                    stage_ = static_cast<BuildStage>(found->place.stage);
+                    row_ = static_cast<std::size_t>(found->place.rows);
                     state_ = std::move(found->state);
                     checkpoints_.adopt();
                     return Done{};
@@ -191,6 +193,57 @@ private:
         }
         makeSurvey();
         return survey_->begin();
+    }
+
+    void enter(BuildStage stage)
+    {
+        stage_ = stage;
+        row_ = 0;
+    }
+
+    // What is left of a stage.
+    struct Rows {
+        std::size_t end = 0;
+        TileReaders::Work work;
+        std::function<bool(CheckpointWriter& to)> save;
+    };
+
+    // Works on the rows, and saves checkpoints between them.
+    Status run(const Rows& rows)
+    {
+        while (row_ < rows.end) {
+            const Result<std::size_t> next =
+                readers_.eachRow({.first = row_, .end = rows.end, .until = checkpoints_.next()},
+                                 rows.work, monitor_);
+            if (!next) {
+                return next.error();
+            }
+            row_ = *next;
+            if (row_ < rows.end) {
+                saveRows(rows);
+            }
+        }
+        return Done{};
+    }
+
+    void saveRows(const Rows& rows)
+    {
+        std::optional<LevelFileWriter::Written> written;
+        checkpoints_.save(
+            [&]() -> std::optional<JobPlace> {
+                written = writer_->flush();
+                if (!written) {
+                    return std::nullopt;
+                }
+                return JobPlace{.stage = static_cast<std::uint8_t>(stage_),
+                                .rows = row_,
+                                .row_count = rows.end,
+                                .file_bytes = written->bytes};
+            },
+            [&](CheckpointWriter& to) {
+                to.put(written->checksum);
+                return rows.save(to);
+            });
     }
 
     void makeSurvey()
@@ -258,11 +311,12 @@ private:
     TileLayout layout_;
     JobMonitor& monitor_;
     std::string means_path_;
-    BuildCheckpoints checkpoints_;
+    Checkpoints checkpoints_;
     TileReaders readers_;
     std::unique_ptr<LevelFileWriter> writer_;
     std::optional<LevelSurveyPass> survey_;
-    BuildPlace place_;                      // where to start
+    BuildStage stage_ = BuildStage::Survey;
+    std::size_t row_ = 0;                   // the first one of the stage that is not done
     std::optional<CheckpointReader> state_; // of the second pass, if it was started
 };
 

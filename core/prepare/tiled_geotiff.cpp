@@ -3,8 +3,7 @@
 #include "core/base/check.h"
 #include "core/base/file_lock.h"
 #include "core/base/parallel.h"
-#include "core/prepare/checkpoint_schedule.h"
-#include "core/prepare/copy_checkpoint.h"
+#include "core/prepare/checkpoints.h"
 #include "core/prepare/disk_room.h"
 #include "core/prepare/geotiff_skeleton.h"
 #include "core/prepare/overview_builder.h"
@@ -46,6 +45,11 @@ constexpr std::size_t kTileRowsPerCheckpoint = 8;
 constexpr double kBytesPerRawByte = 1.34;
 
 constexpr const char* kFormVersion = "tiled GeoTIFF 1";
+
+std::string checkpointOf(const std::string& path)
+{
+    return path + ".part.checkpoint";
+}
 
 std::size_t tilesAlong(std::size_t samples)
 {
@@ -156,17 +160,16 @@ public:
                 const RasterInfo& info,
                 std::string key,
                 std::string source_path,
-                std::string source_stamp,
+                const std::string& source_stamp,
                 TiledGeoTiffReport& report);
 
     /// Resumes an interrupted attempt, or creates the file.
     Status begin();
     /// Reads, encodes and writes the missing tiles.
     Status copy(JobMonitor& monitor);
-    bool hasCheckpoint() const { return tile_rows_noted_ > 0; }
-    void discard() const;
+    bool hasCheckpoint() const noexcept { return checkpoints_.hasCheckpoint(); }
+    void discard();
     const std::string& partPath() const { return part_path_; }
-    std::string checkpointPath() const { return part_path_ + ".checkpoint"; }
 
 private:
     bool tryResume();
@@ -176,7 +179,7 @@ private:
     Status
     writeLevelRows(std::size_t level, const OverviewBuilder::Rows& rows, std::size_t tile_row);
     Status append(std::size_t page, std::size_t tile_row, EncodedTiles& tiles);
-    bool saveRows();
+    std::optional<JobPlace> reach();
     std::size_t tileRows() const { return tilesAlong(info_.rows); }
 
     const TiledGeoTiffJob& job_;
@@ -184,7 +187,6 @@ private:
     const RasterInfo& info_;
     std::string key_;
     std::string source_path_;
-    std::string source_stamp_;
     TiledGeoTiffReport& report_;
     std::string part_path_;
     OverviewBuilder overviews_;
@@ -193,8 +195,7 @@ private:
     std::vector<std::size_t> pages_;
     std::vector<std::size_t> mask_pages_;
     std::size_t tile_rows_done_ = 0;
-    std::size_t tile_rows_noted_ = 0;
-    CheckpointSchedule schedule_;
+    Checkpoints checkpoints_;
 };
 
 Preparation::Preparation(const TiledGeoTiffJob& job,
@@ -202,26 +203,24 @@ Preparation::Preparation(const TiledGeoTiffJob& job,
                          const RasterInfo& info,
                          std::string key,
                          std::string source_path,
-                         std::string source_stamp,
+                         const std::string& source_stamp,
                          TiledGeoTiffReport& report)
     : job_(job)
     , source_(source)
     , info_(info)
     , key_(std::move(key))
     , source_path_(std::move(source_path))
-    , source_stamp_(std::move(source_stamp))
     , report_(report)
     , part_path_(job.path + ".part")
     , overviews_(info.columns, info.rows, info.type, info.nodata, info.needsVoidMask())
-    , schedule_(job.checkpoint_interval)
+    , checkpoints_(checkpointOf(job.path), key_ + '\n' + source_stamp, job.checkpoint_interval)
 {}
 
-void Preparation::discard() const
+void Preparation::discard()
 {
     std::error_code ignored;
     fs::remove(part_path_, ignored);
-    fs::remove(checkpointPath(), ignored);
-    fs::remove(checkpointPath() + ".new", ignored);
+    checkpoints_.remove();
 }
 
 // Finds the page of every level by its size.
@@ -260,10 +259,14 @@ bool Preparation::opensAsTheMap() const
 
 bool Preparation::tryResume()
 {
-    const std::optional<CopyCheckpoint> checkpoint = readCopyCheckpoint(checkpointPath());
-    if (!checkpoint || checkpoint->source_stamp != source_stamp_ || checkpoint->key != key_ ||
-        checkpoint->tile_rows > tileRows() || checkpoint->tile_rows % kTileRowsPerCheckpoint != 0 ||
-        checkpoint->tile_rows == 0) {
+    std::optional<Checkpoints::Found> checkpoint = checkpoints_.find();
+    if (!checkpoint) {
+        return false;
+    }
+    const JobPlace& place = checkpoint->place;
+    std::vector<std::uint8_t> overviews;
+    if (place.rows == 0 || place.rows > tileRows() || place.rows % kTileRowsPerCheckpoint != 0 ||
+        !checkpoint->state.getAny(overviews)) {
         return false;
     }
     Result<TiffTiles> tiles = TiffTiles::open(part_path_);
@@ -271,10 +274,10 @@ bool Preparation::tryResume()
         return false;
     }
     tiles_ = std::move(tiles).value();
-    const auto tile_rows = static_cast<std::size_t>(checkpoint->tile_rows);
+    const auto tile_rows = static_cast<std::size_t>(place.rows);
     const Result<std::uint64_t> bytes = tiles_->fileBytes();
-    if (!bytes || *bytes < checkpoint->file_bytes || !findPages() ||
-        !overviews_.restore(tile_rows, checkpoint->overviews)) {
+    if (!bytes || *bytes < place.file_bytes || !findPages() ||
+        !overviews_.restore(tile_rows, overviews)) {
         return false;
     }
     for (const std::vector<std::size_t>* pages : {&pages_, &mask_pages_}) {
@@ -283,24 +286,25 @@ bool Preparation::tryResume()
             const std::size_t complete =
                 level > OverviewBuilder::kStreamedLevels ? 0 : tile_rows >> level;
             const std::size_t noted = complete * tiles_->pages()[page].tile_columns;
-            if (!tiles_->holdsTiles(page, noted, checkpoint->file_bytes) ||
+            if (!tiles_->holdsTiles(page, noted, place.file_bytes) ||
                 !tiles_->areWhole(page, noted)) {
                 return false;
             }
         }
     }
     tile_rows_done_ = tile_rows;
-    if (!opensAsTheMap() || !tiles_->trim(checkpoint->file_bytes)) {
+    if (!opensAsTheMap() || !tiles_->trim(place.file_bytes)) {
         return false;
     }
-    tile_rows_noted_ = tile_rows;
+    checkpoints_.adopt();
     return true;
 }
 
 Status Preparation::begin()
 {
     std::error_code ignored;
-    const bool was_begun = fs::exists(part_path_, ignored) && fs::exists(checkpointPath(), ignored);
+    const bool was_begun =
+        fs::exists(part_path_, ignored) && fs::exists(checkpointOf(job_.path), ignored);
     if (was_begun && tryResume()) {
         report_.notes.push_back(fmt::format("{}: resumed after row {} of {}", job_.path,
                                             std::min(tile_rows_done_ * kTileSide, info_.rows),
@@ -328,7 +332,6 @@ Status Preparation::begin()
             return writeError(part_path_, 0, "was not created with the requested layout");
         }
     }
-    schedule_ = CheckpointSchedule(job_.checkpoint_interval);
     return Done{};
 }
 
@@ -412,22 +415,14 @@ Status Preparation::writeLevelRows(std::size_t level,
     return append(mask_pages_[level], tile_row, masks);
 }
 
-// A failed checkpoint does not stop the copy: writing the next tiles will report the cause.
-bool Preparation::saveRows()
+std::optional<JobPlace> Preparation::reach()
 {
     const Status flushed = tiles_->flush();
     const Result<std::uint64_t> bytes = tiles_->fileBytes();
-    if (!flushed || !bytes ||
-        !saveCheckpoint(checkpointPath(), {.key = key_,
-                                           .source_stamp = source_stamp_,
-                                           .tile_rows = tile_rows_done_,
-                                           .tile_rows_all = tileRows(),
-                                           .file_bytes = *bytes,
-                                           .overviews = overviews_.save(tile_rows_done_)})) {
-        return false;
+    if (!flushed || !bytes) {
+        return std::nullopt;
     }
-    tile_rows_noted_ = tile_rows_done_;
-    return true;
+    return JobPlace{.rows = tile_rows_done_, .row_count = tileRows(), .file_bytes = *bytes};
 }
 
 Status Preparation::copy(JobMonitor& monitor)
@@ -469,8 +464,12 @@ Status Preparation::copy(JobMonitor& monitor)
                     }
                 }
             }
-            if (!is_last && tile_rows_done_ % kTileRowsPerCheckpoint == 0 && schedule_.isDue()) {
-                schedule_.run([this] { return saveRows(); });
+            if (!is_last && tile_rows_done_ % kTileRowsPerCheckpoint == 0 && checkpoints_.isDue()) {
+                checkpoints_.save([this] { return reach(); },
+                                  [this](CheckpointWriter& to) {
+                                      to.putArray(overviews_.save(tile_rows_done_));
+                                      return true;
+                                  });
             }
             monitor.report(static_cast<double>(tile_rows_done_) / static_cast<double>(tileRows()));
         }
@@ -541,10 +540,9 @@ Status checkIsNotSource(const TiledGeoTiffJob& job, const RasterFile& source)
 // Reports the progress of the program that holds the lock.
 void reportOthersProgress(const std::string& path, JobMonitor& monitor)
 {
-    const std::optional<CopyCheckpoint> checkpoint = readCopyCheckpoint(path + ".part.checkpoint");
-    if (checkpoint && checkpoint->tile_rows_all > 0) {
-        monitor.report(static_cast<double>(checkpoint->tile_rows) /
-                       static_cast<double>(checkpoint->tile_rows_all));
+    const std::optional<JobPlace> place = placeInCheckpoint(checkpointOf(path));
+    if (place && place->row_count > 0) {
+        monitor.report(static_cast<double>(place->rows) / static_cast<double>(place->row_count));
     }
 }
 
@@ -579,7 +577,7 @@ Result<FileLock> lockFor(const TiledGeoTiffJob& job, JobMonitor& monitor, bool& 
     }
 }
 
-Status publish(const TiledGeoTiffJob& job, const Preparation& preparation)
+Status publish(const TiledGeoTiffJob& job, Preparation& preparation)
 {
     std::error_code failure;
     const bool is_replaced = fs::exists(job.path, failure);

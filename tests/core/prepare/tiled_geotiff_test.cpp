@@ -1,6 +1,6 @@
 // The tiled copy against its source, by GDAL's tools and by brute force.
 #include "core/base/file_lock.h"
-#include "core/prepare/copy_checkpoint.h"
+#include "core/prepare/checkpoints.h"
 #include "core/prepare/geotiff_skeleton.h"
 #include "core/prepare/overview_builder.h"
 #include "core/prepare/tiled_geotiff.h"
@@ -558,14 +558,14 @@ TEST(TiledGeoTiff, RestartsIfTheUnfinishedFileIsDamagedOrOfAnotherSource)
     const std::string part = job.path + ".part";
     const std::string checkpoint = part + ".checkpoint";
     const std::vector<std::pair<const char*, std::function<void()>>> damages{
-        {"cut", [&] { fs::resize_file(part, readCopyCheckpoint(checkpoint)->file_bytes - 1); }},
+        {"cut", [&] { fs::resize_file(part, placeInCheckpoint(checkpoint)->file_bytes - 1); }},
         {"empty", [&] { fs::resize_file(part, 0); }},
         {"no TIFF", [&] { folder.write("copy.tif.part", std::string(100'000, 'x')); }},
         {"zeroed tiles",
          [&] {
              std::string bytes = test::readFile(part);
              const auto noted =
-                 static_cast<std::ptrdiff_t>(readCopyCheckpoint(checkpoint)->file_bytes);
+                 static_cast<std::ptrdiff_t>(placeInCheckpoint(checkpoint)->file_bytes);
              std::fill(bytes.begin() + noted / 2, bytes.end(), '\0');
              folder.write("copy.tif.part", bytes);
          }},
@@ -619,7 +619,7 @@ TEST(TiledGeoTiff, NeverResumesFromTilesWithAFlippedBit)
     const std::string left = test::readFile(part);
     const std::string checkpoint = test::readFile(checkpoint_path);
     const std::uint64_t begin = fs::file_size(empty) + 1000; // the real key is longer
-    const std::uint64_t end = readCopyCheckpoint(checkpoint_path)->file_bytes;
+    const std::uint64_t end = placeInCheckpoint(checkpoint_path)->file_bytes;
     ASSERT_GT(end, 10 * begin);
     const std::string truth = samplesOf(source);
     test::Random random;
