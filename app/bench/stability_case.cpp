@@ -1,9 +1,8 @@
 #include "app/bench/stability_case.h"
 
-#include "core/base/check.h"
+#include "app/bench/computed_terrain.h"
 #include "core/base/split_mix.h"
 #include "core/terrain/filled_heightfield.h"
-#include "core/terrain/surface_analysis.h"
 
 #include <algorithm>
 #include <cmath>
@@ -43,23 +42,9 @@ double heightAt(StabilityScene scene, std::size_t column, std::size_t row)
 
 std::shared_ptr<const FilledHeightfield> terrainOf(StabilityScene scene)
 {
-    auto grid = SampleGrid::create(SampleType::Float32, kSide, kSide);
-    MARSVIEW_CHECK(grid);
-    for (std::size_t row = 0; row < kSide; ++row) {
-        auto* samples = reinterpret_cast<float*>(grid->rowData(row));
-        for (std::size_t column = 0; column < kSide; ++column) {
-            samples[column] = static_cast<float>(heightAt(scene, column, row));
-        }
-    }
-    const SampleStatistics statistics = grid->applyRule({}, 0, kSide);
-    grid->clearVoids();
-    const Heightfield heightfield(std::make_shared<const SampleGrid>(std::move(grid).value()),
-                                  statistics, {});
-    JobMonitor monitor;
-    auto analysis = analyze(heightfield, monitor);
-    auto filled = FilledHeightfield::build(heightfield, *analysis, monitor);
-    MARSVIEW_CHECK(filled);
-    return std::make_shared<const FilledHeightfield>(std::move(filled).value());
+    return computedTerrain(kSide, [scene](std::size_t column, std::size_t row) {
+        return heightAt(scene, column, row);
+    });
 }
 
 // Created once: they are the same in every run.

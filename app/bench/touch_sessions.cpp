@@ -1,10 +1,9 @@
 #include "app/bench/touch_sessions.h"
 
 #include "app/bench/closed_loop.h"
-#include "core/base/check.h"
+#include "app/bench/computed_terrain.h"
 #include "core/base/split_mix.h"
 #include "core/terrain/filled_heightfield.h"
-#include "core/terrain/surface_analysis.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,24 +35,10 @@ constexpr std::size_t kTerrainCount = 3;
 
 std::shared_ptr<const FilledHeightfield> filledTerrain(std::size_t kind)
 {
-    auto grid = SampleGrid::create(SampleType::Float32, kSessionSide, kSessionSide);
-    MARSVIEW_CHECK(grid);
-    for (std::size_t row = 0; row < kSessionSide; ++row) {
-        auto* samples = reinterpret_cast<float*>(grid->rowData(row));
-        for (std::size_t column = 0; column < kSessionSide; ++column) {
-            samples[column] = static_cast<float>(terrainHeight(
-                kind, static_cast<double>(column) - kHalfM, kHalfM - static_cast<double>(row)));
-        }
-    }
-    const SampleStatistics statistics = grid->applyRule({}, 0, kSessionSide);
-    grid->clearVoids();
-    const Heightfield heightfield(std::make_shared<const SampleGrid>(std::move(grid).value()),
-                                  statistics, {});
-    JobMonitor monitor;
-    auto analysis = analyze(heightfield, monitor);
-    auto filled = FilledHeightfield::build(heightfield, *analysis, monitor);
-    MARSVIEW_CHECK(filled);
-    return std::make_shared<const FilledHeightfield>(std::move(filled).value());
+    return computedTerrain(kSessionSide, [kind](std::size_t column, std::size_t row) {
+        return terrainHeight(kind, static_cast<double>(column) - kHalfM,
+                             kHalfM - static_cast<double>(row));
+    });
 }
 
 std::shared_ptr<ServoMap> mapOf(std::size_t kind, std::uint64_t id)

@@ -3,6 +3,7 @@
 #include "core/base/check.h"
 #include "core/base/deflate.h"
 #include "core/base/raw_array.h"
+#include "core/raster/sample_type.h"
 
 #include <algorithm>
 #include <array>
@@ -18,23 +19,6 @@ constexpr std::byte kDeflated{1};
 
 // Higher levels take twice as long and save 2 % on elevations.
 constexpr int kEffort = 5;
-
-template <typename F>
-void dispatchUnsigned(std::size_t bytes, F&& function)
-{
-    switch (bytes) {
-    case 1:
-        return function(std::uint8_t{});
-    case 2:
-        return function(std::uint16_t{});
-    case 4:
-        return function(std::uint32_t{});
-    case 8:
-        return function(std::uint64_t{});
-    default:
-        MARSVIEW_CHECK(false);
-    }
-}
 
 template <typename T>
 T load(const std::byte* from)

@@ -52,6 +52,24 @@ constexpr decltype(auto) dispatchSampleType(SampleType type, F&& function)
     MARSVIEW_CHECK(false);
 }
 
+/// Calls `function(T{})` with the unsigned type of that many bytes: 1, 2, 4 or 8.
+template <typename F>
+constexpr decltype(auto) dispatchUnsigned(std::size_t bytes, F&& function)
+{
+    switch (bytes) {
+    case 1:
+        return std::forward<F>(function)(std::uint8_t{});
+    case 2:
+        return std::forward<F>(function)(std::uint16_t{});
+    case 4:
+        return std::forward<F>(function)(std::uint32_t{});
+    case 8:
+        return std::forward<F>(function)(std::uint64_t{});
+    default:
+        MARSVIEW_CHECK(false);
+    }
+}
+
 /// Bytes of one sample.
 constexpr std::size_t sampleBytes(SampleType type)
 {

@@ -48,27 +48,11 @@ std::uint32_t checksumOf(std::span<const std::byte> file)
     return crc32Of(file.subspan(kChecksumEnd));
 }
 
-// Calls `function` with an unsigned number of the size of a sample.
-template <typename F>
-void dispatchSampleSize(SampleType type, F&& function)
-{
-    switch (sampleBytes(type)) {
-    case 1:
-        return function(std::uint8_t{});
-    case 2:
-        return function(std::uint16_t{});
-    case 4:
-        return function(std::uint32_t{});
-    default:
-        return function(std::uint64_t{});
-    }
-}
-
 enum class Differences { Take, Undo };
 
 void difference(std::byte* row, std::size_t count, SampleType type, Differences which)
 {
-    dispatchSampleSize(type, [&](auto zero) {
+    dispatchUnsigned(sampleBytes(type), [&](auto zero) {
         using T = decltype(zero);
         T before = 0;
         for (std::size_t i = 0; i < count; ++i) {

@@ -2,15 +2,14 @@
 
 #include "core/session/measurement_tables.h"
 #include "ui/controllers/measure_controller.h"
+#include "ui/panels/save_chart_dialog.h"
 #include "ui/plots/stereonet_plot.h"
 #include "ui/text/measure_text.h"
 
 #include <QComboBox>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QHBoxLayout>
 #include <QLabel>
-#include <QMessageBox>
 #include <QPushButton>
 #include <QSaveFile>
 #include <QVBoxLayout>
@@ -98,26 +97,11 @@ QString AttitudesView::statisticsText() const
 
 void AttitudesView::askFile()
 {
-    auto* dialog = new QFileDialog(this, tr("Save Attitudes"), folder_);
-    dialog->setAcceptMode(QFileDialog::AcceptSave);
-    dialog->setNameFilters({tr("CSV table (*.csv)"), tr("PNG picture (*.png)"),
-                            tr("SVG drawing (*.svg)"), tr("PDF document (*.pdf)")});
-    dialog->setDefaultSuffix(QStringLiteral("csv"));
-    connect(dialog, &QFileDialog::filterSelected, dialog, [dialog](const QString& filter) {
-        const qsizetype dot = filter.lastIndexOf(QLatin1Char('.'));
-        dialog->setDefaultSuffix(filter.mid(dot + 1, 3));
-    });
-    dialog->selectFile(tr("attitudes") + QStringLiteral(".csv"));
-    dialog->setAttribute(Qt::WA_DeleteOnClose);
-    connect(dialog, &QFileDialog::fileSelected, this, [this](const QString& path) {
-        folder_ = QFileInfo(path).absolutePath();
-        if (!save(path)) {
-            QMessageBox::warning(
-                this, tr("Save Attitudes"),
-                tr("%1 cannot be written; choose another folder").arg(isolated(path)));
-        }
-    });
-    dialog->open();
+    askChartFile(*this, {.title = tr("Save Attitudes"), .name = tr("attitudes"), .folder = folder_},
+                 [this](const QString& path) {
+                     folder_ = QFileInfo(path).absolutePath();
+                     return save(path);
+                 });
 }
 
 bool AttitudesView::save(const QString& path) const

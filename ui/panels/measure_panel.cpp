@@ -6,6 +6,7 @@
 #include "ui/controllers/measure_controller.h"
 #include "ui/panels/attitudes_view.h"
 #include "ui/panels/measure_list.h"
+#include "ui/panels/save_chart_dialog.h"
 #include "ui/plots/profile_plot.h"
 #include "ui/text/sentence.h"
 #include "ui/widgets/caption.h"
@@ -305,26 +306,11 @@ void MeasurePanel::copyResults()
 
 void MeasurePanel::saveProfile()
 {
-    auto* dialog = new QFileDialog(this, tr("Save Profile"), folder_);
-    dialog->setAcceptMode(QFileDialog::AcceptSave);
-    dialog->setNameFilters({tr("CSV table (*.csv)"), tr("PNG picture (*.png)"),
-                            tr("SVG drawing (*.svg)"), tr("PDF document (*.pdf)")});
-    dialog->setDefaultSuffix(QStringLiteral("csv"));
-    connect(dialog, &QFileDialog::filterSelected, dialog, [dialog](const QString& filter) {
-        const qsizetype dot = filter.lastIndexOf(QLatin1Char('.'));
-        dialog->setDefaultSuffix(filter.mid(dot + 1, 3));
-    });
-    dialog->selectFile(tr("profile") + QStringLiteral(".csv"));
-    dialog->setAttribute(Qt::WA_DeleteOnClose);
-    connect(dialog, &QFileDialog::fileSelected, this, [this](const QString& path) {
-        folder_ = QFileInfo(path).absolutePath();
-        if (!writeProfile(path)) {
-            QMessageBox::warning(
-                this, tr("Save Profile"),
-                tr("%1 cannot be written; choose another folder").arg(isolated(path)));
-        }
-    });
-    dialog->open();
+    askChartFile(*this, {.title = tr("Save Profile"), .name = tr("profile"), .folder = folder_},
+                 [this](const QString& path) {
+                     folder_ = QFileInfo(path).absolutePath();
+                     return writeProfile(path);
+                 });
 }
 
 bool MeasurePanel::writeProfile(const QString& path)

@@ -4,6 +4,7 @@
 #include "haptics/device/device_lock.h"
 #include "haptics/device/watched_call.h"
 #include "haptics/drivers/forcedimension/dhd_device.h"
+#include "haptics/drivers/support/watched_open.h"
 
 #include <algorithm>
 #include <charconv>
@@ -112,22 +113,8 @@ Result<std::unique_ptr<HapticDevice>> DhdDriver::open(std::string_view address)
     if (!lock) {
         return std::move(lock).error();
     }
-    using Opened = Result<std::unique_ptr<HapticDevice>>;
-    auto device =
-        callWatched(options_.patience,
-                    [options = DhdDevice::Options{.api = *api,
-                                                  .number = *number,
-                                                  .uri = uri,
-                                                  .lock = std::move(*lock)}]() mutable -> Opened {
-                        return DhdDevice::open(std::move(options));
-                    });
-    if (!device) {
-        return Error{ErrorCode::Unreadable,
-                     fmt::format("{}: the vendor's library did not open it within {} s; check the "
-                                 "device's power and start the program again",
-                                 uri, options_.patience.count() / 1000)};
-    }
-    return std::move(*device);
+    return openWatched<DhdDevice>(
+        {.api = *api, .number = *number, .uri = uri, .lock = std::move(*lock)}, options_.patience);
 }
 
 } // namespace marsview

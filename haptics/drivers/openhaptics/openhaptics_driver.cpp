@@ -3,8 +3,8 @@
 #include "core/base/environment.h"
 #include "haptics/device/device_lock.h"
 #include "haptics/device/home_option.h"
-#include "haptics/device/watched_call.h"
 #include "haptics/drivers/openhaptics/openhaptics_device.h"
+#include "haptics/drivers/support/watched_open.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -119,23 +119,12 @@ Result<std::unique_ptr<HapticDevice>> OpenHapticsDriver::open(std::string_view a
     if (!lock) {
         return std::move(lock).error();
     }
-    using Opened = Result<std::unique_ptr<HapticDevice>>;
-    auto device = callWatched(
-        options_.patience,
-        [options = OpenHapticsDevice::Options{.api = *api,
-                                              .name = std::string(address),
-                                              .uri = uri,
-                                              .is_at_home = is_at_home,
-                                              .lock = std::move(*lock)}]() mutable -> Opened {
-            return OpenHapticsDevice::open(std::move(options));
-        });
-    if (!device) {
-        return Error{ErrorCode::Unreadable,
-                     fmt::format("{}: the vendor's library did not open it within {} s; check the "
-                                 "device's power and start the program again",
-                                 uri, options_.patience.count() / 1000)};
-    }
-    return std::move(*device);
+    return openWatched<OpenHapticsDevice>({.api = *api,
+                                           .name = std::string(address),
+                                           .uri = uri,
+                                           .is_at_home = is_at_home,
+                                           .lock = std::move(*lock)},
+                                          options_.patience);
 }
 
 } // namespace marsview

@@ -1,13 +1,16 @@
 #include "tests/core/contact/contact_terrain.h"
 
+#include "core/session/map.h"
 #include "tests/support/fractal_terrain.h"
 #include "tests/support/reference_surface.h"
+#include "tests/support/shared_data.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <stdexcept>
 
 namespace marsview::test {
 namespace {
@@ -165,6 +168,37 @@ ScenePoint wanderingGoal(Random& random,
          : random.chance(0.2) ? random.uniform(0.0, 3.0) * cell_m
                               : -random.uniform(0.0, 6.0) * cell_m;
     return surface.frame().toScene(grid, z);
+}
+
+ShearedFrame shearedFrame(const FilledHeightfield& terrain, Random& random, bool is_mirrored)
+{
+    SceneFrame frame = unitFrame(terrain);
+    const double angle = random.uniform(0.0, 6.3);
+    const double cell_m = std::pow(10.0, random.uniform(-2.0, 5.0));
+    const double aspect = random.uniform(0.4, 2.5);
+    const double shear = random.uniform(-0.7, 0.7);
+    const double mirror = is_mirrored ? -1.0 : 1.0;
+    frame.east_per_column = cell_m * std::cos(angle);
+    frame.north_per_column = cell_m * std::sin(angle);
+    frame.east_per_row = mirror * cell_m * aspect * std::cos(angle + 1.57 + shear);
+    frame.north_per_row = mirror * cell_m * aspect * std::sin(angle + 1.57 + shear);
+    return {frame, cell_m};
+}
+
+NamedMap bundledMap(const std::string& file)
+{
+    JobMonitor monitor;
+    const auto map =
+        readMap(RasterSpec{(bundledSamples() / file).string()}, monitor, std::size_t{1} << 30U);
+    if (!map) {
+        throw std::runtime_error(map.error().message);
+    }
+    return {file, filledTerrain((*map)->heightfield()), (*map)->georeference().sceneFrame()};
+}
+
+std::vector<NamedMap> bundledMaps()
+{
+    return {bundledMap("mars_mola_4ppd.tif"), bundledMap("mount_st_helens_30m.tif")};
 }
 
 } // namespace marsview::test

@@ -5,6 +5,8 @@
 #include "core/contact/heightfield_surface.h"
 #include "tests/support/random.h"
 
+#include <gtest/gtest.h>
+
 #include <cstddef>
 #include <memory>
 #include <string>
@@ -24,6 +26,13 @@ SceneFrame unitFrame(const FilledHeightfield& terrain);
 HeightfieldSurface surfaceOver(const std::shared_ptr<const FilledHeightfield>& terrain,
                                double exaggeration = 1.0);
 
+/// A frame of cells of any size and shape, turned, sheared, and mirrored if so asked.
+struct ShearedFrame {
+    SceneFrame frame;
+    double cell_m = 0.0; // along a row
+};
+ShearedFrame shearedFrame(const FilledHeightfield& terrain, Random& random, bool is_mirrored);
+
 /// In meters.
 inline double distance(const ScenePoint& a, const ScenePoint& b)
 {
@@ -38,6 +47,17 @@ struct NamedTerrain {
 /// Planes, ridges, valleys, peaks, checkerboards, ties, steps, fractals, maps of 2 × 2 samples.
 std::vector<NamedTerrain> syntheticTerrains();
 
+struct NamedMap {
+    std::string name;
+    std::shared_ptr<const FilledHeightfield> terrain;
+    SceneFrame frame;
+};
+
+/// Throws if the map cannot be read.
+NamedMap bundledMap(const std::string& file);
+/// One of Mars in longitude and latitude, one of the Earth in meters.
+std::vector<NamedMap> bundledMaps();
+
 /// Scene height of the surface in meters, from the plane through three samples, in long double.
 double bruteHeight(const HeightfieldSurface& surface, GridPoint grid);
 
@@ -50,5 +70,24 @@ ScenePoint wanderingGoal(Random& random,
                          const HeightfieldSurface& surface,
                          const ScenePoint& last,
                          double step_cells);
+
+/// Checks `updates` of the model with such goals; every tenth goal twice.
+template <typename Judge, typename Model>
+void judgeWandering(Judge& judge,
+                    Model& model,
+                    const HeightfieldSurface& surface,
+                    Random& random,
+                    int updates,
+                    double step_cells)
+{
+    ScenePoint goal{};
+    for (int i = 0; i < updates && !testing::Test::HasFatalFailure(); ++i) {
+        goal = wanderingGoal(random, surface, goal, step_cells);
+        judge.check(model, goal);
+        if (i % 10 == 9) {
+            judge.check(model, goal); // does not move
+        }
+    }
+}
 
 } // namespace marsview::test

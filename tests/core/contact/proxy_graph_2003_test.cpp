@@ -1,11 +1,9 @@
 // The proxy graph as published, beside a second implementation of the paper's sentences.
 #include "core/contact/heightfield_surface.h"
 #include "core/contact/proxy_graph_2003.h"
-#include "core/session/map.h"
 #include "tests/core/contact/contact_judge.h"
 #include "tests/core/contact/contact_terrain.h"
 #include "tests/support/fractal_terrain.h"
-#include "tests/support/shared_data.h"
 
 #include <gtest/gtest.h>
 
@@ -367,14 +365,7 @@ wander(const HeightfieldSurface& surface, test::Random& random, int updates, dou
 {
     Model model(surface);
     test::Judge<Model> judge(surface, kTraits);
-    ScenePoint goal{};
-    for (int i = 0; i < updates && !testing::Test::HasFatalFailure(); ++i) {
-        goal = test::wanderingGoal(random, surface, goal, step_cells);
-        judge.check(model, goal);
-        if (i % 10 == 9) {
-            judge.check(model, goal); // does not move
-        }
-    }
+    test::judgeWandering(judge, model, surface, random, updates, step_cells);
     return judge.findings();
 }
 
@@ -406,13 +397,9 @@ TEST(ProxyGraph2003, CrossesNoFarEdgeAtTrueHeightsAndSomeOnSteepGround)
 {
     // Section 4.4: none on the unscaled data, in 3.5 % of updates with heights × 20.
     test::Random random;
-    JobMonitor monitor;
-    const auto map = readMap(RasterSpec{(test::bundledSamples() / "mars_mola_4ppd.tif").string()},
-                             monitor, std::size_t{1} << 30U);
-    ASSERT_TRUE(map) << map.error().message;
-    const auto terrain = test::filledTerrain((*map)->heightfield());
+    const auto [name, terrain, frame] = test::bundledMap("mars_mola_4ppd.tif");
     for (const double scale : {1.0, 20.0, 200.0}) {
-        const HeightfieldSurface surface(terrain, (*map)->georeference().sceneFrame(), scale);
+        const HeightfieldSurface surface(terrain, frame, scale);
         const test::Findings findings = wander(surface, random, 4000, 1.0);
         findings.print("2003, Mars, heights × " + std::to_string(scale));
         EXPECT_EQ(findings.far_edges > 0, scale > 1.0);

@@ -1,11 +1,9 @@
 #include "core/contact/heightfield_surface.h"
 #include "core/contact/proxy_graph.h"
-#include "core/session/map.h"
 #include "tests/core/contact/contact_judge.h"
 #include "tests/core/contact/contact_terrain.h"
 #include "tests/support/fractal_terrain.h"
 #include "tests/support/nan.h"
-#include "tests/support/shared_data.h"
 
 #include <gtest/gtest.h>
 
@@ -27,14 +25,7 @@ wander(const HeightfieldSurface& surface, test::Random& random, int updates, dou
 {
     Model model(surface);
     test::Judge<Model> judge(surface);
-    ScenePoint goal{};
-    for (int i = 0; i < updates && !testing::Test::HasFatalFailure(); ++i) {
-        goal = test::wanderingGoal(random, surface, goal, step_cells);
-        judge.check(model, goal);
-        if (i % 10 == 9) {
-            judge.check(model, goal); // does not move
-        }
-    }
+    test::judgeWandering(judge, model, surface, random, updates, step_cells);
     return judge.findings();
 }
 
@@ -59,19 +50,7 @@ TEST(ProxyGraph, MeetsItsGuaranteesInShearedFramesAndAtAnyExaggeration)
     const auto terrain = test::filledTerrain(90, test::fractalHeights(90, 110, 8));
     test::Findings sum;
     for (int i = 0; i < 40; ++i) {
-        SceneFrame frame = test::unitFrame(*terrain);
-        const double angle = random.uniform(0.0, 6.3);
-        const double cell_m = std::pow(10.0, random.uniform(-2.0, 5.0));
-        const double aspect = random.uniform(0.4, 2.5);
-        const double shear = random.uniform(-0.7, 0.7);
-        frame.east_per_column = cell_m * std::cos(angle);
-        frame.north_per_column = cell_m * std::sin(angle);
-        frame.east_per_row = cell_m * aspect * std::cos(angle + 1.57 + shear);
-        frame.north_per_row = cell_m * aspect * std::sin(angle + 1.57 + shear);
-        if (i % 2 == 0) {
-            frame.east_per_row = -frame.east_per_row; // mirrored
-            frame.north_per_row = -frame.north_per_row;
-        }
+        const auto [frame, cell_m] = test::shearedFrame(*terrain, random, i % 2 == 0);
         const HeightfieldSurface surface(terrain, frame, cell_m * random.uniform(0.1, 20.0));
         sum.add(wander(surface, random, 1500, 2.0));
     }
@@ -83,16 +62,10 @@ TEST(ProxyGraph, MeetsItsGuaranteesOnTheBundledMaps)
 {
     test::Random random;
     test::Findings sum;
-    for (const char* name : {"mars_mola_4ppd.tif", "mount_st_helens_30m.tif"}) {
+    for (const auto& [name, terrain, frame] : test::bundledMaps()) {
         SCOPED_TRACE(name);
-        JobMonitor monitor;
-        const auto map = readMap(RasterSpec{(test::bundledSamples() / name).string()}, monitor,
-                                 std::size_t{1} << 30U);
-        ASSERT_TRUE(map) << map.error().message;
-        const auto terrain = test::filledTerrain((*map)->heightfield());
         for (const double exaggeration : {0.1, 1.0, 5.0, 20.0}) {
-            const HeightfieldSurface surface(terrain, (*map)->georeference().sceneFrame(),
-                                             exaggeration);
+            const HeightfieldSurface surface(terrain, frame, exaggeration);
             sum.add(wander(surface, random, 4000, 0.5));
             sum.add(wander(surface, random, 4000, 10.0));
         }
