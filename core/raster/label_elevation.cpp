@@ -4,8 +4,8 @@
 #include "core/files/gdal_runtime.h"
 #include "core/files/raster_path.h"
 #include "core/files/remote_raster.h"
+#include "core/formats/odl_label.h"
 #include "core/raster/nodata.h"
-#include "core/raster/odl_label.h"
 
 #include <cpl_conv.h>
 #include <cpl_minixml.h>

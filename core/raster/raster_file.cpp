@@ -1,19 +1,17 @@
 #include "core/raster/raster_file.h"
 
 #include "core/files/archive_rasters.h"
-#include "core/files/exact_crs.h"
 #include "core/files/gdal_runtime.h"
 #include "core/files/open_guard.h"
 #include "core/files/opening_job.h"
 #include "core/files/raster_path.h"
 #include "core/files/remote_raster.h"
-#include "core/raster/axis_hints.h"
+#include "core/formats/netcdf_extent.h"
+#include "core/raster/dataset_description.h"
+#include "core/raster/dataset_opening.h"
 #include "core/raster/gdal_types.h"
-#include "core/raster/label_elevation.h"
 #include "core/raster/large_blocks.h"
 #include "core/raster/mosaic.h"
-#include "core/raster/netcdf_extent.h"
-#include "core/raster/pds3_placement.h"
 
 #include <cpl_conv.h>
 #include <cpl_string.h>
@@ -45,412 +43,6 @@ constexpr std::size_t kBandBytesMax = std::size_t{64} << 20;
 constexpr std::size_t kScannedBlockBytesMax = std::size_t{96} << 20;
 
 using Dataset = GDALDatasetUniquePtr;
-
-std::string listOfSubdatasets(GDALDataset& dataset)
-{
-    const CPLStringList entries(CSLDuplicate(dataset.GetMetadata("SUBDATASETS")));
-    std::string list;
-    for (int i = 1; i <= 8; ++i) {
-        const char* name = entries.FetchNameValue(fmt::format("SUBDATASET_{}_NAME", i).c_str());
-        if (name == nullptr) {
-            break;
-        }
-        list += (list.empty() ? "" : ", ") + std::string(name);
-    }
-    return list;
-}
-
-// A raster of several color bands, or with one palette band, is a picture.
-bool isPicture(GDALDataset& dataset, GDALRasterBand& band)
-{
-    if (band.GetColorTable() != nullptr) {
-        return true;
-    }
-    switch (band.GetColorInterpretation()) {
-    case GCI_RedBand:
-    case GCI_GreenBand:
-    case GCI_BlueBand:
-    case GCI_CyanBand:
-    case GCI_MagentaBand:
-    case GCI_YellowBand:
-        return dataset.GetRasterCount() >= 3;
-    default:
-        return false;
-    }
-}
-
-// Some formats have a picture of the elevations in the bands before them.
-std::string refusalOfPicture(GDALDataset& dataset, int band)
-{
-    for (int i = 1; i <= dataset.GetRasterCount(); ++i) {
-        GDALRasterBand& other = *dataset.GetRasterBand(i);
-        if (!isPicture(dataset, other) && other.GetColorInterpretation() != GCI_AlphaBand) {
-            return fmt::format(
-                "band {} is part of a color picture; open band {} (--band {}) instead", band, i, i);
-        }
-    }
-    return "is a color picture, not an elevation map";
-}
-
-struct OpenedDataset {
-    Dataset dataset;
-    std::string name;
-    std::optional<RemoteVersion> remote{};  // for a raster on a server
-    std::shared_ptr<const Mosaic> mosaic{}; // of a folder of rasters
-    std::string label{};                    // of a product whose samples are in a TIFF or JPEG2000
-    bool prints = false;                    // a library prints lines to stderr
-};
-
-// Opens the first possible of GDAL's names; errors as for openFirst().
-Result<OpenedDataset> openLocal(const std::vector<std::string>& names)
-{
-    Result<GuardedDataset> opened = openFirst(names);
-    if (!opened) {
-        return std::move(opened).error();
-    }
-    OpenedDataset result{.dataset = std::move(opened->dataset),
-                         .name = names[opened->name],
-                         .prints = opened->prints};
-    if (hasLargePlainStrips(*result.dataset)) {
-        const DirectReads scope;
-        if (Dataset direct = reopen(result.name, *opened)) {
-            result.dataset = std::move(direct);
-        }
-    }
-    return result;
-}
-
-// The virtual raster of a mosaic, whose parts were opened before.
-Result<Dataset> openMosaic(const Mosaic& mosaic)
-{
-    const GdalMessages messages;
-    Dataset dataset(GDALDataset::Open(mosaic.vrt.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR));
-    if (!dataset) {
-        return Error{ErrorCode::Unsupported, messages.firstFailure("")};
-    }
-    return dataset;
-}
-
-// The raster of a label with samples in a TIFF or JPEG2000, which GDAL would read as raw samples.
-// Empty for everything else.
-std::optional<Result<OpenedDataset>> openEncodedImage(const std::string& name)
-{
-    const std::string image =
-        lowerCase(name).ends_with(".lbl") ? encodedImageOf(name) : std::string();
-    if (image.empty()) {
-        return std::nullopt;
-    }
-    Result<OpenedDataset> opened = openLocal({image});
-    if (!opened) {
-        return Error{opened.error().code, fmt::format("{}: {}", image, opened.error().message)};
-    }
-    opened->label = name;
-    return opened;
-}
-
-Result<OpenedDataset> openFolder(const std::string& path, int band)
-{
-    Result<std::shared_ptr<const Mosaic>> mosaic = mosaicOf(path, band);
-    if (!mosaic) {
-        return std::move(mosaic).error();
-    }
-    Result<Dataset> dataset = openMosaic(**mosaic);
-    if (!dataset) {
-        return Error{dataset.error().code, fmt::format("{}: {}", path, dataset.error().message)};
-    }
-    return OpenedDataset{
-        .dataset = std::move(dataset).value(), .name = path, .mosaic = std::move(mosaic).value()};
-}
-
-// Opens it on the condition that its version is `version`.
-Result<Dataset> openRemote(const std::string& name, const RemoteVersion& version)
-{
-    const GdalMessages messages;
-    const RemoteScope scope(name, version);
-    constexpr std::array<const char*, 2> kTiff{"GTiff", nullptr};
-    Dataset dataset(GDALDataset::Open(name.c_str(), GDAL_OF_RASTER, kTiff.data()));
-    if (!dataset && !messages.hasFailed()) {
-        Result<GuardedDataset> opened = openFirst({name});
-        if (opened) {
-            dataset = std::move(opened->dataset);
-        } else if (opened.error().code != ErrorCode::Unsupported) {
-            return Error{opened.error().code,
-                         fmt::format("{}: {}", addressOf(name), opened.error().message)};
-        }
-    }
-    if (!dataset) {
-        return remoteFailure(
-            name, version, messages,
-            fmt::format("is not a raster that GDAL can read, or {}", kConnectionLost));
-    }
-    return dataset;
-}
-
-Result<OpenedDataset> openRemoteOnce(const std::string& name)
-{
-    Result<RemoteVersion> version = askRemote(name);
-    if (!version) {
-        return std::move(version).error();
-    }
-    Result<Dataset> dataset = openRemote(name, *version);
-    if (!dataset) {
-        return std::move(dataset).error();
-    }
-    return OpenedDataset{
-        .dataset = std::move(dataset).value(), .name = name, .remote = std::move(version).value()};
-}
-
-// Retries a lost connection, which GDAL does only for some responses, but not a server that is slow
-// to fail.
-Result<OpenedDataset> openRemote(const std::string& name)
-{
-    using Clock = std::chrono::steady_clock;
-    constexpr int kAttempts = 3;
-    constexpr std::chrono::milliseconds kPause{300};
-    constexpr std::chrono::seconds kAtOnce{2};
-    for (int attempt = 1;; ++attempt) {
-        const Clock::time_point start = Clock::now();
-        Result<OpenedDataset> opened = openRemoteOnce(name);
-        if (opened || opened.error().code != ErrorCode::Unreadable || attempt == kAttempts ||
-            Clock::now() - start > kAtOnce) {
-            return opened;
-        }
-        std::this_thread::sleep_for(attempt * kPause);
-    }
-}
-
-Result<OpenedDataset> openDataset(const std::string& path, int band)
-{
-    Result<std::vector<std::string>> names = rasterNamesFor(path);
-    if (!names) {
-        return std::move(names).error();
-    }
-    if (remoteNameFor(names->front())) {
-        return openRemote(names->front());
-    }
-    for (std::size_t i = 0; i < names->size(); ++i) {
-        if (auto image = openEncodedImage((*names)[i])) {
-            if (i > 0) {
-                if (auto before = openLocal(
-                        {names->begin(), names->begin() + static_cast<std::ptrdiff_t>(i)})) {
-                    return before;
-                }
-            }
-            return *std::move(image);
-        }
-    }
-    Result<OpenedDataset> opened = openLocal(*names);
-    if (opened) {
-        return opened;
-    }
-    std::string first_failure = opened.error().message;
-    if (opened.error().code != ErrorCode::Unsupported) {
-        return Error{opened.error().code, fmt::format("{}: {}", path, first_failure)};
-    }
-    if (isFolder(path)) {
-        return openFolder(path, band);
-    }
-    const auto says = [&first_failure](const char* words) {
-        return first_failure.find(words) != std::string::npos;
-    };
-    if (says("not recognized") || first_failure.empty()) {
-        first_failure =
-            "is not a raster that GDAL can read, or is damaged; convert it to GeoTIFF or fetch it "
-            "again";
-    } else if (says("No such file or directory")) {
-        first_failure = fmt::format(
-            "names a data file that is missing; put it next to this file ({})", first_failure);
-    }
-    return Error{ErrorCode::Unsupported, fmt::format("{}: {}", path, first_failure)};
-}
-
-nlohmann::json jsonDomain(GDALDataset& dataset, const char* domain)
-{
-    char** entries = dataset.GetMetadata(domain);
-    if (entries == nullptr || entries[0] == nullptr) {
-        return {};
-    }
-    nlohmann::json parsed = nlohmann::json::parse(entries[0], nullptr, false);
-    return parsed.is_discarded() ? nlohmann::json{} : parsed;
-}
-
-// A text value in an object of a PDS3 label; empty if missing or not a text.
-std::string labelText(const nlohmann::json& label, const char* object, const char* key)
-{
-    const auto parent = label.find(object);
-    if (parent == label.end() || !parent->is_object()) {
-        return "";
-    }
-    const auto entry = parent->find(key);
-    return entry != parent->end() && entry->is_string() ? entry->get<std::string>() : "";
-}
-
-void readVertical(GDALDataset& dataset,
-                  GDALRasterBand& band,
-                  const nlohmann::json& pds3,
-                  const std::optional<LabelElevation>& label,
-                  RasterInfo& info)
-{
-    int has_scale = 0;
-    int has_offset = 0;
-    const double scale = band.GetScale(&has_scale);
-    const double offset = band.GetOffset(&has_offset);
-    if (has_scale != 0 && std::isfinite(scale) && scale != 0.0) {
-        info.scale = scale;
-    } else if (has_scale != 0 && !(label && label->scale)) {
-        info.notices.push_back(
-            fmt::format("the scale {} is invalid for elevations; 1 is used instead", scale));
-    }
-    if (has_offset != 0 && std::isfinite(offset)) {
-        info.offset = offset;
-    }
-    std::string unit = band.GetUnitType() != nullptr ? band.GetUnitType() : "";
-    if (const auto known = verticalUnitFrom(unit)) {
-        info.unit = *known;
-        info.is_unit_declared = true;
-    }
-    if (label) {
-        applyLabel(info, *label);
-        if (auto notice = noticeOfUnusedScale(dataset, info)) {
-            info.notices.push_back(*std::move(notice));
-        }
-        unit = unit.empty() ? label->unit : unit;
-    }
-    if (!info.is_unit_declared && !unit.empty()) {
-        info.notices.push_back(
-            fmt::format("the unit \"{}\" is not a known unit of length; meters are assumed", unit));
-    } else if (!info.is_unit_declared && info.crs && info.crs->verticalUnit()) {
-        info.unit = *info.crs->verticalUnit();
-        info.is_unit_declared = true;
-    }
-    // The vertical datum, if the product declares it.
-    if (info.crs && !info.crs->verticalDatumName().empty()) {
-        info.vertical_datum = info.crs->verticalDatumName();
-    } else if (const char* dted = dataset.GetMetadataItem("DTED_VerticalDatum")) {
-        info.vertical_datum = EQUAL(dted, "MSL") ? "mean sea level" : dted;
-    } else if (const char* declared = dataset.GetMetadataItem("VERTICAL_DATUM")) {
-        info.vertical_datum = declared; // GeoTIFF has no place for datums of other bodies
-    } else if (info.driver == "SRTMHGT") {
-        info.vertical_datum = "EGM96 geoid";
-    } else if (labelText(pds3, "IMAGE", "DESCRIPTION").find("areoid") != std::string::npos) {
-        info.vertical_datum = "areoid";
-    }
-}
-
-bool isPlaced(GDALDataset& dataset)
-{
-    GeoTransform::Terms terms{};
-    return dataset.GetGeoTransform(terms.data()) == CE_None;
-}
-
-// The label of a product, or empty.
-std::string
-labelPathOf(GDALDataset& dataset, const RasterInfo& info, const std::string& known_label)
-{
-    if (info.driver == "PDS") {
-        const CPLStringList files(dataset.GetFileList());
-        return files.Count() > 0 ? files[0] : info.path;
-    }
-    const bool may_have_label = info.driver == "GTiff" || info.driver.starts_with("JP2");
-    return known_label.empty() && may_have_label ? labelNextTo(info.path) : known_label;
-}
-
-// The label of a TIFF or JPEG2000, where that places it, or of raw samples whose radii GDAL reads
-// wrong. A TIFF's own placement goes first, and so does a CRS that only the raster has.
-std::shared_ptr<GDALDataset>
-placementOf(GDALDataset& dataset, const RasterInfo& info, const std::string& label_path)
-{
-    if (label_path.empty() || (info.driver == "GTiff" && isPlaced(dataset)) ||
-        (info.driver == "PDS" && !hasRadiiInOtherUnits(label_path))) {
-        return nullptr;
-    }
-    std::shared_ptr<GDALDataset> label = openPds3Placement(label_path);
-    const bool is_of_same_size = label && label->GetRasterXSize() == dataset.GetRasterXSize() &&
-                                 label->GetRasterYSize() == dataset.GetRasterYSize();
-    const bool is_placed =
-        is_of_same_size && isPlaced(*label) &&
-        (label->GetSpatialRef() != nullptr || dataset.GetSpatialRef() == nullptr);
-    return is_placed ? label : nullptr;
-}
-
-// Where GDAL reads the radii of a PDS3 label in another unit than the label gives.
-std::string noticeOfRadii(GDALDataset& dataset, GDALDataset& placed, const std::string& label_path)
-{
-    const OGRSpatialReference* const wrong = dataset.GetSpatialRef();
-    const OGRSpatialReference* const right = placed.GetSpatialRef();
-    if (wrong == nullptr || right == nullptr || wrong->GetSemiMajor() == right->GetSemiMajor()) {
-        return {};
-    }
-    return fmt::format("from the label {}: radius {} m (GDAL reads {} m)",
-                       CPLGetFilename(label_path.c_str()), right->GetSemiMajor(),
-                       wrong->GetSemiMajor());
-}
-
-void readPlacement(GDALDataset& dataset, const nlohmann::json& pds3, RasterInfo& info)
-{
-    std::optional<Crs> exact = exactCrsOf(dataset);
-    const OGRSpatialReference* reference = dataset.GetSpatialRef();
-    if (exact || reference != nullptr) {
-        Result<Crs> crs =
-            exact ? Result<Crs>(std::move(*exact)) : Crs::fromSpatialReference(*reference);
-        if (crs) {
-            info.crs = std::move(crs).value();
-            info.body = info.crs->body();
-            for (const std::string& notice : info.crs->notices()) {
-                info.notices.push_back(notice);
-            }
-        } else {
-            info.notices.push_back(
-                fmt::format("{}; the map is placed without a CRS", crs.error().message));
-        }
-    }
-    GeoTransform::Terms terms{};
-    if (dataset.GetGeoTransform(terms.data()) != CE_None) {
-        info.notices.emplace_back(
-            "no georeferencing in the file: each pixel is placed as one unit "
-            "square; give a geotransform to place it");
-        return;
-    }
-    Result<GeoTransform> transform = GeoTransform::fromTerms(terms);
-    if (!transform) {
-        info.notices.push_back(
-            fmt::format("{}: each pixel is placed as one unit square; give "
-                        "another to place it",
-                        transform.error().message));
-        return;
-    }
-    info.transform = *transform;
-    if (info.crs) {
-        const PixelShift shift = pds3PlacementShift(pds3, *info.transform, *info.crs);
-        if (!shift.isNone()) {
-            info.transform = shifted(*info.transform, shift);
-            info.notices.push_back(fmt::format(
-                "shifted by {} column and {} row to match the latitude and longitude limits in the "
-                "label",
-                shift.columns, shift.rows));
-        }
-    }
-}
-
-void readNodata(GDALRasterBand& band, RasterInfo& info)
-{
-    int has_nodata = 0;
-    double nodata = 0.0;
-    if (info.type == SampleType::Int64) {
-        nodata = static_cast<double>(band.GetNoDataValueAsInt64(&has_nodata));
-    } else if (info.type == SampleType::UInt64) {
-        nodata = static_cast<double>(band.GetNoDataValueAsUInt64(&has_nodata));
-    } else {
-        nodata = band.GetNoDataValue(&has_nodata);
-    }
-    if (has_nodata != 0) {
-        info.nodata = nodata;
-    }
-    // ISIS3 and PDS4 have several special values, other formats a mask file: only the mask shows
-    // those.
-    const int flags = band.GetMaskFlags();
-    info.has_mask_band = (flags & (GMF_ALL_VALID | GMF_NODATA)) == 0;
-}
 
 struct NetcdfExtent {
     std::string path;
@@ -605,22 +197,8 @@ Result<RasterFile> RasterFile::open(const std::string& path, int band)
     if (impl->remote) {
         no_listing.emplace("GDAL_DISABLE_READDIR_ON_OPEN", "EMPTY_DIR", false);
     }
-    const std::string label_path = labelPathOf(dataset, info, opened->label);
-    const std::shared_ptr<GDALDataset> label_placement = placementOf(dataset, info, label_path);
-    GDALDataset& placed = label_placement ? *label_placement : dataset;
-    const nlohmann::json pds3 = jsonDomain(placed, "json:PDS");
     impl->netcdf = netcdfExtentOf(dataset, info.driver);
-    readNodata(*impl->band, info);
-    readPlacement(placed, pds3, info);
-    if (info.driver == "PDS" && label_placement) {
-        if (std::string notice = noticeOfRadii(dataset, placed, label_path); !notice.empty()) {
-            info.notices.push_back(std::move(notice));
-        }
-    }
-    if (!info.crs) {
-        info.axis_hints = axisHintsOf(dataset, path);
-    }
-    readVertical(dataset, *impl->band, pds3, labelElevationOf(dataset, info, label_path), info);
+    describe(dataset, *impl->band, {.path = path, .label = opened->label}, info);
     if (Status complete = impl->checkExtent({0, 0, info.columns, info.rows}); !complete) {
         return std::move(complete).error();
     }
@@ -747,7 +325,7 @@ Status RasterFile::Impl::renew()
         }
         const GdalMessages none;
         Result<Dataset> opened = *now == *remote
-                                     ? openRemote(info.path, *remote)
+                                     ? openRemoteDataset(info.path, *remote)
                                      : Result<Dataset>(remoteFailure(info.path, *remote, none, ""));
         if (!opened) {
             return std::move(opened).error();
@@ -756,9 +334,9 @@ Status RasterFile::Impl::renew()
     } else {
         const auto open_again = [this]() -> Result<Dataset> {
             if (mosaic) {
-                return openMosaic(*mosaic);
+                return openMosaicDataset(*mosaic);
             }
-            Result<OpenedDataset> opened = openLocal({info.path});
+            Result<OpenedDataset> opened = openLocalDataset({info.path});
             return opened ? Result<Dataset>(std::move(opened->dataset))
                           : Result<Dataset>(std::move(opened).error());
         };

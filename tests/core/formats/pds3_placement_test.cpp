@@ -1,4 +1,4 @@
-#include "core/raster/pds3_placement.h"
+#include "core/formats/pds3_placement.h"
 
 #include <gtest/gtest.h>
 

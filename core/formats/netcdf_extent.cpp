@@ -1,4 +1,4 @@
-#include "core/raster/netcdf_extent.h"
+#include "core/formats/netcdf_extent.h"
 
 #include <cpl_vsi.h>
 

@@ -1,10 +1,10 @@
-#include "core/raster/pds3_placement.h"
+#include "core/formats/pds3_placement.h"
 
 #include "core/base/check.h"
 #include "core/base/plain_number.h"
 #include "core/files/gdal_runtime.h"
+#include "core/formats/odl_label.h"
 #include "core/geo/vertical.h"
-#include "core/raster/odl_label.h"
 
 #include <cpl_conv.h>
 #include <cpl_vsi.h>

@@ -1,4 +1,4 @@
-#include "core/raster/odl_label.h"
+#include "core/formats/odl_label.h"
 
 #include <cpl_vsi.h>
 

@@ -1,0 +1,182 @@
+#include "core/raster/dataset_opening.h"
+
+#include "core/files/gdal_runtime.h"
+#include "core/files/open_guard.h"
+#include "core/files/raster_path.h"
+#include "core/raster/label_elevation.h"
+#include "core/raster/large_blocks.h"
+
+#include <array>
+#include <chrono>
+#include <fmt/format.h>
+#include <thread>
+#include <utility>
+
+namespace marsview {
+namespace {
+
+// The raster of a label with samples in a TIFF or JPEG2000, which GDAL would read as raw samples.
+// Empty for everything else.
+std::optional<Result<OpenedDataset>> openEncodedImage(const std::string& name)
+{
+    const std::string image =
+        lowerCase(name).ends_with(".lbl") ? encodedImageOf(name) : std::string();
+    if (image.empty()) {
+        return std::nullopt;
+    }
+    Result<OpenedDataset> opened = openLocalDataset({image});
+    if (!opened) {
+        return Error{opened.error().code, fmt::format("{}: {}", image, opened.error().message)};
+    }
+    opened->label = name;
+    return opened;
+}
+
+Result<OpenedDataset> openFolder(const std::string& path, int band)
+{
+    Result<std::shared_ptr<const Mosaic>> mosaic = mosaicOf(path, band);
+    if (!mosaic) {
+        return std::move(mosaic).error();
+    }
+    Result<GDALDatasetUniquePtr> dataset = openMosaicDataset(**mosaic);
+    if (!dataset) {
+        return Error{dataset.error().code, fmt::format("{}: {}", path, dataset.error().message)};
+    }
+    return OpenedDataset{
+        .dataset = std::move(dataset).value(), .name = path, .mosaic = std::move(mosaic).value()};
+}
+
+Result<OpenedDataset> openRemoteOnce(const std::string& name)
+{
+    Result<RemoteVersion> version = askRemote(name);
+    if (!version) {
+        return std::move(version).error();
+    }
+    Result<GDALDatasetUniquePtr> dataset = openRemoteDataset(name, *version);
+    if (!dataset) {
+        return std::move(dataset).error();
+    }
+    return OpenedDataset{
+        .dataset = std::move(dataset).value(), .name = name, .remote = std::move(version).value()};
+}
+
+// Retries a lost connection, which GDAL does only for some responses, but not a server that is slow
+// to fail.
+Result<OpenedDataset> openRemote(const std::string& name)
+{
+    using Clock = std::chrono::steady_clock;
+    constexpr int kAttempts = 3;
+    constexpr std::chrono::milliseconds kPause{300};
+    constexpr std::chrono::seconds kAtOnce{2};
+    for (int attempt = 1;; ++attempt) {
+        const Clock::time_point start = Clock::now();
+        Result<OpenedDataset> opened = openRemoteOnce(name);
+        if (opened || opened.error().code != ErrorCode::Unreadable || attempt == kAttempts ||
+            Clock::now() - start > kAtOnce) {
+            return opened;
+        }
+        std::this_thread::sleep_for(attempt * kPause);
+    }
+}
+
+} // namespace
+
+Result<OpenedDataset> openLocalDataset(const std::vector<std::string>& names)
+{
+    Result<GuardedDataset> opened = openFirst(names);
+    if (!opened) {
+        return std::move(opened).error();
+    }
+    OpenedDataset result{.dataset = std::move(opened->dataset),
+                         .name = names[opened->name],
+                         .prints = opened->prints};
+    if (hasLargePlainStrips(*result.dataset)) {
+        const DirectReads scope;
+        if (GDALDatasetUniquePtr direct = reopen(result.name, *opened)) {
+            result.dataset = std::move(direct);
+        }
+    }
+    return result;
+}
+
+Result<GDALDatasetUniquePtr> openMosaicDataset(const Mosaic& mosaic)
+{
+    const GdalMessages messages;
+    GDALDatasetUniquePtr dataset(
+        GDALDataset::Open(mosaic.vrt.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR));
+    if (!dataset) {
+        return Error{ErrorCode::Unsupported, messages.firstFailure("")};
+    }
+    return dataset;
+}
+
+Result<GDALDatasetUniquePtr> openRemoteDataset(const std::string& name,
+                                               const RemoteVersion& version)
+{
+    const GdalMessages messages;
+    const RemoteScope scope(name, version);
+    constexpr std::array<const char*, 2> kTiff{"GTiff", nullptr};
+    GDALDatasetUniquePtr dataset(GDALDataset::Open(name.c_str(), GDAL_OF_RASTER, kTiff.data()));
+    if (!dataset && !messages.hasFailed()) {
+        Result<GuardedDataset> opened = openFirst({name});
+        if (opened) {
+            dataset = std::move(opened->dataset);
+        } else if (opened.error().code != ErrorCode::Unsupported) {
+            return Error{opened.error().code,
+                         fmt::format("{}: {}", addressOf(name), opened.error().message)};
+        }
+    }
+    if (!dataset) {
+        return remoteFailure(
+            name, version, messages,
+            fmt::format("is not a raster that GDAL can read, or {}", kConnectionLost));
+    }
+    return dataset;
+}
+
+Result<OpenedDataset> openDataset(const std::string& path, int band)
+{
+    Result<std::vector<std::string>> names = rasterNamesFor(path);
+    if (!names) {
+        return std::move(names).error();
+    }
+    if (remoteNameFor(names->front())) {
+        return openRemote(names->front());
+    }
+    for (std::size_t i = 0; i < names->size(); ++i) {
+        if (auto image = openEncodedImage((*names)[i])) {
+            if (i > 0) {
+                if (auto before = openLocalDataset(
+                        {names->begin(), names->begin() + static_cast<std::ptrdiff_t>(i)})) {
+                    return before;
+                }
+            }
+            return *std::move(image);
+        }
+    }
+    Result<OpenedDataset> opened = openLocalDataset(*names);
+    if (opened) {
+        return opened;
+    }
+    std::string first_failure = opened.error().message;
+    if (opened.error().code != ErrorCode::Unsupported) {
+        return Error{opened.error().code, fmt::format("{}: {}", path, first_failure)};
+    }
+    if (isFolder(path)) {
+        return openFolder(path, band);
+    }
+    const auto says = [&first_failure](const char* words) {
+        return first_failure.find(words) != std::string::npos;
+    };
+    if (says("not recognized") || first_failure.empty()) {
+        first_failure =
+            "is not a raster that GDAL can read, or is damaged; convert it to GeoTIFF or fetch it "
+            "again";
+    } else if (says("No such file or directory")) {
+        first_failure = fmt::format(
+            "names a data file that is missing; put it next to this file ({})", first_failure);
+    }
+    return Error{ErrorCode::Unsupported, fmt::format("{}: {}", path, first_failure)};
+}
+
+} // namespace marsview
