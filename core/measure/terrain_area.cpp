@@ -8,11 +8,14 @@
 
 #include "core/measure/terrain_area.h"
 
+#include "core/measure/cell_part.h"
+#include "core/measure/column_coverage.h"
 #include "core/measure/grid_field.h"
-#include "core/measure/grid_steps.h"
 #include "core/measure/line_measures.h"
+#include "core/measure/metric_field.h"
 #include "core/measure/polygon_outline.h"
 #include "core/measure/terrain_path.h"
+#include "core/measure/volume_surface.h"
 
 #include <algorithm>
 #include <array>
@@ -29,343 +32,9 @@ namespace {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kBorderShare = 0.1; // of the time
 
-// How often a column of cells is covered at the current row, as a step function of u.
-class Coverage {
-public:
-    void reset(double weight)
-    {
-        steps_.clear();
-        add(0.0, 1.0, weight);
-        normalize();
-    }
-    void add(double from, double to, double weight)
-    {
-        if (from < to && weight != 0.0) {
-            steps_.push_back({from, weight});
-            steps_.push_back({to, -weight});
-        }
-    }
-    // After additions.
-    void normalize()
-    {
-        std::sort(steps_.begin(), steps_.end(),
-                  [](const Step& a, const Step& b) { return a.u < b.u; });
-        std::size_t kept = 0;
-        for (const Step& step : steps_) {
-            constexpr double kSame = 1e-12; // ends of edges, computed from both sides
-            if (kept > 0 && step.u - steps_[kept - 1].u <= kSame) {
-                steps_[kept - 1].change += step.change;
-            } else {
-                steps_[kept++] = step;
-            }
-        }
-        steps_.resize(kept);
-        std::erase_if(steps_, [](const Step& step) { return step.change == 0.0; });
-    }
-
-    bool isEmpty() const { return steps_.empty(); }
-    // The weight, if it is the same everywhere.
-    std::optional<double> whole() const
-    {
-        if (steps_.empty()) {
-            return 0.0;
-        }
-        return steps_.size() == 2 && steps_[0].u <= kEdge && steps_[1].u >= 1.0 - kEdge
-                   ? std::optional(steps_[0].change)
-                   : std::nullopt;
-    }
-    double at(double u) const
-    {
-        double weight = 0.0;
-        for (const Step& step : steps_) {
-            weight += step.u <= u ? step.change : 0.0;
-        }
-        return weight;
-    }
-    template <typename F>
-    void forEach(const F& function) const
-    {
-        double weight = 0.0;
-        for (std::size_t i = 0; i + 1 < steps_.size(); ++i) {
-            weight += steps_[i].change;
-            if (weight != 0.0) {
-                function(steps_[i].u, steps_[i + 1].u, weight);
-            }
-        }
-    }
-
-private:
-    static constexpr double kEdge = 1e-12;
-    struct Step {
-        double u;
-        double change;
-    };
-    std::vector<Step> steps_;
-};
-
-struct UvPoint {
-    double u = 0.0;
-    double v = 0.0;
-    double g = 0.0; // height above the base
-};
-// Four corners clipped by two lines and the base have at most seven.
-struct ConvexPart {
-    std::array<UvPoint, 8> points;
-    std::size_t count = 0;
-
-    void add(const UvPoint& point)
-    {
-        if (count < points.size()) {
-            points[count++] = point;
-        }
-    }
-};
-
-// The part where `side` is not negative.
-template <typename Side>
-ConvexPart clipped(const ConvexPart& part, const Side& side)
-{
-    ConvexPart kept;
-    for (std::size_t i = 0; i < part.count; ++i) {
-        const UvPoint& a = part.points[i];
-        const UvPoint& b = part.points[(i + 1) % part.count];
-        const double sa = side(a);
-        const double sb = side(b);
-        if (sa >= 0.0) {
-            kept.add(a);
-        }
-        if ((sa > 0.0 && sb < 0.0) || (sa < 0.0 && sb > 0.0)) {
-            const double t = sa / (sa - sb);
-            kept.add({a.u + t * (b.u - a.u), a.v + t * (b.v - a.v), a.g + t * (b.g - a.g)});
-        }
-    }
-    return kept;
-}
-
-// A linear function in a cell.
-struct Linear {
-    double at_corner = 0.0; // u = v = 0
-    double per_u = 0.0;
-    double per_v = 0.0;
-
-    double operator()(const UvPoint& p) const { return at_corner + p.u * per_u + p.v * per_v; }
-};
-
-struct PartSum {
-    double area_m2 = 0.0;
-    double first = 0.0; // integral of a linear function over that area
-};
-
-// `cell_m2` is the area of a cell as the ground around a point has it. It changes across a cell, by
-// a quarter next to a pole of a map in degrees.
-template <typename Value>
-PartSum sumOver(const ConvexPart& part, const Linear& cell_m2, const Value& value)
-{
-    PartSum sum;
-    for (std::size_t i = 1; i + 1 < part.count; ++i) {
-        const UvPoint& o = part.points[0];
-        const UvPoint& a = part.points[i];
-        const UvPoint& b = part.points[i + 1];
-        const double cells = 0.5 * std::abs((a.u - o.u) * (b.v - o.v) - (b.u - o.u) * (a.v - o.v));
-        const double area_m2 = cells * cell_m2({(o.u + a.u + b.u) / 3.0, (o.v + a.v + b.v) / 3.0});
-        sum.area_m2 += area_m2;
-        sum.first += area_m2 * (value(o) + value(a) + value(b)) / 3.0;
-    }
-    return sum;
-}
-
-// Products of the ground vectors of one column and one row, in square meters. Unlike the vectors'
-// components, they are smooth at a pole.
-struct Metric {
-    double columns = 0.0;
-    double mixed = 0.0;
-    double rows = 0.0;
-
-    double cellArea() const { return std::sqrt(std::max(0.0, columns * rows - mixed * mixed)); }
-    // Of a cell of this size whose sides rise by these heights.
-    double surface(double width, double height, double rise, double rise_down) const
-    {
-        const double a = columns * width * width + rise * rise;
-        const double b = rows * height * height + rise_down * rise_down;
-        const double ab = mixed * width * height + rise * rise_down;
-        return std::sqrt(std::max(0.0, a * b - ab * ab));
-    }
-};
-
-// Lengths of the grid on the ground.
-class MetricField {
-public:
-    // `low` and `high` are the corners of the measured part.
-    static std::unique_ptr<MetricField>
-    of(const MeasuredTerrain& terrain, GridPoint low, GridPoint high)
-    {
-        auto field = std::make_unique<MetricField>(terrain);
-        const GeoTransform::Terms& t = terrain.georeference().transform().terms();
-        const bool is_upright = t[2] == 0.0 && t[4] == 0.0;
-        field->is_by_row_ = !terrain.ground().ellipsoid() || (is_upright && terrain.period() > 0.0);
-        if (!field->is_by_row_) {
-            constexpr double kTolerance = 1e-7;
-            field->table_ = GridField<3>::of(
-                low, high, kTolerance, [&](GridPoint grid) -> std::optional<std::array<double, 3>> {
-                    const auto metric = metricAt(terrain, grid);
-                    return metric ? std::optional(
-                                        std::array{metric->columns, metric->mixed, metric->rows})
-                                  : std::nullopt;
-                });
-        }
-        return field;
-    }
-
-    explicit MetricField(const MeasuredTerrain& terrain)
-        : terrain_(terrain)
-    {}
-
-    Metric at(GridPoint grid)
-    {
-        if (table_) {
-            const auto v = table_->at(grid);
-            return {v[0], v[1], v[2]};
-        }
-        // Where the projection ends, cells have no area.
-        if (!is_by_row_) {
-            return metricAt(terrain_, grid).value_or(Metric{});
-        }
-        Row& known = rows_[static_cast<std::size_t>(std::llround(grid.row * 3.0)) % kRows];
-        if (known.row != grid.row) {
-            const double center = 0.5 * static_cast<double>(terrain_.georeference().columns());
-            known = {grid.row, metricAt(terrain_, {center, grid.row}).value_or(Metric{})};
-        }
-        return known.metric;
-    }
-
-private:
-    static std::optional<Metric> metricAt(const MeasuredTerrain& terrain, GridPoint grid)
-    {
-        const auto s = gridSteps(terrain, grid);
-        if (!s) {
-            return std::nullopt;
-        }
-        return Metric{s->east_per_column * s->east_per_column +
-                          s->north_per_column * s->north_per_column,
-                      s->east_per_column * s->east_per_row + s->north_per_column * s->north_per_row,
-                      s->east_per_row * s->east_per_row + s->north_per_row * s->north_per_row};
-    }
-
-    static constexpr std::size_t kRows = 64;
-    struct Row {
-        double row = kNan;
-        Metric metric{};
-    };
-
-    const MeasuredTerrain& terrain_;
-    bool is_by_row_ = false;
-    std::optional<GridField<3>> table_;
-    std::array<Row, kRows> rows_;
-};
-
-// Elevation of the base of volumes.
-struct Base {
-    VolumeBase kind = VolumeBase::None;
-    double level_m = 0.0;
-    double per_east = 0.0;
-    double per_north = 0.0;
-    std::optional<GridField<2>> east_north{}; // of grid positions
-    double middle_column = 0.0;               // of the field, where columns are periodic
-    double period = 0.0;
-
-    double at(GridPoint grid) const
-    {
-        if (kind != VolumeBase::BorderPlane) {
-            return level_m;
-        }
-        if (period > 0.0) {
-            grid.column += period * std::round((middle_column - grid.column) / period);
-        }
-        const auto en = east_north->at(grid);
-        return level_m + per_east * en[0] + per_north * en[1];
-    }
-};
-
-// The terrain along the polygon's edges.
-class BorderVisitor final : public PathVisitor {
-public:
-    explicit BorderVisitor(const Ground& ground, const LocalFrame& frame)
-        : ground_(ground)
-        , frame_(frame)
-    {}
-
-    void begin(const GroundLine& line) { line_ = &line; }
-
-    void visit(const PathPiece& piece) override
-    {
-        for (const double elevation_m : {piece.begin_elevation_m, piece.end_elevation_m}) {
-            if (std::isfinite(elevation_m)) {
-                min_m = std::fmin(min_m, elevation_m);
-                max_m = std::fmax(max_m, elevation_m);
-            }
-        }
-        if (!piece.has_terrain) {
-            return;
-        }
-        const double length_m = piece.end_m - piece.begin_m;
-        const double middle_m = 0.5 * (piece.begin_elevation_m + piece.end_elevation_m);
-        const Vec3 local =
-            frame_.toLocal(ground_.cartesian(line_->at(0.5 * (piece.begin_m + piece.end_m)), 0.0));
-        add(local.x, local.y, middle_m, length_m);
-    }
-
-    // The plane by least squares; false without enough terrain.
-    bool solve(Base& base) const
-    {
-        if (!(weight_ > 0.0)) {
-            return false;
-        }
-        const double e = sum_[0] / weight_;
-        const double n = sum_[1] / weight_;
-        const double z = sum_[2] / weight_;
-        const double ee = square_[0] / weight_ - e * e;
-        const double nn = square_[1] / weight_ - n * n;
-        const double en = square_[2] / weight_ - e * n;
-        const double ez = square_[3] / weight_ - e * z;
-        const double nz = square_[4] / weight_ - n * z;
-        const double determinant = ee * nn - en * en;
-        if (!(determinant > 1e-8 * ee * nn)) {
-            return false;
-        }
-        base.per_east = (ez * nn - nz * en) / determinant;
-        base.per_north = (nz * ee - ez * en) / determinant;
-        base.level_m = z - base.per_east * e - base.per_north * n;
-        return true;
-    }
-
-    double min_m = kNan;
-    double max_m = kNan;
-
-private:
-    void add(double e, double n, double z, double w)
-    {
-        weight_ += w;
-        sum_[0] += w * e;
-        sum_[1] += w * n;
-        sum_[2] += w * z;
-        square_[0] += w * e * e;
-        square_[1] += w * n * n;
-        square_[2] += w * e * n;
-        square_[3] += w * e * z;
-        square_[4] += w * n * z;
-    }
-
-    const Ground& ground_;
-    LocalFrame frame_;
-    const GroundLine* line_ = nullptr;
-    double weight_ = 0.0;
-    std::array<double, 3> sum_{};
-    std::array<double, 5> square_{};
-};
-
 class AreaSummer {
 public:
-    AreaSummer(MeasuredTerrain& terrain, MetricField& metric, const Base& base)
+    AreaSummer(MeasuredTerrain& terrain, MetricField& metric, const VolumeSurface& base)
         : terrain_(terrain)
         , metric_(metric)
         , base_(base)
@@ -424,15 +93,15 @@ private:
                     double outside,
                     JobMonitor& monitor)
     {
-        std::vector<Coverage> coverage(last - first);
-        for (Coverage& column : coverage) {
+        std::vector<ColumnCoverage> coverage(last - first);
+        for (ColumnCoverage& column : coverage) {
             column.reset(outside);
         }
         std::size_t next = 0;
         for (; next < parts.size() && parts[next].is_above; ++next) {
             cover(coverage[parts[next].column - first], parts[next]);
         }
-        for (Coverage& column : coverage) {
+        for (ColumnCoverage& column : coverage) {
             column.normalize();
         }
         upper_row_ = kNoRow;
@@ -440,8 +109,9 @@ private:
         std::size_t row = 0;
         const std::size_t rows = terrain_.cellRows();
         while (row < rows) {
-            const bool is_covered = std::any_of(coverage.begin(), coverage.end(),
-                                                [](const Coverage& c) { return !c.isEmpty(); });
+            const bool is_covered =
+                std::any_of(coverage.begin(), coverage.end(),
+                            [](const ColumnCoverage& c) { return !c.isEmpty(); });
             if (!is_covered) {
                 if (next >= parts.size()) {
                     break;
@@ -492,14 +162,14 @@ private:
 
     double signOf(const EdgePart& part) const { return part.u1 > part.u0 ? sign_ : -sign_; }
 
-    void cover(Coverage& coverage, const EdgePart& part) const
+    void cover(ColumnCoverage& coverage, const EdgePart& part) const
     {
         coverage.add(std::min(part.u0, part.u1), std::max(part.u0, part.u1), signOf(part));
     }
 
     void addCell(std::size_t column,
                  std::size_t row,
-                 Coverage& coverage,
+                 ColumnCoverage& coverage,
                  std::span<const EdgePart> parts,
                  std::size_t i)
     {
@@ -541,8 +211,10 @@ private:
     }
 
     // Of the samples below the last row of cells.
-    void
-    addLastRow(std::size_t column, std::size_t row, const Coverage& coverage, const CellHeights& z)
+    void addLastRow(std::size_t column,
+                    std::size_t row,
+                    const ColumnCoverage& coverage,
+                    const CellHeights& z)
     {
         if (row + 1 != terrain_.cellRows()) {
             return;
@@ -560,7 +232,7 @@ private:
     {
         constexpr double kRounding = 1e-6;
         crosses_itself = crosses_itself || weight > 1.0 + kRounding || weight < -kRounding;
-        const auto corners = [](const Linear& f, std::size_t triangle) {
+        const auto corners = [](const LinearOnCell& f, std::size_t triangle) {
             return std::array{f.at_corner, f.at_corner + (triangle == 0 ? f.per_u : f.per_v),
                               f.at_corner + f.per_u + f.per_v};
         };
@@ -606,10 +278,10 @@ private:
     // One of the two triangles of a cell.
     struct Triangle {
         bool has_terrain = false;
-        Linear cell_m2{};     // area of the cell
-        double stretch = 1.0; // of the terrain: its area over that of the ground
-        Linear elevation_m{};
-        Linear base_m{};
+        LinearOnCell cell_m2{}; // area of the cell
+        double stretch = 1.0;   // of the terrain: its area over that of the ground
+        LinearOnCell elevation_m{};
+        LinearOnCell base_m{};
     };
 
     void beginCell(std::size_t column, std::size_t row, const CellHeights& z, bool is_partial)
@@ -631,18 +303,19 @@ private:
             areas = {area(left, top), area(right, top), area(left, bottom), area(right, bottom)};
         }
         const auto linear = [](const CellHeights& c, bool is_upper) {
-            return Linear{
+            return LinearOnCell{
                 .at_corner = c.upper_left,
                 .per_u = is_upper ? c.upper_right - c.upper_left : c.lower_right - c.lower_left,
                 .per_v = is_upper ? c.lower_right - c.upper_right : c.lower_left - c.upper_left};
         };
         const auto make = [&](bool is_upper) {
             Triangle t{.elevation_m = linear(z, is_upper), .base_m = linear(base, is_upper)};
-            const Linear& m = t.elevation_m;
+            const LinearOnCell& m = t.elevation_m;
             t.has_terrain = std::isfinite(m.at_corner + m.per_u + m.per_v);
             const double share = is_upper ? 1.0 / 3.0 : 2.0 / 3.0;
             const UvPoint center{1.0 - share, share};
-            const Metric metric = metric_.at({left + center.u * width, top + center.v * height});
+            const GroundMetric metric =
+                metric_.at({left + center.u * width, top + center.v * height});
             const double cell_m2 = metric.cellArea() * width * height;
             t.cell_m2 = linear(areas, is_upper);
             t.cell_m2.per_u *= width * height;
@@ -658,18 +331,18 @@ private:
     // The part of the cell below the straight line from `a` to `b`, which runs to the right.
     void addRegion(const UvPoint& a, const UvPoint& b, double weight)
     {
-        ConvexPart region;
+        CellPart region;
         region.add(a);
         region.add(b);
         region.add({b.u, 1.0});
         region.add({a.u, 1.0});
-        const ConvexPart upper = clipped(region, [](const UvPoint& p) { return p.u - p.v; });
-        const ConvexPart lower = clipped(region, [](const UvPoint& p) { return p.v - p.u; });
+        const CellPart upper = clipped(region, [](const UvPoint& p) { return p.u - p.v; });
+        const CellPart lower = clipped(region, [](const UvPoint& p) { return p.v - p.u; });
         addPart(upper, triangles_[0], weight);
         addPart(lower, triangles_[1], weight);
     }
 
-    void addPart(ConvexPart part, const Triangle& t, double weight)
+    void addPart(CellPart part, const Triangle& t, double weight)
     {
         if (!t.has_terrain) {
             return;
@@ -696,7 +369,7 @@ private:
 
     MeasuredTerrain& terrain_;
     MetricField& metric_;
-    const Base& base_;
+    const VolumeSurface& base_;
     double sign_ = 1.0;
     std::vector<double> upper_;
     std::vector<double> lower_;
@@ -735,12 +408,12 @@ Sides sidesOf(const MeasuredTerrain& terrain, const PolygonOutline& outline, dou
 }
 
 Status setPlane(const MeasuredTerrain& terrain,
-                const BorderVisitor& border,
+                const BorderPlane& border,
                 const LocalFrame& frame,
                 double reach_m,
                 GridPoint low,
                 GridPoint high,
-                Base& base)
+                VolumeSurface& base)
 {
     if (terrain.ground().ellipsoid() &&
         reach_m > terrain.ground().ellipsoid()->equatorial_m * std::numbers::pi / 6.0) {
@@ -805,7 +478,7 @@ Result<TerrainArea> measureArea(MeasuredTerrain& terrain,
     const GroundPosition center = ground.positionOf(middle);
     const LocalFrame frame = ground.frameAt(center);
     double reach_m = 0.0;
-    BorderVisitor border(ground, frame);
+    BorderPlane border(ground, frame);
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         const GroundLine line = ground.line(vertices[i], vertices[(i + 1) % vertices.size()]);
         reach_m = std::max(reach_m, ground.distanceM(center, vertices[i]));
@@ -830,7 +503,7 @@ Result<TerrainArea> measureArea(MeasuredTerrain& terrain,
                          std::clamp(outline.low.row - margin, 0.0, last_row)};
     const GridPoint to{column(outline.high.column + margin),
                        std::clamp(outline.high.row + margin, 0.0, last_row)};
-    Base base{.kind = options.base, .level_m = options.base_m};
+    VolumeSurface base{.kind = options.base, .level_m = options.base_m};
     base.period = terrain.period();
     base.middle_column = 0.5 * (outline.low.column + outline.high.column);
     if (options.base == VolumeBase::BorderPlane) {
