@@ -28,7 +28,7 @@ class ClosedLoop {
 public:
     using HeightOf = std::function<double(double x, double y)>;
 
-    /// `height_m` is the surface of `map`, in the scene, NaN beside it.
+    /// `height_m` is the surface of `map`, in the scene, NaN outside it.
     ClosedLoop(ClosedLoopOptions options, std::shared_ptr<ServoMap> map, HeightOf height_m);
 
     LoopSettings settings; // the map, the button, walls; frames are set by the loop
@@ -54,7 +54,7 @@ public:
     OrbitCamera limited(const OrbitCamera& camera) const;
     /// The frame that fits what the camera shows.
     WorkspaceFrame fittedFrame() const;
-    /// Of the surface straight below the hand, in the workspace; NaN beside the map.
+    /// Of the surface straight below the hand, in the workspace; NaN outside the map.
     double surfaceZ() const;
 
 private:

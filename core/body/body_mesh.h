@@ -51,7 +51,7 @@ struct VertexRing {
 /// Faces 2i and 2i + 1 are the lower and the upper one of cell i, those of the poles come last.
 /// Vertex i is sample (i mod columns, i div columns) of the positions. A *corner* is
 /// 3 × face + 0, 1 or 2, as in TriangleMesh. Immutable, any thread, allocates nothing after
-/// construction. 60 bytes per 64 cells beside the samples.
+/// construction. 60 bytes per 64 cells in addition to the samples.
 class BodyMesh {
 public:
     static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();

@@ -27,7 +27,7 @@ struct LabelBox {
 /// What a label belongs to.
 enum class LabelAnchor {
     Area,  // the label lies over the middle of an area, or a little above or below it
-    Point, // the label lies beside a point, which it does not cover
+    Point, // the label lies next to a point, which it does not cover
 };
 
 struct LabelRequest {

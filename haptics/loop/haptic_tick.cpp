@@ -351,7 +351,7 @@ private:
         }
     }
 
-    // From the map to a point beside it, horizontally; zero over the map.
+    // From the map to a point outside it, horizontally; zero over the map.
     Vec3 beyondMap(const ScenePoint& at) const noexcept
     {
         const SceneFrame& frame = map_->frame.frame();

@@ -127,7 +127,7 @@ struct TickState {
 
 struct StepResult {
     Vec3 force_n{};                 // to be written
-    bool is_force_recorded = false; // told in place of the written one
+    bool is_force_recorded = false; // published in place of the written one
     ForceOffReason reason = ForceOffReason::None;
     StylusMode mode = StylusMode::Hover;
     bool has_changed_mode = false;

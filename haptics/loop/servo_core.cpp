@@ -178,10 +178,10 @@ LoopOutcome ServoCore::turnInside(LoopTime begin, bool has_missed_deadline) noex
     ++ticks_;
     const bool is_over = is_finished_ || (options_.ticks_max != 0 && ticks_ >= options_.ticks_max);
     const bool is_at_rest = result.force_n == Vec3{} || written == DeviceStatus::Lost;
-    StepResult told = result;
-    told.force_n = recorded.force_n.value_or(result.force_n);
-    told.is_force_recorded = recorded.force_n.has_value();
-    publish(told, secondsBetween(begin, steady_clock::now()));
+    StepResult published = result;
+    published.force_n = recorded.force_n.value_or(result.force_n);
+    published.is_force_recorded = recorded.force_n.has_value();
+    publish(published, secondsBetween(begin, steady_clock::now()));
     if ((is_over || is_ending) && is_at_rest) {
         if (is_over) {
             has_ended_.store(true, std::memory_order_release);
@@ -286,7 +286,7 @@ void ServoCore::record(const StepResult& result, double tick_s) noexcept
                          .exaggeration = map->frame.exaggeration()};
     }
     const bool is_kept = takeRecording();
-    const bool has_room = !is_kept || tellGround(result.has_ground_changed);
+    const bool has_room = !is_kept || recordGround(result.has_ground_changed);
     if (!has_room && result.goals.count == 0) {
         ++counts_.not_recorded;
     }
@@ -332,13 +332,13 @@ bool ServoCore::takeRecording() noexcept
 }
 
 // False if the queue is full.
-bool ServoCore::tellGround(bool was_told) noexcept
+bool ServoCore::recordGround(bool was_notified) noexcept
 {
     const auto& map = settings_.front().map;
     if (map == nullptr) {
         return true;
     }
-    const auto count = ground_log_.tell(*map, was_told, ground_records_);
+    const auto count = ground_log_.record(*map, was_notified, ground_records_);
     untaken_ground_count_ += count.value_or(0);
     return count.has_value();
 }

@@ -107,7 +107,7 @@ private:
     void record(const StepResult& result, double tick_s) noexcept;
     void noteMotion(const SceneMotion& motion) noexcept;
     bool takeRecording() noexcept;
-    bool tellGround(bool was_told) noexcept;
+    bool recordGround(bool was_told) noexcept;
 
     std::unique_ptr<HapticDevice> device_;
     ServoCoreOptions options_;

@@ -3,7 +3,7 @@
 namespace marsview {
 
 std::optional<std::uint32_t>
-GroundLog::tell(const ServoMap& map, bool was_told, Queue& queue) noexcept
+GroundLog::record(const ServoMap& map, bool was_notified, Queue& queue) noexcept
 {
     if (queue.room() < kMax) {
         return std::nullopt;
@@ -32,7 +32,7 @@ GroundLog::tell(const ServoMap& map, bool was_told, Queue& queue) noexcept
         return count; // a map in memory is always complete
     }
     const ResidentTerrain& terrain = map.terrain->resident();
-    bool has_changed = was_told;
+    bool has_changed = was_notified;
     for (std::size_t k = 0; k < terrain.window().levelCount(); ++k) {
         const ShownTiles& shown = terrain.shown(k);
         if (shown != shown_[k]) {
@@ -48,7 +48,7 @@ GroundLog::tell(const ServoMap& map, bool was_told, Queue& queue) noexcept
         terrain.blend().eachTile([&put](const TileId& id, double weight) {
             put(GroundTile{id, weight});
         });
-        put(GroundFelt{was_told ? map.serial : 0});
+        put(GroundFelt{was_notified ? map.serial : 0});
     }
     return count;
 }

@@ -20,10 +20,11 @@ public:
 
     /// The next report starts from the beginning.
     void forget() noexcept { *this = {}; }
-    /// Call after a tick over `map`. `was_told` says whether the contact model was notified of a
-    /// terrain change. Returns the number of records put into the queue; empty if there was no
+    /// Call after a tick over `map`. `was_notified` says whether the contact model was notified of
+    /// a terrain change. Returns the number of records put into the queue; empty if there was no
     /// room.
-    std::optional<std::uint32_t> tell(const ServoMap& map, bool was_told, Queue& queue) noexcept;
+    std::optional<std::uint32_t>
+    record(const ServoMap& map, bool was_notified, Queue& queue) noexcept;
 
 private:
     static constexpr std::size_t kMax = // per tick

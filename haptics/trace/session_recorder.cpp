@@ -157,11 +157,11 @@ Status saveFlight(const std::vector<TickRecord>& records, const std::string& pat
         return std::move(file).error();
     }
     for (const TickRecord& record : records) {
-        TickRecord told = record;
-        if (!told.has_goal) {
-            told.goal = {kNone, kNone, kNone};
+        TickRecord written = record;
+        if (!written.has_goal) {
+            written.goal = {kNone, kNone, kNone};
         }
-        std::string line = sessionLine(told, records.front().time_ns);
+        std::string line = sessionLine(written, records.front().time_ns);
         line.pop_back();
         file->write(fmt::format("{},{},{},{},{:.3f}\n", line, asText(record.hand.x),
                                 asText(record.hand.y), asText(record.hand.z), record.tick_us));

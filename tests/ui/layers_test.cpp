@@ -277,14 +277,14 @@ TEST_F(LayersTest, ElevationsAreThoseOfTheActiveLayerWhereBothAreShown)
     hit.grid = middle;
     hit.height_m = layers()[0].map->heightfield().height(middle);
     readout.setPlace(ReadPlace{.hit = hit});
-    const auto told = [&readout] {
+    const auto shown_m = [&readout] {
         QString text = readout.heightLabel().section(QLatin1Char(' '), 0, 0);
         return text.replace(QChar(0x2212), QLatin1Char('-')).toDouble();
     };
-    EXPECT_NEAR(told(), 0.0, 1.0); // 15 · 20 − 300
+    EXPECT_NEAR(shown_m(), 0.0, 1.0); // 15 · 20 − 300
     controller().activate(id(1));
     readout.setPlace(ReadPlace{.hit = hit});
-    EXPECT_NEAR(told(), 200.0, 1.0);
+    EXPECT_NEAR(shown_m(), 200.0, 1.0);
 }
 
 TEST_F(LayersTest, ALayerMayBeRemovedWhileAnotherIsLoading)

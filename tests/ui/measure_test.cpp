@@ -495,7 +495,7 @@ TEST_F(MeasureTest, ASavedPictureHasTheMeasurement)
     EXPECT_FALSE(differs(QPointF(from) + QPointF(-30.0, 30.0)));
 }
 
-// Saved, closed, and opened in another window: the same points on the same layer, measured anew.
+// Saved, closed, and opened in another window: the same points on the same layer, measured again.
 TEST_F(MeasureTest, AProjectKeepsTheMeasurements)
 {
     ASSERT_NO_FATAL_FAILURE(choose(MeasurementKind::Distance));
@@ -517,7 +517,7 @@ TEST_F(MeasureTest, AProjectKeepsTheMeasurements)
     const QString file = maps_.path(QStringLiteral("measured.mvproj"));
     ASSERT_TRUE(window_->commands().project.saveAs(file));
     EXPECT_FALSE(window_->isWindowModified());
-    // For other programs, beside it.
+    // For other programs, next to it.
     const std::string beside =
         maps_.path(QStringLiteral("measured-measurements.gpkg")).toStdString();
     const std::string layers = test::runTool({"ogrinfo", "-ro", "-q", "-geom=NO", "-al", beside});

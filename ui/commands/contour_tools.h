@@ -20,7 +20,7 @@ class SessionController;
 class TerrainView;
 
 /// Asks for the interval of the contour lines, and exports the contours of the active layer on a
-/// thread of its own. GUI thread; must not outlive what it is made of.
+/// thread of its own. GUI thread; must not outlive its parts.
 class ContourTools final : public QObject {
     Q_OBJECT
 

@@ -20,7 +20,7 @@ struct WindowActions;
 QStringList filesIn(const QMimeData& data);
 
 /// Passes maps, projects and vector files to what opens each kind, and remembers the folder. GUI
-/// thread; must not outlive what it is made of.
+/// thread; must not outlive its parts.
 class FileOpening final : public QObject {
     Q_OBJECT
 

@@ -17,7 +17,7 @@ class WindowMessages;
 struct WindowActions;
 
 /// Remembers the settings and, so that a driver that ends the program does not do so at every
-/// start, whether a device is connected. GUI thread; must not outlive what it is made of.
+/// start, whether a device is connected. GUI thread; must not outlive its parts.
 class HapticsCommands final : public QObject {
     Q_OBJECT
 

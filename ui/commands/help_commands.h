@@ -11,7 +11,7 @@ class GuideWindow;
 class TerrainView;
 struct WindowActions;
 
-/// GUI thread; must not outlive what it is made of.
+/// GUI thread; must not outlive its parts.
 class HelpCommands final : public QObject {
     Q_OBJECT
 

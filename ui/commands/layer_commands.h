@@ -15,7 +15,7 @@ class WindowDocks;
 struct WindowActions;
 
 /// Passes them to the session, and shows the session in their controls. GUI thread; must not
-/// outlive what it is made of.
+/// outlive its parts.
 class LayerCommands final : public QObject {
     Q_OBJECT
 

@@ -10,7 +10,7 @@ class TerrainView;
 class WindowDocks;
 struct WindowActions;
 
-/// GUI thread; must not outlive what it is made of.
+/// GUI thread; must not outlive its parts.
 class MeasureCommands final : public QObject {
     Q_OBJECT
 

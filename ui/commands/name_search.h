@@ -18,7 +18,7 @@ class MapOverlays;
 class TerrainView;
 
 /// Connects the search field, the view and the lists of names; opens files of names. GUI thread;
-/// must not outlive what it is made of.
+/// must not outlive its parts.
 class NameSearch final : public QObject {
     Q_OBJECT
 

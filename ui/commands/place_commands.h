@@ -24,7 +24,7 @@ class VectorTools;
 struct GroundPoint;
 struct WindowActions;
 
-/// GUI thread; must not outlive what it is made of.
+/// GUI thread; must not outlive its parts.
 class PlaceCommands final : public QObject {
     Q_OBJECT
 

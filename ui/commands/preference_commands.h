@@ -1,4 +1,4 @@
-// The preferences of a window: choosing them, and telling its parts.
+// The preferences of a window: choosing them, and passing them to its parts.
 #pragma once
 
 #include "ui/controllers/map_opener.h"
@@ -24,8 +24,7 @@ class StretchControl;
 class TerrainView;
 struct WindowActions;
 
-/// Knows which part of the window follows which preference. GUI thread; must not outlive what it is
-/// made of.
+/// Knows which part of the window follows which preference. GUI thread; must not outlive its parts.
 class PreferenceCommands final : public QObject {
     Q_OBJECT
 

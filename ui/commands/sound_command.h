@@ -16,7 +16,7 @@ class TerrainView;
 class WindowMessages;
 
 /// A sound that failed is off at the next start too. A failure is reported only to a user who has
-/// just switched the sound on. GUI thread; must not outlive what it is made of.
+/// just switched the sound on. GUI thread; must not outlive its parts.
 class SoundCommand final : public QObject {
     Q_OBJECT
 

@@ -22,7 +22,7 @@ class SessionController;
 class TerrainView;
 class VectorOverlays;
 
-/// GUI thread; must not outlive what it is made of.
+/// GUI thread; must not outlive its parts.
 class VectorTools final : public QObject {
     Q_OBJECT
 

@@ -13,7 +13,7 @@ class WindowDocks;
 class WindowMessages;
 struct WindowActions;
 
-/// GUI thread; must not outlive what it is made of.
+/// GUI thread; must not outlive its parts.
 class ViewCommands final : public QObject {
     Q_OBJECT
 

@@ -12,8 +12,7 @@ class TerrainView;
 class WindowMessages;
 struct WindowActions;
 
-/// Shows it in the status bar and lets the user cancel it. GUI thread; must not outlive what it is
-/// made of.
+/// Shows it in the status bar and lets the user cancel it. GUI thread; must not outlive its parts.
 class WorkProgress final : public QObject {
     Q_OBJECT
 

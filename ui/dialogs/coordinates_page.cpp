@@ -107,33 +107,33 @@ CoordinatesPage::CoordinatesPage(QWidget* parent)
     setBody(nullptr);
     fill({});
 
-    const auto tell = [this] {
+    const auto notify = [this] {
         showExamples();
         Q_EMIT changed();
     };
-    connect(notation_, &QComboBox::currentIndexChanged, this, [this, tell] {
+    connect(notation_, &QComboBox::currentIndexChanged, this, [this, notify] {
         const auto notation = static_cast<Notation>(notation_->currentData().toInt());
         format_.system =
             notation == Notation::Map ? PositionSystem::Map : PositionSystem::Geographic;
         if (notation != Notation::Map) {
             format_.angles = anglesOf(notation);
         }
-        tell();
+        notify();
     });
-    connect(longitudes_, &QComboBox::currentIndexChanged, this, [this, tell] {
+    connect(longitudes_, &QComboBox::currentIndexChanged, this, [this, notify] {
         const int value = longitudes_->currentData().toInt();
         format_.longitudes =
             value == kUsual ? std::nullopt : std::optional(static_cast<LongitudeNotation>(value));
-        tell();
+        notify();
     });
     connect(body_, &QComboBox::currentIndexChanged, this, [this] {
         showLatitudes();
         showExamples();
     });
-    connect(latitudes_, &QComboBox::currentIndexChanged, this, [this, tell] {
+    connect(latitudes_, &QComboBox::currentIndexChanged, this, [this, notify] {
         format_.setLatitudesOn(bodyNamed(body_->currentText().toStdString()),
                                static_cast<LatitudeKind>(latitudes_->currentData().toInt()));
-        tell();
+        notify();
     });
 }
 

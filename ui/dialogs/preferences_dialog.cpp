@@ -84,18 +84,18 @@ PreferencesDialog::PreferencesDialog(const Preferences& preferences,
     layout->addWidget(buttons);
     fill(preferences);
 
-    const auto tell = [this] { Q_EMIT preferencesChanged(this->preferences()); };
+    const auto notify = [this] { Q_EMIT preferencesChanged(this->preferences()); };
     for (QComboBox* box : {theme_, height_unit_, frame_rate_}) {
-        connect(box, &QComboBox::currentIndexChanged, this, tell);
+        connect(box, &QComboBox::currentIndexChanged, this, notify);
     }
-    connect(antialiasing_, &QCheckBox::toggled, this, tell);
-    connect(coordinates_, &CoordinatesPage::changed, this, tell);
-    connect(large_maps_, &LargeMapsPage::changed, this, tell);
+    connect(antialiasing_, &QCheckBox::toggled, this, notify);
+    connect(coordinates_, &CoordinatesPage::changed, this, notify);
+    connect(large_maps_, &LargeMapsPage::changed, this, notify);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
     connect(buttons->button(QDialogButtonBox::RestoreDefaults), &QPushButton::clicked, this,
-            [this, tell] {
+            [this, notify] {
                 fill(Preferences{});
-                tell(); // a change of only the folder emits no signal
+                notify(); // a change of only the folder emits no signal
             });
 }
 

@@ -64,7 +64,7 @@ private:
         Label label;
         bool is_name = false; // or a value of the graticule
         Size size = Size::Small;
-        std::optional<QPointF> point; // that the label lies beside
+        std::optional<QPointF> point; // next to the label
     };
     // Of a picture of the view.
     struct Sight {

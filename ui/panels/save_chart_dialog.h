@@ -16,7 +16,7 @@ struct ChartFile {
 };
 
 /// Opens a file dialog over `parent` for a table or a picture (csv, png, svg, pdf). `save` gets the
-/// chosen path and returns whether the file was written; the user is told if not. Returns at once.
+/// chosen path and returns whether the file was written; a message says so if not. Returns at once.
 void askChartFile(QWidget& parent,
                   const ChartFile& file,
                   const std::function<bool(const QString& path)>& save);

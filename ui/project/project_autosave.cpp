@@ -60,7 +60,7 @@ void ProjectAutosave::write(const Project& project, const fs::path& file)
     if (!begin()) {
         return;
     }
-    // Paths of a copy are absolute: nothing lies below or beside this folder.
+    // Paths of a copy are absolute: nothing lies in or next to this folder.
     pool_.start([named = project, file, copy = copy_]() mutable {
         named.others[kFileMember] = QStringLiteral("\"%1\"")
                                         .arg(QString::fromStdString(file.string())

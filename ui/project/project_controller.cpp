@@ -71,7 +71,7 @@ bool ProjectController::isNothingToKeep() const
             (session.layers.empty() && session.missing.empty() && measuring_.saved().empty()));
 }
 
-// Opening maps can be repeated as easily: nobody is asked whether to save that alone.
+// Opening maps can be repeated as easily: opening them alone does not lead to a question.
 void ProjectController::noteOpened()
 {
     QUndoStack& stack = session_.undoStack();

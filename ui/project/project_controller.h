@@ -52,7 +52,7 @@ public:
     /// cannot be read.
     bool open(const QString& file);
     /// To file(), which is not empty. Emits failed() if it cannot be written. The measurements are
-    /// also written beside it as GeoPackages for other programs; these are never read.
+    /// also written next to it as GeoPackages for other programs; these are never read.
     bool save();
     /// To another file, which becomes file(). Adds the extension if there is none.
     bool saveAs(const QString& file);

@@ -18,7 +18,7 @@ class QMessageBox;
 namespace marsview {
 
 /// Adds New, Open, Save, Save As and Recent Projects to the top of the File menu, and asks before
-/// unsaved changes are lost. GUI thread; must not outlive what it is made of.
+/// unsaved changes are lost. GUI thread; must not outlive its parts.
 class ProjectMenu final : public QObject {
     Q_OBJECT
 

@@ -155,11 +155,11 @@ LightPopup::LightPopup(QWidget* parent)
     layout->addLayout(form);
     layout->addWidget(reset);
 
-    const auto tell = [this] {
+    const auto notify = [this] {
         Q_EMIT lightChanged(Angle::degrees(azimuth_->value()), Angle::degrees(altitude_->value()));
     };
-    connect(azimuth_, &QSpinBox::valueChanged, this, tell);
-    connect(altitude_, &QSpinBox::valueChanged, this, tell);
+    connect(azimuth_, &QSpinBox::valueChanged, this, notify);
+    connect(altitude_, &QSpinBox::valueChanged, this, notify);
     connect(pad_, &LightPad::moved, this, [this](int azimuth_deg, int altitude_deg) {
         Q_EMIT lightChanged(Angle::degrees(azimuth_deg), Angle::degrees(altitude_deg));
     });

@@ -1,4 +1,4 @@
-// The proxy graph as published, beside a second implementation of the paper's sentences.
+// The proxy graph as published, compared with a second implementation of the paper's sentences.
 #include "core/contact/heightfield_surface.h"
 #include "core/contact/proxy_graph_2003.h"
 #include "tests/core/contact/contact_judge.h"

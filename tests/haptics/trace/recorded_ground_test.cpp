@@ -61,7 +61,7 @@ TEST(RecordedGround, IsTheGroundThatWasFeltToTheBitWhateverCameWhen)
         terrain->resident().resetMisses();
         const bool has_changed = terrain->refresh(
             {.at = at, .time_ns = now / std::chrono::nanoseconds(1), .is_active = true}, 0.001);
-        const auto count = log.tell(*servo_map, has_changed, queue);
+        const auto count = log.record(*servo_map, has_changed, queue);
         ASSERT_TRUE(count);
         GroundRecord record;
         for (std::uint32_t i = 0; i < *count; ++i) {
@@ -69,7 +69,7 @@ TEST(RecordedGround, IsTheGroundThatWasFeltToTheBitWhateverCameWhen)
             ASSERT_TRUE(again->follow(record));
         }
         EXPECT_FALSE(queue.take(record));
-        ASSERT_EQ(log.tell(*servo_map, false, queue), 0U) << "nothing has changed since";
+        ASSERT_EQ(log.record(*servo_map, false, queue), 0U) << "nothing has changed since";
         blended += terrain->resident().blend().isEmpty() ? 0U : 1U;
         for (int i = 0; i < 8; ++i) {
             const auto along = [&](double middle, std::size_t samples) {

@@ -110,11 +110,11 @@ TEST_F(FlightRecordTest, CoversTheTimeBeforeItIsSaved)
     EXPECT_TRUE(std::any_of(rows.end() - 200, rows.end(), [](const QList<QByteArray>& row) {
         return row[kForceZ].toDouble() > 0.5;
     }));
-    const QString told = QStringLiteral("flight.csv: %1 ticks of %2 s")
-                             .arg(rows.size())
-                             .arg(rows.back()[kTime].toDouble(), 0, 'f', 1);
-    EXPECT_EQ(window_->statusBar()->currentMessage(), told);
-    EXPECT_EQ(panelText(), told);
+    const QString message = QStringLiteral("flight.csv: %1 ticks of %2 s")
+                                .arg(rows.size())
+                                .arg(rows.back()[kTime].toDouble(), 0, 'f', 1);
+    EXPECT_EQ(window_->statusBar()->currentMessage(), message);
+    EXPECT_EQ(panelText(), message);
     EXPECT_TRUE(device().loop()->isRunning());
 }
 

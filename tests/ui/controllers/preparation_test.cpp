@@ -154,14 +154,15 @@ TEST_F(PreparationTest, ShowsTheMapItselfInTheEndAndAtOnceTheNextTime)
 
 TEST_F(PreparationTest, TellsItsProgressWithoutGoingBack)
 {
-    std::vector<double> told;
+    std::vector<double> reported;
     WindowOptions some = options();
     const auto window = makeWindow(some);
-    QObject::connect(&window->controller(), &SessionController::preparingProgressed, window.get(),
-                     [&](const PrepareProgress& progress) { told.push_back(progress.fraction); });
+    QObject::connect(
+        &window->controller(), &SessionController::preparingProgressed, window.get(),
+        [&](const PrepareProgress& progress) { reported.push_back(progress.fraction); });
     ASSERT_TRUE(openAndWait(*window, file_));
-    ASSERT_FALSE(told.empty());
-    EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+    ASSERT_FALSE(reported.empty());
+    EXPECT_TRUE(std::is_sorted(reported.begin(), reported.end()));
 }
 
 TEST_F(PreparationTest, SaysWhatIsWrongWithTheFolderAndGoesOnInAnother)

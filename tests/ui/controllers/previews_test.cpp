@@ -319,7 +319,7 @@ TEST_F(PreviewsTest, TakeWhatTheUserTellsMeanwhile)
     ASSERT_TRUE(waitUntilWhole());
     EXPECT_EQ(layer().map->spec().overrides, overrides);
     EXPECT_TRUE(layer().map->heightfield().isTiled());
-    // Back before it was told, that map is completed too.
+    // Back before it was reported, that map is completed too.
     window_->undoStack().undo();
     ASSERT_TRUE(waitUntilWhole());
     EXPECT_TRUE(layer().map->spec().overrides.isEmpty());
