@@ -401,6 +401,9 @@ TEST_F(LayersTest, SettingNodataAdaptsTheExaggerationToTheRest)
     });
     ASSERT_TRUE(openAndWait(*window_, file));
     const TerrainView& view = *window_->view();
+    controller().overrideGeoreferencing(id(0), {}); // as the file declares it
+    ASSERT_TRUE(waitForLoads());
+    ASSERT_TRUE(settle());
     const double flat = view.exaggeration();
     EXPECT_FALSE(view.map()->info().notices.empty());
     RasterOverrides overrides;

@@ -1,5 +1,6 @@
 #include "ui/controllers/session_controller.h"
 
+#include "core/raster/certain_nodata.h"
 #include "core/session/range_in_picture.h"
 #include "core/view/exaggeration.h"
 #include "ui/canvas/terrain_view.h"
@@ -91,6 +92,10 @@ SessionController::SessionController(TerrainView& view, QObject* parent)
     });
     connect(loader_, &LoadController::succeeded, this, &SessionController::accept);
     connect(loader_, &LoadController::failed, this, [this](const LoadFailure& failure) {
+        if (current_->as_declared) {
+            accept(current_->as_declared); // nothing is left without those samples
+            return;
+        }
         const Load load = *std::exchange(current_, std::nullopt);
         const QString problem = QString::fromStdString(failure.error.message);
         if (load.purpose == Load::Purpose::Complete) {
@@ -369,10 +374,19 @@ void SessionController::accept(const std::shared_ptr<const Map>& map)
             change(tr("Georeferencing of %1").arg(nameOf(*layer)),
                    withMap(session_, load.layer, map));
         }
+    } else if (openAgainWithNodata(load, map)) {
+        return;
     } else {
         const bool is_sample = load.purpose == Load::Purpose::Sample;
-        const Session after = added(session_, {.map = map, .is_sample = is_sample});
+        Layer top{.map = map, .is_sample = is_sample};
+        if (const Body* body = map->info().body; is_sample && body != nullptr) {
+            top.name = body->name; // the user did not choose that file
+        }
+        const Session after = added(session_, std::move(top));
         to_reveal_ = after.active;
+        if (load.as_declared && load.as_declared != map) {
+            assumed_nodata_.push_back({.layer = after.active, .raw = *load.spec.overrides.nodata});
+        }
         for (const Layer& layer : session_.layers) {
             if (layer.is_sample && !is_sample) {
                 replaced_sample_ = layer;
@@ -389,6 +403,30 @@ void SessionController::accept(const std::shared_ptr<const Map>& map)
         }
     }
     endLoad();
+}
+
+// The first picture of a map would be a slab over a pit of what is certainly no elevation.
+bool SessionController::openAgainWithNodata(const Load& load, const std::shared_ptr<const Map>& map)
+{
+    const std::optional<double> nodata = certainNodata(map->info());
+    if (!nodata || load.purpose != Load::Purpose::Open || load.as_declared) {
+        return false;
+    }
+    Load again = load;
+    again.spec.overrides.nodata = nodata;
+    again.as_declared = map;
+    waiting_.push_front(std::move(again));
+    --begun_count_; // it is the same file
+    startNext();
+    return true;
+}
+
+bool SessionController::isNodataAssumed(const Layer& layer) const
+{
+    return std::any_of(
+        assumed_nodata_.begin(), assumed_nodata_.end(), [&layer](const AssumedNodata& assumed) {
+            return assumed.layer == layer.id && layer.map->spec().overrides.nodata == assumed.raw;
+        });
 }
 
 void SessionController::remove(LayerId id)

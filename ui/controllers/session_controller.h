@@ -95,6 +95,9 @@ public:
     /// Replaces what the file of a layer states. overrideFailed() follows if that is not
     /// possible.
     void overrideGeoreferencing(LayerId id, const RasterOverrides& overrides);
+    /// Whether a layer's nodata value is neither of its file nor chosen by the user, but one that
+    /// no elevation has: files are opened with it (certainNodata()).
+    bool isNodataAssumed(const Layer& layer) const;
     /// Cancels the file that is loading and those that wait.
     void cancel();
     /// Builds the overviews of a layer that is a preview, or resumes that.
@@ -179,6 +182,7 @@ private:
         } purpose = Purpose::Open;
         RasterSpec spec;
         LayerId layer = LayerId::None; // that is overridden or missing, or whose preview it is
+        std::shared_ptr<const Map> as_declared{}; // the map before its nodata value was assumed
     };
     /// What became of a preview. It lives as long as some step of undo holds the preview.
     struct Successor {
@@ -197,6 +201,7 @@ private:
     void startNext();
     void dropLoadsOf(LayerId id);
     void accept(const std::shared_ptr<const Map>& map);
+    bool openAgainWithNodata(const Load& load, const std::shared_ptr<const Map>& map);
     void endLoad();
     const MissingLayer* missingLayer(LayerId id) const;
     void acceptMissing(const Load& load, const std::shared_ptr<const Map>& map);
@@ -232,6 +237,11 @@ private:
     int ending_count_ = 0;
     LayerId to_reveal_ = LayerId::None;
     std::optional<Layer> replaced_sample_;
+    struct AssumedNodata {
+        LayerId layer;
+        double raw;
+    };
+    std::vector<AssumedNodata> assumed_nodata_;
     LayerId project_active_ = LayerId::None; // becomes active when it is loaded
     std::vector<ShownLayer> shown_;
     int drag_serial_ = 0;

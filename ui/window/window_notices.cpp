@@ -138,6 +138,9 @@ void WindowNotices::addNotices(const Layer& layer,
     if (map.isPreview()) {
         others.append(ofPreview(layer));
     }
+    if (parts_.session.isNodataAssumed(layer)) {
+        corrections.append(ofAssumedNodata(layer));
+    }
     const auto& suggestion = map.info().crs_suggestion;
     const std::string of_suggestion = suggestion ? noticeOf(*suggestion) : std::string();
     const auto& nodata = map.info().nodata_suggestion;
@@ -158,6 +161,23 @@ void WindowNotices::addNotices(const Layer& layer,
             others.append(notice);
         }
     }
+}
+
+Notice WindowNotices::ofAssumedNodata(const Layer& layer) const
+{
+    const QString value = sampleText(*layer.map->spec().overrides.nodata);
+    SessionController& session = parts_.session;
+    RasterOverrides overrides = layer.map->spec().overrides;
+    overrides.nodata.reset();
+    return {.id = idOf(layer.id, QStringLiteral("assumed nodata")),
+            //: %1 is a number
+            .text = tr("Samples of %1 are shown as nodata, although the file declares no nodata "
+                       "value")
+                        .arg(value),
+            //: On a button: show samples that were taken for nodata as elevations
+            .actions = {{tr("Show as Elevations"), [&session, id = layer.id, overrides] {
+                             session.overrideGeoreferencing(id, overrides);
+                         }}}};
 }
 
 void WindowNotices::addNodata(Notice& notice, double raw, const Layer& layer) const

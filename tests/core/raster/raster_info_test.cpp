@@ -1,3 +1,4 @@
+#include "core/raster/certain_nodata.h"
 #include "core/raster/raster_info.h"
 #include "tests/support/nan.h"
 
@@ -353,6 +354,25 @@ TEST(UndeclaredNodata, ValuesThatUsuallyMarkItAreSuggested)
     EXPECT_EQ(suggested(SampleType::UInt16, 0.0, 65535.0), 65535.0);
     EXPECT_EQ(suggested(SampleType::Float32, 0.0, 65535.0), std::nullopt);
     EXPECT_EQ(suggested(SampleType::Int16, -8201.0, 21241.0), std::nullopt);
+}
+
+TEST(UndeclaredNodata, IsCertainBeyondAllElevations)
+{
+    RasterInfo info;
+    EXPECT_FALSE(certainNodata(info));
+    info.nodata_suggestion = -32767.0;
+    EXPECT_EQ(certainNodata(info), -32767.0);
+    info.scale = 0.1; // -3276.7 m
+    EXPECT_FALSE(certainNodata(info));
+    info.scale = 1.0;
+    info.nodata_suggestion = -9999.0; // lower than any place on Mars or the Moon
+    EXPECT_EQ(certainNodata(info), -9999.0);
+    info.nodata_suggestion = 65535.0;
+    EXPECT_EQ(certainNodata(info), 65535.0);
+    info.scale = 0.01;
+    EXPECT_FALSE(certainNodata(info));
+    info.nodata_suggestion = -3.4028234663852886e38;
+    EXPECT_EQ(certainNodata(info), -3.4028234663852886e38);
 }
 
 TEST(UndeclaredNodata, ADeclaredValueIsTrusted)

@@ -205,8 +205,9 @@ TEST_F(NoticesTest, TheReplacedSampleCanBeKept)
     EXPECT_FALSE(shown().contains(QStringLiteral("sample")));
 }
 
-// A hole of -32767 that the file does not declare: the decision comes before all other notices.
-TEST_F(NoticesTest, UndeclaredNodataIsSetByOneClick)
+// A hole of -32767 that the file does not declare: it is a hole from the first picture on, and the
+// decision comes before all other notices.
+TEST_F(NoticesTest, UndeclaredNodataIsAHoleAndAnElevationByOneClick)
 {
     const QString declared = maps_.write(QStringLiteral("lake.asc"), {}, [](int column, int row) {
         return column > 20 && column < 30 && row > 10 && row < 20 ? -32767.0 : 1000.0 + row;
@@ -217,20 +218,56 @@ TEST_F(NoticesTest, UndeclaredNodataIsSetByOneClick)
     window_->openSample(maps_.mars("sample"));
     ASSERT_TRUE(waitUntilSettled(*window_));
     ASSERT_TRUE(openAndWait(*window_, lake));
-    EXPECT_EQ(shown(), QStringLiteral("Samples of −32767 often mark nodata, but the file declares "
-                                      "no nodata value"));
-    QToolButton* set = noticeButton(bar(), "noticeAction");
-    EXPECT_EQ(set->text(), QStringLiteral("Set −32767 as Nodata"));
-    QTest::mouseClick(set, Qt::LeftButton);
     const auto lowest = [this] {
         const Layer* layer = activeLayer(window_->session());
         return layer != nullptr ? layer->map->heightfield().range()->minimum_m : 0.0;
     };
+    EXPECT_EQ(lowest(), 1000.0);
+    EXPECT_EQ(window_->undoStack().count(), 1) << "opening is one step";
+    EXPECT_FALSE(window_->isWindowModified());
+    EXPECT_EQ(shown(), QStringLiteral("Samples of −32767 are shown as nodata, although the file "
+                                      "declares no nodata value"));
+    QToolButton* button = noticeButton(bar(), "noticeAction");
+    EXPECT_EQ(button->text(), QStringLiteral("Show as Elevations"));
+    QTest::mouseClick(button, Qt::LeftButton);
+    ASSERT_TRUE(waitFor([&] { return lowest() == -32767.0; })) << lowest();
+    EXPECT_EQ(shown(), QStringLiteral("Samples of −32767 often mark nodata, but the file declares "
+                                      "no nodata value"));
+    EXPECT_EQ(button->text(), QStringLiteral("Set −32767 as Nodata"));
+    QTest::mouseClick(button, Qt::LeftButton);
     ASSERT_TRUE(waitFor([&] { return lowest() == 1000.0; })) << lowest();
-    EXPECT_FALSE(shown().contains(QStringLiteral("nodata"))) << shown().toStdString();
     window_->undoStack().undo();
     EXPECT_EQ(lowest(), -32767.0);
-    EXPECT_TRUE(shown().contains(QStringLiteral("nodata"))) << shown().toStdString();
+    EXPECT_TRUE(shown().contains(QStringLiteral("often mark"))) << shown().toStdString();
+}
+
+// -3276.7 m may be the bottom of a sea: it stays an elevation until the user decides.
+TEST_F(NoticesTest, UndeclaredNodataThatMayBeAnElevationIsKept)
+{
+    const auto lowest = [this] {
+        return activeLayer(window_->session())->map->heightfield().range()->minimum_m;
+    };
+    const QString file = maps_.path(QStringLiteral("half.tif"));
+    test::runTool(
+        {"gdal_translate", "-q", "-ot", "Int16", "-a_nodata", "none", "-a_scale", "0.1",
+         "-a_offset", "0",
+         maps_
+             .write(QStringLiteral("half.asc"), {},
+                    [](int column, int row) { return column < 3 ? -32767.0 : 1000.0 + row; })
+             .toStdString(),
+         file.toStdString()});
+    ASSERT_TRUE(openAndWait(*window_, file));
+    EXPECT_NEAR(lowest(), -3276.7, 1e-3);
+    EXPECT_TRUE(shown().contains(QStringLiteral("often mark"))) << shown().toStdString();
+    // All samples are of that value: the map is shown as the file has it.
+    const QString flat = maps_.path(QStringLiteral("flat.tif"));
+    test::runTool({"gdal_translate", "-q", "-ot", "Int16", "-a_nodata", "none",
+                   maps_.write(QStringLiteral("flat.asc"), {}, [](int, int) { return -32767.0; })
+                       .toStdString(),
+                   flat.toStdString()});
+    ASSERT_TRUE(openAndWait(*window_, flat));
+    EXPECT_EQ(lowest(), -32767.0);
+    EXPECT_FALSE(window_->controller().isNodataAssumed(*activeLayer(window_->session())));
 }
 
 class SoundMemoryTest : public testing::Test {
