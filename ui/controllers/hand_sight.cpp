@@ -48,6 +48,16 @@ struct CellRectangle {
     std::size_t rows = 0;
 };
 
+// A corner of the cells over a rectangle, level with the device's origin.
+WorkspacePoint probeIn(const WorkspaceBox& box, std::size_t column, std::size_t row)
+{
+    return {
+        box.low.x + (box.high.x - box.low.x) * static_cast<double>(column) / kProbeColumns,
+        box.low.y + (box.high.y - box.low.y) * static_cast<double>(row) / kProbeRows,
+        0.0,
+    };
+}
+
 // Pixels that a cell takes up in the picture: half the cross product of its diagonals.
 double pixelsOf(const Probes& probes, std::size_t column, std::size_t row)
 {
@@ -117,12 +127,7 @@ std::optional<WorkspaceBox> probedSight(const OrbitCamera& camera,
     const double left = kMarginShare * viewport.width;
     const double top = kMarginShare * viewport.height;
     const auto at = [&reach](std::size_t column, std::size_t row) {
-        return WorkspacePoint{
-            reach.low.x +
-                (reach.high.x - reach.low.x) * static_cast<double>(column) / kProbeColumns,
-            reach.low.y + (reach.high.y - reach.low.y) * static_cast<double>(row) / kProbeRows,
-            0.0,
-        };
+        return probeIn(reach, column, row);
     };
     Probes probes{};
     for (std::size_t row = 0; row <= kProbeRows; ++row) {
@@ -168,6 +173,24 @@ std::optional<WorkspaceBox> strokesInSight(const OrbitCamera& camera,
     // picture.
     const std::optional<WorkspaceBox> found = probe(reach);
     return found ? std::optional(probe(*found).value_or(*found)) : std::nullopt;
+}
+
+double highestTerrainIn(const WorkspaceBox& rectangle,
+                        const SceneSurface& ground,
+                        double exaggeration,
+                        const WorkspaceFrame& frame)
+{
+    double highest = rectangle.low.z;
+    for (std::size_t row = 0; row <= kProbeRows; ++row) {
+        for (std::size_t column = 0; column <= kProbeColumns; ++column) {
+            ScenePoint place = frame.toScene(probeIn(rectangle, column, row));
+            place.z = ground.height(place.x, place.y) * exaggeration;
+            if (std::isfinite(place.z)) {
+                highest = std::max(highest, frame.toWorkspace(place).z);
+            }
+        }
+    }
+    return highest;
 }
 
 WorkspaceFrame frameForSight(const OrbitCamera& sight,

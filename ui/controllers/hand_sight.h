@@ -28,4 +28,11 @@ std::optional<WorkspaceBox> strokesInSight(const OrbitCamera& camera,
                                            const WorkspaceFrame& frame,
                                            const WorkspaceBox& reach);
 
+/// The highest terrain in a rectangle of the workspace, in workspace meters; the rectangle's lower
+/// side if there is none.
+double highestTerrainIn(const WorkspaceBox& rectangle,
+                        const SceneSurface& ground,
+                        double exaggeration,
+                        const WorkspaceFrame& frame);
+
 } // namespace marsview

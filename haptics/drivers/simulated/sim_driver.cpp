@@ -106,7 +106,8 @@ void SimDevice::strokeWithin(const WorkspaceBox& box) noexcept
         within(box.low.x, box.high.x, kWorkspace.low.x + kInsideM, kWorkspace.high.x - kInsideM);
     const auto [south, north] =
         within(box.low.y, box.high.y, kWorkspace.low.y + kInsideM, kWorkspace.high.y - kInsideM);
-    strokes_ = {{west, south, kWorkspace.low.z}, {east, north, kWorkspace.high.z}};
+    const double lowest = std::clamp(box.low.z, kWorkspace.low.z, kWorkspace.high.z - kInsideM);
+    strokes_ = {{west, south, lowest}, {east, north, kWorkspace.high.z}};
 }
 
 DeviceStatus SimDevice::read(DeviceSample& sample) noexcept
@@ -167,6 +168,9 @@ void SimDevice::wander() noexcept
     }
     const double highest_m = std::min(kWorkspace.high.z, lift_from_m_ + kLiftM);
     aim_.z = std::clamp(hand_.position().z + up_m, kWorkspace.low.z, highest_m);
+    if (aim_.z < strokes_.low.z) { // up as fast as it lifts
+        aim_.z = std::min(hand_.position().z + 2.0 * lean_m, strokes_.low.z);
+    }
     hand_.aimAt(aim_, velocity);
 }
 

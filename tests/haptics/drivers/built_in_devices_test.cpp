@@ -146,6 +146,33 @@ TEST(SimDevice, StrokesWithinItsRectangle)
     EXPECT_GT(high.y, box.high.y - kTrailM);
 }
 
+TEST(SimDevice, PressesNoDeeperThanItsBoxAndRisesIntoIt)
+{
+    const auto device = opened("sim:encoder_mm=0");
+    const auto heightAfter = [&](int ticks) {
+        DeviceSample sample;
+        for (int i = 0; i < ticks; ++i) {
+            device->read(sample);
+        }
+        return sample.position.z;
+    };
+    EXPECT_LT(heightAfter(2000), -0.02) << "nothing holds it up";
+    device->strokeWithin({{-0.05, -0.05, 0.01}, {0.05, 0.05, 0.06}});
+    double before = heightAfter(1);
+    double fastest = 0.0;
+    for (int i = 0; i < 1000; ++i) {
+        const double now = heightAfter(1);
+        fastest = std::max(fastest, (now - before) * 1e3);
+        before = now;
+    }
+    EXPECT_LT(fastest, 1.0) << "m/s, without a jump";
+    for (int i = 0; i < 4000; ++i) {
+        ASSERT_GT(heightAfter(1), 0.005);
+    }
+    device->strokeWithin({{-0.05, -0.05, -0.06}, {0.05, 0.05, 0.06}});
+    EXPECT_LT(heightAfter(2000), -0.02);
+}
+
 TEST(SimDevice, RefusesUnknownOptions)
 {
     EXPECT_EQ(refusalOf("sim:mass=fast"), "sim:mass=fast: mass must be a number from 0.001 to 10");

@@ -149,6 +149,9 @@ void HapticsController::setStopped(bool is_stopped)
 {
     if (is_stopped != is_stopped_) {
         is_stopped_ = is_stopped;
+        if (device_->loop() != nullptr && !view_.ground().isEmpty()) {
+            takeStrokes();
+        }
         push();
         Q_EMIT stoppedChanged(is_stopped);
     }
@@ -320,14 +323,22 @@ void HapticsController::takeFit(const LoopState& state)
 }
 
 // Keeps the strokes of a simulated hand within the picture; without terrain in sight they stay.
+// After an emergency stop nothing holds the hand up: it lifts off, as people do, and does not sink
+// into the terrain.
 void HapticsController::takeStrokes()
 {
     if (!device_->isSimulated()) {
         return;
     }
-    if (const auto strokes =
+    constexpr double kHoverM = 0.004;
+    const WorkspaceBox& workspace = device_->loop()->device().workspace;
+    if (auto strokes =
             strokesInSight(view_.camera(), view_.viewport(), view_.ground(), view_.exaggeration(),
-                           hand_view_.frame, reachWithin(device_->loop()->device().workspace))) {
+                           hand_view_.frame, reachWithin(workspace))) {
+        strokes->low.z = is_stopped_
+                             ? kHoverM + highestTerrainIn(*strokes, view_.ground(),
+                                                          view_.exaggeration(), hand_view_.frame)
+                             : workspace.low.z;
         device_->settings().strokes = strokes;
     }
 }

@@ -331,6 +331,28 @@ TEST_F(HapticsControllerTest, TheEmergencyStopLetsGoFromAnywhere)
     EXPECT_TRUE(waitFor([&] { return hand_->force_n > 0.5; }));
 }
 
+TEST_F(HapticsControllerTest, ASimulatedHandLiftsOffAfterAnEmergencyStop)
+{
+    ASSERT_TRUE(connectTo(QStringLiteral("sim:")));
+    ASSERT_TRUE(waitFor([&] { return state().contact.is_in_contact; }));
+    const auto is_above = [this](const LoopState& now) {
+        const double ground = view().ground().height(now.goal.x, now.goal.y);
+        return now.goal.z > ground * view().exaggeration();
+    };
+    haptics().setStopped(true);
+    const std::uint64_t stopped = state().tick;
+    ASSERT_TRUE(waitFor([&] { return state().tick > stopped + 1000; }));
+    int below = 0;
+    ASSERT_TRUE(waitFor([&] {
+        const LoopState now = state();
+        below += is_above(now) ? 0 : 1;
+        return now.tick > stopped + 4000;
+    }));
+    EXPECT_EQ(below, 0);
+    haptics().setStopped(false);
+    EXPECT_TRUE(waitFor([&] { return state().contact.is_in_contact; }));
+}
+
 TEST_F(HapticsControllerTest, TheEmergencyStopHoldsForADeviceThatIsBeingOpened)
 {
     hand_->is_held_up = true;
