@@ -27,6 +27,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <utility>
 #include <vector>
 
@@ -38,8 +39,11 @@ constexpr int kReplaySteps = 1000; // of the progress
 constexpr int kStiffnessStep = 10; // N/m
 constexpr int kShareStep = 5;      // %
 
+constexpr int kGroupGap = 8; // between groups, in addition to that between their lines
+
 constexpr int kUriRole = Qt::UserRole;
 constexpr int kUsableRole = Qt::UserRole + 1;
+constexpr int kReasonRole = Qt::UserRole + 2; // why it cannot be used
 
 QString forceText(double force_n)
 {
@@ -76,7 +80,7 @@ HapticsPanel::HapticsPanel(HapticsController& controller,
     makeDevices(*layout);
     makeForce(*layout);
     makeRecording(*layout);
-    layout->addSpacing(6);
+    layout->addSpacing(kGroupGap);
     times_ = new LoopTimes(this);
     layout->addWidget(times_);
     layout->addStretch(1);
@@ -118,7 +122,7 @@ void HapticsPanel::makeDevices(QBoxLayout& layout)
     list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     list_->setResizeMode(QListView::Adjust);
     list_->setSpacing(2);
-    connect(list_, &QListWidget::currentItemChanged, this, &HapticsPanel::showConnectButton);
+    connect(list_, &QListWidget::currentItemChanged, this, &HapticsPanel::showChoice);
     connect(list_, &QListWidget::itemActivated, this, [this](QListWidgetItem* item) {
         if (item->data(kUsableRole).toBool()) {
             device_.connectTo(item->data(kUriRole).toString());
@@ -133,7 +137,7 @@ void HapticsPanel::makeDevices(QBoxLayout& layout)
     status_->setObjectName(QStringLiteral("hapticStatus"));
     status_->setTextInteractionFlags(Qt::TextSelectableByMouse);
     layout.addWidget(status_);
-    layout.addSpacing(6);
+    layout.addSpacing(kGroupGap);
 }
 
 void HapticsPanel::makeStop(QBoxLayout& layout)
@@ -147,7 +151,7 @@ void HapticsPanel::makeStop(QBoxLayout& layout)
     connect(stop_, &QPushButton::clicked, this,
             [this] { controller_.setStopped(!controller_.isStopped()); });
     layout.addWidget(stop_);
-    layout.addSpacing(6);
+    layout.addSpacing(kGroupGap);
 }
 
 void HapticsPanel::makeForce(QBoxLayout& layout)
@@ -170,7 +174,6 @@ void HapticsPanel::makeForce(QBoxLayout& layout)
     connect(rest_, &QPushButton::clicked, &device_, &DeviceSession::setAtRest);
     layout.addWidget(reason_);
     layout.addWidget(rest_);
-
     makeSliders(layout);
     QLabel* caption = makeCaption(tr("Contact &model"), this);
     layout.addWidget(caption);
@@ -199,7 +202,7 @@ void HapticsPanel::makeForce(QBoxLayout& layout)
         }
     });
     layout.addWidget(walls_);
-    layout.addSpacing(6);
+    layout.addSpacing(kGroupGap);
 }
 
 void HapticsPanel::makeSliders(QBoxLayout& layout)
@@ -314,15 +317,23 @@ void HapticsPanel::showDevices()
         const QString uri = QString::fromStdString(device.uri);
         const QString name = device.name.empty() ? uri : QString::fromStdString(device.name);
         const QString reason = asSentence(device.reason);
-        auto* item =
-            new QListWidgetItem(reason.isEmpty() ? name : name + QLatin1Char('\n') + reason, list_);
+        auto* item = new QListWidgetItem(name, list_);
         item->setData(kUriRole, uri);
         item->setData(kUsableRole, device.isUsable());
-        item->setToolTip(
-            device.details.empty()
-                ? uri
-                //: %1 is a device's address, %2 what the system reported
-                : tr("%1\nDetails: %2").arg(uri, QString::fromStdString(device.details)));
+        item->setData(kReasonRole, reason);
+        item->setData(Qt::AccessibleTextRole,
+                      reason.isEmpty() ? name
+                                       //: A device that cannot be used, read aloud; %2 says why
+                                       : tr("%1, not available: %2").arg(name, reason));
+        QStringList tip{uri};
+        if (!reason.isEmpty()) {
+            tip.prepend(reason);
+        }
+        if (!device.details.empty()) {
+            //: %1 is what the system reported
+            tip.append(tr("Details: %1").arg(QString::fromStdString(device.details)));
+        }
+        item->setToolTip(tip.join(QLatin1Char('\n')));
         if (!device.isUsable()) {
             item->setForeground(palette().color(QPalette::PlaceholderText));
         }
@@ -340,7 +351,7 @@ void HapticsPanel::showDevices()
     }
     fitList();
     markConnected();
-    showConnectButton();
+    showChoice();
 }
 
 // As high as its devices need, within limits.
@@ -389,6 +400,19 @@ void HapticsPanel::showConnectButton()
     }
 }
 
+// What the button does to the selected device, and why it may be disabled.
+void HapticsPanel::showChoice()
+{
+    showConnectButton();
+    if (device_.connection() == HapticsConnection::None) {
+        const QListWidgetItem* item = list_->currentItem();
+        const QString reason = item != nullptr ? item->data(kReasonRole).toString() : QString();
+        status_->setText(!device_.problem().isEmpty() ? device_.problem()
+                         : !reason.isEmpty()          ? reason
+                                                      : tr("No device is connected."));
+    }
+}
+
 // The device that is connected stands out, and is the current one when it comes.
 void HapticsPanel::markConnected()
 {
@@ -408,11 +432,14 @@ void HapticsPanel::markConnected()
 void HapticsPanel::showConnection()
 {
     markConnected();
-    showConnectButton();
+    showChoice();
+    // Without a device there is nothing to measure.
+    const bool is_connected = device_.connection() == HapticsConnection::Connected;
+    for (QWidget* part : std::initializer_list<QWidget*>{force_, reason_, times_}) {
+        part->setVisible(is_connected);
+    }
     switch (device_.connection()) {
     case HapticsConnection::None:
-        status_->setText(!device_.problem().isEmpty() ? device_.problem()
-                                                      : tr("No device is connected."));
         break;
     case HapticsConnection::Opening:
         //: %1 names a device
@@ -478,13 +505,13 @@ void HapticsPanel::showStiffness()
                                //: %1 is a stiffness in newtons per meter
                                ? tr("The mark is the limit of the device: %1").arg(text(most))
                                : tr("Surface stiffness"));
-    //: Below a slider that is set to more; %1 is a stiffness in newtons per meter
-    stiffness_limit_->setText(tr("Limited to %1 by the device").arg(text(most)));
-    // A device with a limit keeps room for the text, so that nothing moves during a drag.
-    QSizePolicy policy = stiffness_limit_->sizePolicy();
-    policy.setRetainSizeWhenHidden(most < kStiffnessMax);
-    stiffness_limit_->setSizePolicy(policy);
-    stiffness_limit_->setVisible(most < chosen);
+    stiffness_limit_->setText(most < chosen
+                                  //: Below a slider that is set to more; %1 is a stiffness in
+                                  //: newtons per meter
+                                  ? tr("Limited to %1").arg(text(most))
+                                  //: Below a slider; %1 is a stiffness in newtons per meter
+                                  : tr("Device limit: %1").arg(text(most)));
+    stiffness_limit_->setVisible(most < kStiffnessMax); // not by value: nothing moves in a drag
 }
 
 void HapticsPanel::showStopped()

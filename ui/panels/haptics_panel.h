@@ -57,6 +57,7 @@ private:
     void markConnected();
     void showConnection();
     void showConnectButton();
+    void showChoice();
     void showSettings();
     void showStiffness();
     void showStopped();
