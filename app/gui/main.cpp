@@ -4,11 +4,12 @@
 #include "app/gui/window_arguments.h"
 #include "core/session/map_resources.h"
 #include "core/session/sample_map.h"
+#include "ui/commands/window_commands.h"
 #include "ui/graphics_check.h"
 #include "ui/main_window.h"
 #include "ui/picture_taker.h"
 #include "ui/project/project_menu.h"
-#include "ui/commands/window_commands.h"
+#include "ui/widgets/line_style.h"
 
 #include <QApplication>
 #include <QFileInfo>
@@ -16,6 +17,7 @@
 #include <QMessageBox>
 #include <QStandardPaths>
 #include <QStringList>
+#include <QStyleFactory>
 #include <QSurfaceFormat>
 #include <QTimer>
 
@@ -56,6 +58,23 @@ std::unique_ptr<QApplication> makeApplication(int& argc, char** argv)
     auto application = std::make_unique<QApplication>(argc, argv);
     qInstallMessageHandler(handler);
     return application;
+}
+
+// The style that the user asks for, by option or by Qt's environment variable, which Qt ignores if
+// it names an unknown style. False if the option does.
+bool applyStyle(const std::string& option)
+{
+    const QStringList known = QStyleFactory::keys();
+    const QString style = !option.empty() ? QString::fromStdString(option)
+                                          : qEnvironmentVariable("QT_STYLE_OVERRIDE");
+    if (known.contains(style, Qt::CaseInsensitive)) {
+        QApplication::setStyle(new marsview::LineStyle(style));
+    } else if (!option.empty()) {
+        printProblem(QStringLiteral("-style: unknown style \"%1\". Known styles: %2")
+                         .arg(style, known.join(QStringLiteral(", "))));
+        return false;
+    }
+    return true;
 }
 
 int runWindow(QApplication& application, const marsview::WindowArguments& options)
@@ -158,6 +177,9 @@ int main(int argc, char** argv)
         const std::unique_ptr<QApplication> application = makeApplication(count, pointers.data());
         if (count > 1) {
             std::fprintf(stderr, "marsview: %s: not an option of this Qt version\n", pointers[1]);
+            return kUsage;
+        }
+        if (!applyStyle(arguments->style)) {
             return kUsage;
         }
         QCoreApplication::setOrganizationName(QStringLiteral("MarsView"));

@@ -25,7 +25,7 @@ struct QtOption {
 };
 
 // The options of QGuiApplication and QApplication (Qt 6), except the geometry, which is parsed
-// here.
+// here. The style is listed, but not passed on: the program's palettes are applied to it.
 constexpr std::array kQtOptions{
     QtOption{"platform", true},      QtOption{"platformpluginpath", true},
     QtOption{"platformtheme", true}, QtOption{"plugin", true},
@@ -172,8 +172,10 @@ private:
         }
         const bool is_geometry =
             name == "--geometry" || name == "-geometry" || name == "-qwindowgeometry";
-        const QtOption* const of_qt = qtOption(withoutDashes(name));
-        if (name != "--screenshot" && name != "--size" && !is_geometry && of_qt == nullptr) {
+        const bool is_style = withoutDashes(name) == "style";
+        const QtOption* const of_qt = is_style ? nullptr : qtOption(withoutDashes(name));
+        if (name != "--screenshot" && name != "--size" && !is_geometry && !is_style &&
+            of_qt == nullptr) {
             return usage(name, "unknown option." + didYouMean(name, knownNames()));
         }
         if (of_qt != nullptr) {
@@ -190,6 +192,10 @@ private:
         }
         if (of_qt != nullptr) {
             arguments_.for_qt.push_back(*value);
+            return std::nullopt;
+        }
+        if (is_style) {
+            arguments_.style = *value;
             return std::nullopt;
         }
         return name == "--screenshot" ? takeScreenshot(*value)

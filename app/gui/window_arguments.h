@@ -30,7 +30,9 @@ struct WindowArguments {
     std::vector<std::string> maps;
     std::string screenshot; // file; empty: none
     WindowGeometry geometry;
-    /// Qt's own ("-style", "fusion", …), for QApplication.
+    /// The widget style, a name of QStyleFactory in any case; empty: the program's own.
+    std::string style;
+    /// Qt's own ("-platform", "xcb", …), for QApplication.
     std::vector<std::string> for_qt;
     /// The output of --help or --version; the program exits after printing it.
     std::optional<std::string> answer;

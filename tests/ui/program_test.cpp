@@ -62,6 +62,27 @@ TEST(Program, WritesAPictureOfTheWholeMapAndExits)
     EXPECT_GT(middle.lightness(), corner.lightness() + 20);
 }
 
+TEST(Program, AppliesTheStyleThatIsAskedForAndRefusesUnknownOnes)
+{
+    const TestMaps maps;
+    const auto picture_in = [&maps](const char* style) {
+        const QString picture = maps.path(QString::fromLatin1(style) + QStringLiteral(".png"));
+        const Outcome outcome =
+            run({maps.hill(), QStringLiteral("--screenshot"), picture, QStringLiteral("--size"),
+                 QStringLiteral("900x600"), QStringLiteral("-style"), QString::fromLatin1(style)});
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.errors.toStdString();
+        return QImage(picture);
+    };
+    const QImage fusion = picture_in("fusion");
+    ASSERT_FALSE(fusion.isNull());
+    EXPECT_NE(picture_in("windows"), fusion);
+    const Outcome unknown = run({maps.hill(), QStringLiteral("-style"), QStringLiteral("plaid")});
+    EXPECT_EQ(unknown.exit_code, 2);
+    EXPECT_TRUE(unknown.errors.startsWith(
+        QStringLiteral("marsview: -style: unknown style \"plaid\". Known styles: ")))
+        << unknown.errors.toStdString();
+}
+
 TEST(Program, ReportsInOneLineWhyAFileCannotBeOpened)
 {
     const TestMaps maps;

@@ -7,8 +7,8 @@
 
 namespace marsview {
 
-LineStyle::LineStyle()
-    : QProxyStyle(QStringLiteral("Fusion"))
+LineStyle::LineStyle(const QString& base)
+    : QProxyStyle(base)
 {}
 
 QIcon LineStyle::standardIcon(StandardPixmap which,

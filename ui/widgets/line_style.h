@@ -1,17 +1,18 @@
-// Fusion with icons that can be read in light and dark themes.
+// A style of Qt with icons that can be read in light and dark themes.
 #pragma once
 
 #include <QProxyStyle>
 
 namespace marsview {
 
-/// Draws the glyphs of Fusion that are black pictures, such as the buttons that close a panel, as
+/// Draws the glyphs of a style that are black pictures, such as the buttons that close a panel, as
 /// line icons in the color of the palette's text.
 class LineStyle final : public QProxyStyle {
     Q_OBJECT
 
 public:
-    LineStyle();
+    /// `base` is a name of QStyleFactory.
+    explicit LineStyle(const QString& base = QStringLiteral("Fusion"));
 
     QIcon standardIcon(StandardPixmap which,
                        const QStyleOption* option = nullptr,
@@ -22,7 +23,7 @@ public:
                      const QStyleOption* option,
                      QPainter* painter,
                      const QWidget* widget = nullptr) const override;
-    /// Buttons of dialogs have texts alone: Fusion's pictures for them are black.
+    /// Buttons of dialogs have texts alone: the pictures for them are black.
     int styleHint(StyleHint hint,
                   const QStyleOption* option = nullptr,
                   const QWidget* widget = nullptr,
