@@ -66,6 +66,15 @@ WindowOptions withTileCache(WindowOptions options)
 // A property of the application; set where a signal ends the program.
 constexpr const char* kEndsBySignal = "endsBySignal";
 
+// The active layer, or the topmost of the picture if the active one is not in it.
+const Layer* titleLayer(const Session& session)
+{
+    const Layer* active = activeLayer(session);
+    const std::vector<const Layer*> shown = shownLayers(session);
+    const bool is_shown = std::find(shown.begin(), shown.end(), active) != shown.end();
+    return is_shown || shown.empty() ? active : shown.front();
+}
+
 } // namespace
 
 MainWindow::MainWindow(const WindowOptions& options, QWidget* parent)
@@ -285,12 +294,12 @@ void MainWindow::showActive()
                       is_shown && is_scene_current ? map : nullptr);
 }
 
-// The project, or the active layer of a session that was never saved.
+// The project, or a layer of a session that was never saved.
 void MainWindow::showTitle()
 {
     QString title = commands_->project_menu.title();
-    if (const Layer* active = activeLayer(session()); title.isEmpty() && active != nullptr) {
-        title = isolated(QString::fromStdString(active->name)) + QStringLiteral("[*]");
+    if (const Layer* named = titleLayer(session()); title.isEmpty() && named != nullptr) {
+        title = isolated(QString::fromStdString(named->name)) + QStringLiteral("[*]");
     }
     //: Window title: %1 is a project or a layer
     setWindowTitle(title.isEmpty() ? tr("MarsView") : tr("%1 — MarsView").arg(title));
@@ -348,11 +357,14 @@ bool MainWindow::eventFilter(QObject* watched, QEvent* event)
     return QMainWindow::eventFilter(watched, event);
 }
 
-// Nothing else took the key.
+// Nothing else took the key. Outside the map, Esc leaves a field or panel, and nothing on the map.
 void MainWindow::keyPressEvent(QKeyEvent* event)
 {
+    const QWidget* focus = focusWidget();
     if (event->key() != Qt::Key_Escape || event->modifiers() != Qt::NoModifier) {
         QMainWindow::keyPressEvent(event);
+    } else if (focus != nullptr && focus != view_ && !view_->isAncestorOf(focus)) {
+        view_->setFocus(Qt::ShortcutFocusReason);
     } else if (isFullScreen()) {
         actions_->full_screen->trigger();
     } else if (overlays_->isPlaceMarked()) {

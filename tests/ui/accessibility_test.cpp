@@ -6,6 +6,8 @@
 #include "ui/dialogs/preferences_dialog.h"
 #include "ui/dialogs/save_picture_dialog.h"
 #include "ui/dialogs/stretch_dialog.h"
+#include "ui/overlay/focus_frame.h"
+#include "ui/overlay/map_overlays.h"
 #include "ui/panels/georeferencing_panel.h"
 #include "ui/panels/haptics_panel.h"
 #include "ui/widgets/light_popup.h"
@@ -191,6 +193,26 @@ TEST_F(AccessibilityTest, F6MovesTheFocusFromTheMapThroughAllOpenPanelsAndBack)
     view().setFocus();
     QTest::keyClick(&view(), Qt::Key_F6, Qt::ShiftModifier);
     EXPECT_TRUE(docks.haptics()->isAncestorOf(QApplication::focusWidget()));
+}
+
+TEST_F(AccessibilityTest, TheMapShowsThatItHasTheKeyboardFocus)
+{
+    const QWidget& frame = *window_->overlays()->focusFrame();
+    ASSERT_TRUE(focusMap());
+    EXPECT_FALSE(frame.isVisible()) << "not by a key";
+    QTest::keyClick(&view(), Qt::Key_F6);
+    EXPECT_FALSE(frame.isVisible());
+    QTest::keyClick(QApplication::focusWidget(), Qt::Key_F6, Qt::ShiftModifier);
+    ASSERT_TRUE(view().hasFocus());
+    EXPECT_TRUE(frame.isVisible());
+    EXPECT_EQ(frame.geometry(), view().rect());
+    QTest::mouseClick(&view(), Qt::LeftButton, {}, middle().toPoint());
+    EXPECT_FALSE(frame.isVisible());
+    QTest::keyClick(&view(), Qt::Key_Tab);
+    ASSERT_FALSE(view().hasFocus());
+    QTest::keyClick(QApplication::focusWidget(), Qt::Key_Backtab);
+    ASSERT_TRUE(view().hasFocus());
+    EXPECT_TRUE(frame.isVisible());
 }
 
 TEST_F(AccessibilityTest, NoTwoActionsShareAKeyWhereBothCouldBeMeant)

@@ -102,6 +102,35 @@ TEST_F(FirstMinuteTest, EscClosesTheHint)
     EXPECT_FALSE(hint().isVisible());
 }
 
+TEST_F(FirstMinuteTest, EscInAFieldOrAMenuKeepsWhatIsOnTheMap)
+{
+    open();
+    window_->overlays()->markPlace({5.0, 5.0});
+    const auto expect_kept = [this](const char* where) {
+        EXPECT_TRUE(hint().isVisible()) << where;
+        EXPECT_TRUE(window_->overlays()->isPlaceMarked()) << where;
+    };
+    window_->actionSet().find_name->trigger();
+    ASSERT_FALSE(view().hasFocus());
+    QTest::keyClick(QApplication::focusWidget(), Qt::Key_Escape);
+    expect_kept("search field");
+    EXPECT_TRUE(view().hasFocus());
+    QMenu* menu = window_->menuBar()->actions().front()->menu();
+    QTest::keyClick(&view(), Qt::Key_F, Qt::AltModifier);
+    ASSERT_TRUE(QTest::qWaitFor([&] { return menu->isVisible(); }, kTimeout));
+    QTest::keyClick(menu, Qt::Key_Escape);
+    EXPECT_FALSE(menu->isVisible());
+    expect_kept("menu");
+    if (!view().hasFocus()) {
+        QTest::keyClick(QApplication::focusWidget(), Qt::Key_Escape);
+        expect_kept("menu bar");
+    }
+    view().setFocus();
+    QTest::keyClick(&view(), Qt::Key_Escape);
+    EXPECT_FALSE(window_->overlays()->isPlaceMarked());
+    EXPECT_TRUE(hint().isVisible()) << "one thing at a time";
+}
+
 TEST_F(FirstMinuteTest, TheHintGoesWhenAllWasTried)
 {
     open();

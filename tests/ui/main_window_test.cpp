@@ -70,6 +70,25 @@ TEST_F(MainWindowTest, OpensAFileAskedForBeforeItWasShown)
     EXPECT_TRUE(window.windowTitle().contains(QStringLiteral("hill.asc")));
 }
 
+TEST_F(MainWindowTest, TheTitleNamesALayerInThePicture)
+{
+    ASSERT_TRUE(openAndWait(*window_, maps_.hill()));
+    ASSERT_TRUE(openAndWait(*window_, maps_.hill(QStringLiteral("other.asc"))));
+    SessionController& controller = window_->controller();
+    const LayerId top = window_->session().layers[0].id;
+    const LayerId below = window_->session().layers[1].id;
+    const auto titleHas = [this](const char* name) {
+        return window_->windowTitle().contains(QLatin1String(name));
+    };
+    EXPECT_TRUE(titleHas("other.asc"));
+    controller.activate(below);
+    EXPECT_TRUE(titleHas("hill.asc"));
+    controller.setVisible(below, false);
+    EXPECT_TRUE(titleHas("other.asc")) << "the selected layer is hidden";
+    controller.setVisible(top, false);
+    EXPECT_TRUE(titleHas("hill.asc"));
+}
+
 TEST_F(MainWindowTest, OpensAFolderOfAdjoiningRastersAsOneMap)
 {
     const TestMaps::Height slope = [](int column, int row) { return column + 2.0 * row; };

@@ -6,6 +6,7 @@
 #include "ui/canvas/terrain_view.h"
 #include "ui/overlay/compass.h"
 #include "ui/overlay/crosshair.h"
+#include "ui/overlay/focus_frame.h"
 #include "ui/overlay/force_meter.h"
 #include "ui/overlay/gesture_hint.h"
 #include "ui/overlay/hand_pointer.h"
@@ -52,6 +53,7 @@ MapOverlays::MapOverlays(TerrainView& view)
     , force_meter_(new ForceMeter(&view))
     , hand_pointer_(new HandPointer(&view))
     , hint_(new GestureHint(&view))
+    , focus_frame_(new FocusFrame(&view))
     , layout_(new OverlayLayout(&view,
                                 {.minimap = minimap_,
                                  .legend = legend_,

@@ -23,6 +23,7 @@ namespace marsview {
 
 class Compass;
 class Crosshair;
+class FocusFrame;
 class ForceMeter;
 class GestureHint;
 class HandPointer;
@@ -49,6 +50,7 @@ public:
     ForceMeter* forceMeter() const noexcept { return force_meter_; }
     Crosshair* crosshair() const noexcept { return crosshair_; }
     HandPointer* handPointer() const noexcept { return hand_pointer_; }
+    FocusFrame* focusFrame() const noexcept { return focus_frame_; }
 
     GestureHint* hint() const noexcept { return hint_; }
     MapLabels* labels() const noexcept { return labels_; }
@@ -123,6 +125,7 @@ private:
     ForceMeter* force_meter_ = nullptr;
     HandPointer* hand_pointer_ = nullptr; // over all of them
     GestureHint* hint_ = nullptr;
+    FocusFrame* focus_frame_ = nullptr;
     OverlayLayout* layout_ = nullptr;
     bool is_hint_offered_ = false;
     Session session_;
