@@ -3,13 +3,18 @@
 #include "tests/ui/map_window.h"
 #include "ui/commands/contour_tools.h"
 #include "ui/commands/window_commands.h"
+#include "ui/dialogs/interval_dialog.h"
+#include "ui/text/number_text.h"
+#include "ui/widgets/elevation_box.h"
 #include "ui/window/window_actions.h"
 
 #include <QAction>
 #include <QFileInfo>
-#include <QInputDialog>
+#include <QTest>
 
 #include <gtest/gtest.h>
+
+#include <tuple>
 
 namespace marsview {
 namespace {
@@ -27,14 +32,34 @@ TEST_F(ContourToolsTest, ATypedIntervalShowsContoursAndCanBeUndone)
 {
     openMountain();
     window_->actionSet().contour_interval->trigger();
-    auto* dialog = window_->findChild<QInputDialog*>();
+    auto* dialog = window_->findChild<IntervalDialog*>();
     ASSERT_NE(dialog, nullptr);
-    dialog->setDoubleValue(40.0);
+    EXPECT_EQ(dialog->box()->text(), QStringLiteral("Automatic"));
+    dialog->box()->setValue(40.0);
+    EXPECT_EQ(dialog->box()->text(), QStringLiteral("40 m"));
     dialog->accept();
     EXPECT_TRUE(window_->session().look.has_contours);
     EXPECT_EQ(window_->session().look.contour_interval_m, 40.0);
     window_->undoStack().undo();
     EXPECT_EQ(window_->session().look.contour_interval_m, 0.0);
+}
+
+TEST_F(ContourToolsTest, IntervalsHaveTheDigitsThatTheyNeed)
+{
+    IntervalDialog dialog({}, IntervalDialog::Automatic::Allowed, 2000.0);
+    dialog.show();
+    EXPECT_EQ(dialog.box()->text(), numberText(2000.0, 0) + QStringLiteral(" m"));
+    for (const auto& [typed, value, shown] : {std::tuple{"2.50", 2.5, "2.5 m"},
+                                              {"0.125", 0.125, "0.125 m"},
+                                              {"0", 0.0, "Automatic"},
+                                              {"100", 100.0, "100 m"}}) {
+        dialog.box()->setFocus();
+        dialog.box()->selectAll();
+        QTest::keyClicks(dialog.box(), QString::fromLatin1(typed));
+        dialog.box()->interpretText();
+        EXPECT_EQ(dialog.box()->value(), value) << typed;
+        EXPECT_EQ(dialog.box()->text(), QString::fromLatin1(shown)) << typed;
+    }
 }
 
 TEST_F(ContourToolsTest, ContoursOfTheActiveLayerAreExported)

@@ -2,6 +2,8 @@
 
 #include "tests/ui/hand_window.h"
 #include "tests/ui/widget_walk.h"
+#include "ui/dialogs/preferences_dialog.h"
+#include "ui/dialogs/save_picture_dialog.h"
 #include "ui/panels/haptics_panel.h"
 #include "ui/window/status_readout.h"
 #include "ui/window/window_actions.h"
@@ -64,6 +66,24 @@ TEST_F(RightToLeftTest, NumbersStayBeforeTheirUnits)
             << found.place.toStdString() << ": " << found.text.toStdString();
     }
     EXPECT_EQ(outsideIsolates(force->format()), QString());
+}
+
+TEST_F(RightToLeftTest, NumbersInDialogsAreIsolated)
+{
+    makeWindow(kWithPanels);
+    ASSERT_TRUE(openAndWait(*window_, maps_.mars()));
+    const PreferencesDialog preferences({}, {}, window_.get());
+    const SavePictureDialog picture({800, 600}, {}, window_.get());
+    static const QRegularExpression kNumberAndUnit(QStringLiteral("\\d[\\d.,]* ?(fps|MB|GB|px)"));
+    int count = 0;
+    for (const QWidget* dialog : std::initializer_list<const QWidget*>{&preferences, &picture}) {
+        for (const FoundText& found : textsOf(*dialog)) {
+            count += kNumberAndUnit.match(found.text).hasMatch() ? 1 : 0;
+            EXPECT_FALSE(kNumberAndUnit.match(outsideIsolates(found.text)).hasMatch())
+                << found.place.toStdString() << ": " << found.text.toStdString();
+        }
+    }
+    EXPECT_GE(count, 3);
 }
 
 } // namespace

@@ -3,13 +3,13 @@
 #include "core/view/terrain_look.h"
 #include "ui/canvas/terrain_view.h"
 #include "ui/controllers/session_controller.h"
+#include "ui/dialogs/interval_dialog.h"
 #include "ui/text/number_text.h"
 
 #include <QAction>
 #include <QDir>
 #include <QFileDialog>
 #include <QFileInfo>
-#include <QInputDialog>
 #include <QMainWindow>
 #include <QProgressDialog>
 
@@ -20,8 +20,6 @@
 namespace marsview {
 namespace {
 
-constexpr double kIntervalMaxM = 100000.0;
-constexpr int kIntervalDecimals = 3;
 constexpr int kProgressSteps = 1000;
 constexpr std::chrono::milliseconds kPollInterval{100};
 
@@ -67,15 +65,11 @@ double ContourTools::shownInterval() const
 
 void ContourTools::askInterval()
 {
-    auto* dialog = new QInputDialog(&parts_.window);
+    auto* dialog =
+        new IntervalDialog(tr("Contour Interval"), IntervalDialog::Automatic::Allowed,
+                           parts_.session.session().look.contour_interval_m, &parts_.window);
     dialog->setAttribute(Qt::WA_DeleteOnClose);
-    dialog->setWindowTitle(tr("Contour Interval"));
-    dialog->setLabelText(tr("Meters between contour lines; 0 for automatic:"));
-    dialog->setInputMode(QInputDialog::DoubleInput);
-    dialog->setDoubleDecimals(kIntervalDecimals);
-    dialog->setDoubleRange(0.0, kIntervalMaxM);
-    dialog->setDoubleValue(parts_.session.session().look.contour_interval_m);
-    connect(dialog, &QInputDialog::doubleValueSelected, &parts_.session,
+    connect(dialog, &IntervalDialog::intervalChosen, &parts_.session,
             &SessionController::setContourInterval);
     dialog->open();
 }
@@ -86,16 +80,11 @@ void ContourTools::askFile()
     if (active == nullptr || isExporting()) {
         return;
     }
-    auto* ask = new QInputDialog(&parts_.window);
+    auto* ask = new IntervalDialog(tr("Export Contours"), IntervalDialog::Automatic::NotAllowed,
+                                   shownInterval(), &parts_.window);
     ask->setAttribute(Qt::WA_DeleteOnClose);
-    ask->setWindowTitle(tr("Export Contours"));
-    ask->setLabelText(tr("Meters between contours:"));
-    ask->setInputMode(QInputDialog::DoubleInput);
-    ask->setDoubleDecimals(kIntervalDecimals);
-    ask->setDoubleRange(1.0 / kProgressSteps, kIntervalMaxM);
-    ask->setDoubleValue(shownInterval());
     const QString name = QFileInfo(QString::fromStdString(active->name)).completeBaseName();
-    connect(ask, &QInputDialog::doubleValueSelected, this, [this, name](double interval_m) {
+    connect(ask, &IntervalDialog::intervalChosen, this, [this, name](double interval_m) {
         auto* dialog = new QFileDialog(&parts_.window, tr("Export Contours"));
         dialog->setAttribute(Qt::WA_DeleteOnClose);
         dialog->setAcceptMode(QFileDialog::AcceptSave);

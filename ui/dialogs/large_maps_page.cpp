@@ -65,7 +65,9 @@ LargeMapsPage::LargeMapsPage(const LargeMapDefaults& standard, QWidget* parent)
     memory_->setSuffix(tr(" MB"));
     const QString usual = countText(standard_.tile_bytes / kMega);
     //: In place of the number 0: a usual amount of memory
-    memory_->setSpecialValueText(tr("Automatic (%1 MB)").arg(usual));
+    memory_->setSpecialValueText(
+        //: %1 is a number of megabytes
+        tr("Automatic (%1)").arg(leftToRight(tr("%1 MB").arg(usual))));
     memory_->setGroupSeparatorShown(true);
     memory_->setKeyboardTracking(false); // not every digit on the way
     memory_->setObjectName(QStringLiteral("tileMemory"));

@@ -1,5 +1,7 @@
 #include "ui/dialogs/preferences_dialog.h"
 
+#include "ui/text/number_text.h"
+
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDialogButtonBox>
@@ -39,7 +41,7 @@ PreferencesDialog::PreferencesDialog(const Preferences& preferences,
     height_unit_->setAccessibleName(tr("Elevation unit"));
     for (const int rate : {20, 30, 60}) {
         //: Frames per second
-        frame_rate_->addItem(tr("%n fps", nullptr, rate), rate);
+        frame_rate_->addItem(leftToRight(tr("%n fps", nullptr, rate)), rate);
     }
     frame_rate_->setAccessibleName(tr("Frame rate while moving"));
     frame_rate_->setToolTip(

@@ -40,13 +40,14 @@ SavePictureDialog::SavePictureDialog(QSize view_size, const PictureLimits& limit
     setWindowTitle(tr("Save Picture"));
     for (const int factor : {1, 2, 4}) {
         const QSize size = view_size * factor;
-        const QString text = factor == 1
-                                 //: Size of a picture; %1 × %2 pixels
-                                 ? tr("As in the window (%1 × %2)")
-                                 //: Size of a picture; %1 × %2 pixels, %3 is 2 or 4
-                                 : tr("%3 times the window (%1 × %2)");
-        sizes_->addItem(factor == 1 ? text.arg(size.width()).arg(size.height())
-                                    : text.arg(size.width()).arg(size.height()).arg(factor),
+        const QString pixels = leftToRight(
+            //: Size of a picture: width and height in pixels
+            tr("%1 × %2").arg(numberText(size.width(), 0), numberText(size.height(), 0)));
+        sizes_->addItem(factor == 1
+                            //: Size of a picture; %1 are its pixels, such as 1,280 × 800
+                            ? tr("As in the window (%1)").arg(pixels)
+                            //: Size of a picture; %1 are its pixels, %2 is 2 or 4
+                            : tr("%2 times the window (%1)").arg(pixels).arg(factor),
                         factor);
     }
     //: Size of a picture: it is typed

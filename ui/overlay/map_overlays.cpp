@@ -17,6 +17,7 @@
 #include "ui/overlay/overview_picture.h"
 #include "ui/overlay/place_mark.h"
 #include "ui/overlay/scale_bar_view.h"
+#include "ui/text/coordinate_text.h"
 
 #include <QAction>
 #include <QApplication>
@@ -343,7 +344,7 @@ void MapOverlays::showLegend()
          .unit = height_unit_,
          .all = all,
          .layer = is_named ? QString::fromStdString(known->name) : QString(),
-         .datum = QString::fromStdString(layer.map->info().vertical_datum)});
+         .datum = datumText(layer.map->info())});
 }
 
 void MapOverlays::showTouch()

@@ -342,9 +342,8 @@ void GeoreferencingPanel::addSampleFacts(const Map& map)
     }
     const QString unit = QString::fromStdString(info.unit.name);
     addFact(tr("Elevation unit"), info.is_unit_declared ? unit : tr("%1, assumed").arg(unit));
-    addFact(tr("Vertical datum"), info.vertical_datum.empty()
-                                      ? tr("unknown")
-                                      : QString::fromStdString(info.vertical_datum));
+    const QString datum = datumText(info);
+    addFact(tr("Vertical datum"), datum.isEmpty() ? tr("unknown") : datum);
     if (info.scale != 1.0 || info.offset != 0.0) {
         //: How elevations follow from samples: %1 is the factor, %2 the offset, %3 their unit
         addFact(tr("Scale, offset"),

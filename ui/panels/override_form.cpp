@@ -62,6 +62,13 @@ QString withoutOption(const QString& problem, OverrideField field)
     return asSentence(problem);
 }
 
+QString searchHint()
+{
+    return OverrideForm::tr(
+        "Type a name or a code to search, such as UTM 10N, Mars "
+        "equirectangular or EPSG:32610. A PROJ string or WKT also works.");
+}
+
 QString notANumber(const QString& text)
 {
     //: Below a field: %1 is the text entered
@@ -288,9 +295,7 @@ void OverrideForm::clearProblems()
 void OverrideForm::fill()
 {
     clearProblems();
-    fieldOf(crs_)->setHint(
-        tr("Type a name or a code to search, such as UTM 10N, Mars "
-           "equirectangular or EPSG:32610. A PROJ string or WKT also works."));
+    fieldOf(crs_)->setHint(searchHint());
     const RasterOverrides overrides = map_ ? map_->spec().overrides : RasterOverrides{};
     const auto fill_number = [](QLineEdit* field, const std::optional<double>& value,
                                 const std::optional<double>& in_file) {
@@ -352,6 +357,7 @@ void OverrideForm::checkCrs()
     const QString text = crs_->text().trimmed();
     if (text.isEmpty()) {
         field.setProblem({});
+        field.setHint(searchHint());
         return;
     }
     const Result<Crs> crs = Crs::fromText(text.toStdString());
@@ -361,7 +367,10 @@ void OverrideForm::checkCrs()
         const QString name = QString::fromStdString(crs->name());
         //: %1 is the name of a coordinate reference system, %2 the body it is on
         field.setHint(body != nullptr ? tr("%1, on %2").arg(name, textFrom(body->name)) : name);
-    } else if (!crs_->hasFocus() || (crs_->isLoaded() && crs_->matches().isEmpty())) {
+        return;
+    }
+    field.setHint(searchHint());
+    if (!crs_->hasFocus() || (crs_->isLoaded() && crs_->matches().isEmpty())) {
         field.setProblem(asSentence(crs.error().message));
     }
 }

@@ -270,6 +270,17 @@ extentText(const GeographicExtent& extent, const CoordinateFormat& format, const
             .latitudes = leftToRight(span.arg(degreesText(shown[2]), degreesText(shown[3])))};
 }
 
+QString datumText(const RasterInfo& info)
+{
+    // Not one that the user has named.
+    if (info.reference_radius_m && info.vertical_datum.starts_with("sphere of radius ")) {
+        //: A vertical datum: %1 is a radius in meters
+        return tr("sphere of radius %1")
+            .arg(withUnit(sampleText(*info.reference_radius_m), QStringLiteral("m")));
+    }
+    return QString::fromStdString(info.vertical_datum);
+}
+
 QString
 heightText(const RasterInfo& info, const HeightRange& range, double height_m, HeightUnit unit)
 {
@@ -277,9 +288,8 @@ heightText(const RasterInfo& info, const HeightRange& range, double height_m, He
     const QString value = withUnit(
         numberText(inUnit(height_m, unit), decimalsFor(relief / 100.0, 3)), unitSymbol(unit));
     //: %1 is an elevation with its unit, %2 the vertical datum
-    return info.vertical_datum.empty()
-               ? value
-               : tr("%1 (%2)").arg(value, isolated(QString::fromStdString(info.vertical_datum)));
+    const QString datum = datumText(info);
+    return datum.isEmpty() ? value : tr("%1 (%2)").arg(value, isolated(datum));
 }
 
 } // namespace marsview

@@ -72,6 +72,9 @@ struct ExtentText {
 ExtentText
 extentText(const GeographicExtent& extent, const CoordinateFormat& format, const RasterInfo& info);
 
+/// "areoid", "sphere of radius 1,737,400 m"; empty if it is unknown.
+QString datumText(const RasterInfo& info);
+
 /// "21,171 m (areoid)". Resolves about a thousandth of the map's relief.
 QString heightText(const RasterInfo& info,
                    const HeightRange& range,

@@ -2,6 +2,8 @@
 
 #include "ui/text/number_text.h"
 
+#include <cmath>
+
 namespace marsview {
 namespace {
 
@@ -32,13 +34,35 @@ QString ElevationBox::digitsOf(QString text) const
     return text.trimmed().remove(locale().groupSeparator());
 }
 
+void ElevationBox::setTrailingZeros(bool are_kept)
+{
+    has_trailing_zeros_ = are_kept;
+}
+
+bool ElevationBox::isSpecial(const QString& text) const
+{
+    return !specialValueText().isEmpty() && text == specialValueText();
+}
+
 QString ElevationBox::textFromValue(double value) const
 {
-    return numberText(value, decimals());
+    int digits = decimals();
+    const auto is_whole_in = [value, this](int fewer) {
+        const double scale = std::pow(10.0, fewer);
+        const double rounded = std::round(value * scale) / scale;
+        return std::abs(rounded - value) < 0.5 * std::pow(10.0, -decimals());
+    };
+    while (!has_trailing_zeros_ && digits > 0 && is_whole_in(digits - 1)) {
+        --digits;
+    }
+    return numberText(value, digits);
 }
 
 double ElevationBox::valueFromText(const QString& text) const
 {
+    if (isSpecial(text)) {
+        return minimum();
+    }
     bool is_number = false;
     const double value = locale().toDouble(digitsOf(text), &is_number);
     return is_number ? value : this->value();
@@ -46,6 +70,9 @@ double ElevationBox::valueFromText(const QString& text) const
 
 QValidator::State ElevationBox::validate(QString& text, int& /*position*/) const
 {
+    if (isSpecial(text)) {
+        return QValidator::Acceptable;
+    }
     const QString digits = digitsOf(text);
     if (digits.isEmpty() || digits == locale().negativeSign()) {
         return QValidator::Intermediate;

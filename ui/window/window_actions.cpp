@@ -366,8 +366,6 @@ void WindowActions::makeStretchMenu(QMainWindow& window, QMenu& map)
     }
     stretches->addSeparator();
     stretch_to_view = stretches->addAction(tr("&Stretch to Current View"));
-    stretch_to_view->setStatusTip(
-        tr("Spread the color ramp over the elevations that the picture shows now"));
     edit_stretch = stretches->addAction(tr("&Edit Stretch…"));
     edit_stretch->setStatusTip(tr("Show the histogram of the layer with the ends of the stretch"));
 }
@@ -525,8 +523,14 @@ void WindowActions::showSession(const Session& session)
             tr(is_slope && entry.slope_tip != nullptr ? entry.slope_tip : entry.tip));
         action->setChecked(active != nullptr && kind == shownStretch(*active, session.look.mode));
     }
-    stretch_to_view->setEnabled(active != nullptr && index < states.size() &&
-                                states[index] == LayerState::Shown);
+    const bool is_in_picture =
+        active != nullptr && index < states.size() && states[index] == LayerState::Shown;
+    stretch_to_view->setEnabled(is_in_picture);
+    stretch_to_view->setStatusTip(
+        is_in_picture || active == nullptr
+            ? tr("Spread the color ramp over the elevations that the picture shows now")
+            //: Why an entry of the menu cannot be chosen
+            : tr("Not available: the selected layer is not in the picture. Show it first"));
     stretch_to_view->setVisible(!is_slope);
     edit_stretch->setEnabled(active != nullptr);
     for (QAction* action : shading_group->actions()) {

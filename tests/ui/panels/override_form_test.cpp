@@ -228,6 +228,30 @@ TEST_F(OverrideFormTest, FindsACrsByNameWithTheKeyboard)
     EXPECT_FALSE(noteOf("crs").isEmpty()); // its name, in words
 }
 
+TEST_F(OverrideFormTest, TheHintIsThatOfTheEnteredCrs)
+{
+    ASSERT_TRUE(openAndWait(*window_, maps_.hill()));
+    openForm();
+    const QString of_nothing = noteOf("crs");
+    EXPECT_FALSE(of_nothing.isEmpty());
+    const auto enter = [this](const QString& text) {
+        field("crs")->selectAll();
+        QTest::keyClicks(field("crs"), text);
+    };
+    enter(QStringLiteral("+proj=utm +zone=33"));
+    EXPECT_TRUE(waitFor([&] { return noteOf("crs").contains(QStringLiteral("on Earth")); }));
+    field("crs")->selectAll();
+    QTest::keyClick(field("crs"), Qt::Key_Delete);
+    EXPECT_TRUE(waitFor([&] { return noteOf("crs") == of_nothing; }))
+        << noteOf("crs").toStdString();
+    enter(QStringLiteral("+proj=utm +zone=33"));
+    EXPECT_TRUE(waitFor([&] { return noteOf("crs").contains(QStringLiteral("on Earth")); }));
+    QTest::keyClick(field("crs"), Qt::Key_Backspace);
+    QTest::keyClick(field("crs"), Qt::Key_Backspace);
+    QTest::keyClick(field("crs"), Qt::Key_Backspace);
+    EXPECT_TRUE(waitFor([&] { return !noteOf("crs").contains(QStringLiteral("on Earth")); }));
+}
+
 TEST_F(OverrideFormTest, FindsACrsByNameWithTheMouse)
 {
     ASSERT_TRUE(openAndWait(*window_, maps_.hill()));

@@ -152,5 +152,19 @@ TEST(HeightText, NamesUnitAndDatum)
               QStringLiteral("0.00 m (areoid)"));
 }
 
+TEST(DatumText, WritesTheRadiusOfASphereInGroups)
+{
+    const QLocale before;
+    QLocale::setDefault(QLocale(QLocale::English));
+    RasterInfo info;
+    EXPECT_EQ(datumText(info), QString());
+    info.reference_radius_m = 1737400.0;
+    info.vertical_datum = "sphere of radius 1737400 m"; // as commands print it
+    EXPECT_EQ(datumText(info), QStringLiteral("sphere of radius 1,737,400 m"));
+    info.vertical_datum = "of the user";
+    EXPECT_EQ(datumText(info), QStringLiteral("of the user"));
+    QLocale::setDefault(before);
+}
+
 } // namespace
 } // namespace marsview
