@@ -7,9 +7,12 @@
 #include "app/console/map_options.h"
 #include "app/console/number_checks.h"
 #include "app/console/text_output.h"
+#include "core/files/remote_raster.h"
 #include "core/levels/level_file.h"
 #include "core/prepare/geotiff_skeleton.h"
 #include "core/prepare/map_folder.h"
+#include "core/prepare/parts/join_parts.h"
+#include "core/prepare/parts/prepare_part.h"
 #include "core/prepare/prepare_map.h"
 
 #include <CLI/CLI.hpp>
@@ -31,12 +34,24 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr std::size_t kPartsMax = 100'000;
+
 struct PrepareOptions {
     MapOptions map;
     std::string output;
     bool is_waiting = false;
     bool is_json = false;
+    bool is_cog = false;
     double checkpoint_s = 3.0;
+    std::size_t parts = 0; // 0: not in parts
+    std::size_t part = 0;  // 0: none
+    bool is_joining = false;
+    std::string parts_folder;
+
+    TiledGeoTiffJob::Order order() const
+    {
+        return is_cog ? TiledGeoTiffJob::Order::OverviewsFirst : TiledGeoTiffJob::Order::AsMade;
+    }
 };
 
 struct Work {
@@ -58,6 +73,7 @@ Result<Work> workFor(const PrepareOptions& options, const OpenRaster& raster)
     job.when_there = PrepareJob::WhenThere::Check;
     job.when_busy =
         options.is_waiting ? TiledGeoTiffJob::WhenBusy::Wait : TiledGeoTiffJob::WhenBusy::Fail;
+    job.order = options.order();
     job.checkpoint_interval =
         std::chrono::milliseconds(static_cast<std::int64_t>(options.checkpoint_s * 1000.0));
     std::error_code ignored;
@@ -121,6 +137,108 @@ void print(const Json& json)
     line("peak memory", fmt::format("{:.0f} MB", json["peak_memory_bytes"].get<double>() / 1e6));
 }
 
+// Throws a usage error.
+void checkParts(const PrepareOptions& options)
+{
+    if (options.parts == 0) {
+        return;
+    }
+    if (options.is_joining == (options.part > 0)) {
+        throw CLI::ValidationError("--parts", "needs either --part or --join");
+    }
+    if (options.part > options.parts) {
+        throw CLI::ValidationError("--part", fmt::format("{} is greater than --parts {}; parts are "
+                                                         "counted from 1",
+                                                         options.part, options.parts));
+    }
+    if (options.output.empty()) {
+        throw CLI::ValidationError("--parts", "needs --output");
+    }
+    if (remoteNameFor(options.output) && options.parts_folder.empty()) {
+        throw CLI::ValidationError("--output", "on a server needs --parts-folder");
+    }
+}
+
+std::string partsFolder(const PrepareOptions& options)
+{
+    return options.parts_folder.empty() ? options.output + ".parts" : options.parts_folder;
+}
+
+Status runPart(const PrepareOptions& options, const OpenRaster& raster)
+{
+    LongJob job("preparing");
+    const Result<PartReport> report = preparePart(
+        raster, {.folder = partsFolder(options), .part = options.part, .parts = options.parts},
+        job.monitor());
+    if (!report) {
+        return report.error();
+    }
+    Json json;
+    json["source"] = options.map.path;
+    json["part"] = options.part;
+    json["parts"] = options.parts;
+    json["tile_rows"] = {report->rows.first, report->rows.end};
+    json["samples"] = report->samples;
+    json["is_copied"] = report->is_copied;
+    json["is_measured"] = report->is_measured;
+    json["awaited_parts"] = report->awaited;
+    json["copy_seconds"] = report->copy_seconds;
+    json["level_seconds"] = report->level_seconds;
+    json["seconds"] = report->copy_seconds + report->level_seconds;
+    json["peak_memory_bytes"] = peakMemoryBytes();
+    if (options.is_json) {
+        printJson(withSchema(json));
+        return Done{};
+    }
+    printLine(fmt::format("{:<16}{} of {}, {} samples, {:.1f} s, {:.0f} MB", "part", options.part,
+                          options.parts, report->samples,
+                          report->copy_seconds + report->level_seconds,
+                          static_cast<double>(peakMemoryBytes()) / 1e6));
+    printLine(fmt::format(
+        "{:<16}{}", "next",
+        report->is_measured ? "join, when all parts have got so far"
+        : report->awaited.empty()
+            ? "join"
+            : fmt::format("the remaining parts ({} of {}); then join, or run this part again to "
+                          "measure its errors beforehand",
+                          report->awaited.size(), options.parts)));
+    return Done{};
+}
+
+Status runJoin(const PrepareOptions& options, const OpenRaster& raster)
+{
+    LongJob job("joining");
+    const Result<JoinReport> report = joinParts(raster,
+                                                {.path = options.output,
+                                                 .folder = partsFolder(options),
+                                                 .parts = options.parts,
+                                                 .order = options.order()},
+                                                job.monitor());
+    if (!report) {
+        return report.error();
+    }
+    Json json;
+    json["source"] = options.map.path;
+    json["file"] = options.output;
+    json["level_file"] = report->level_path;
+    json["parts"] = options.parts;
+    json["parts_measured"] = report->measured;
+    json["samples"] = report->samples;
+    json["bytes"] = report->bytes;
+    json["level_file_bytes"] = report->level_bytes;
+    json["copy_seconds"] = report->copy_seconds;
+    json["level_seconds"] = report->level_seconds;
+    json["seconds"] = report->copy_seconds + report->level_seconds;
+    json["samples_per_second"] = nullptr;
+    json["peak_memory_bytes"] = peakMemoryBytes();
+    if (options.is_json) {
+        printJson(withSchema(json));
+    } else {
+        print(json);
+    }
+    return Done{};
+}
+
 Status runPrepare(const PrepareOptions& options)
 {
     if (options.output.empty()) {
@@ -131,6 +249,10 @@ Status runPrepare(const PrepareOptions& options)
     const Result<OpenRaster> raster = openRaster(options.map);
     if (!raster) {
         return raster.error();
+    }
+    if (options.parts > 0) {
+        printNotices(raster->file.info());
+        return options.is_joining ? runJoin(options, *raster) : runPart(options, *raster);
     }
     const Result<Work> work = workFor(options, *raster);
     if (!work) {
@@ -180,12 +302,13 @@ void addPrepareCommand(CLI::App& app, CommandAction& run)
         "Build overviews for a map larger than memory, so that it opens at once: a tiled "
         "GeoTIFF and a level file. If interrupted, the next run resumes");
     options->map.addTo(*command);
-    command
-        ->add_option("-o,--output", options->output,
-                     "GeoTIFF to write; by default one in the folder of prepared maps, or none "
-                     "if DEM is already tiled and has overviews")
-        ->type_name("FILE")
-        ->check(fileNameEndingIn({".tif", ".tiff"}));
+    CLI::Option* output =
+        command
+            ->add_option("-o,--output", options->output,
+                         "GeoTIFF to write; by default one in the folder of prepared maps, or none "
+                         "if DEM is already tiled and has overviews")
+            ->type_name("FILE")
+            ->check(fileNameEndingIn({".tif", ".tiff"}));
     command->add_flag("--wait", options->is_waiting,
                       "if another program prepares the same file, wait for it");
     command
@@ -193,8 +316,33 @@ void addPrepareCommand(CLI::App& app, CommandAction& run)
                      "seconds of work that an interruption may lose")
         ->capture_default_str()
         ->check(numberFrom(0.0, 3600.0));
+    command
+        ->add_flag("--cog", options->is_cog,
+                   "put the overviews first, as in a cloud-optimized GeoTIFF; writes the file "
+                   "a second time")
+        ->needs(output);
+    CLI::Option* parts =
+        command
+            ->add_option("--parts", options->parts,
+                         "prepare in so many parts, each with --part, then --join; on any machines "
+                         "that see DEM and the output folder")
+            ->check(CLI::Range(std::size_t{1}, kPartsMax))
+            ->type_name("N");
+    command->add_option("--part", options->part, "prepare this part, counted from 1")
+        ->check(CLI::Range(std::size_t{1}, kPartsMax))
+        ->needs(parts)
+        ->type_name("I");
+    command->add_flag("--join", options->is_joining, "join the parts")->needs(parts);
+    command
+        ->add_option("--parts-folder", options->parts_folder,
+                     "folder of the parts; by default the output with .parts at its end")
+        ->needs(parts)
+        ->type_name("FOLDER");
     command->add_flag("--json", options->is_json, "print JSON");
-    command->callback([options, &run] { run = [options] { return runPrepare(*options); }; });
+    command->callback([options, &run] {
+        checkParts(*options);
+        run = [options] { return runPrepare(*options); };
+    });
 }
 
 } // namespace marsview

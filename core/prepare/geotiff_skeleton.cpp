@@ -4,7 +4,7 @@
 #include "core/files/exact_crs.h"
 #include "core/files/gdal_runtime.h"
 #include "core/prepare/overview_builder.h"
-#include "core/prepare/tiff_tiles.h"
+#include "core/prepare/tiff/tiff_tiles.h"
 #include "core/raster/gdal_types.h"
 #include "core/tiles/tile.h"
 

@@ -48,17 +48,6 @@ std::vector<std::uint64_t> indexOf(const std::vector<FilePart>& parts)
     return rows;
 }
 
-// The memory of a thread in addition to shared memory: two tiles, two float copies of one, and its
-// part of the incomplete bands of nested levels.
-std::size_t threadsFor(const TileLayout& layout, std::size_t memory_bytes_max)
-{
-    constexpr std::size_t kSamples = (kTileSide + 1) * (kTileSide + 1);
-    const std::size_t thread_bytes = kSamples * (2 * sampleBytes(layout.type) + 8) +
-                                     layout.columns / 8 * kTileSide * sampleBytes(layout.type) +
-                                     layout.columns * sizeof(float);
-    return std::max<std::size_t>(1, memory_bytes_max / 2 / thread_bytes);
-}
-
 // Identifies a build, so that it can be resumed only with the same source and settings.
 std::string subjectOf(const LevelBuild& build)
 {
@@ -74,6 +63,17 @@ std::string subjectOf(const LevelBuild& build)
 // In this order.
 enum class BuildStage : std::uint8_t { Survey, Means, Errors };
 
+// These blocks may be larger than those of the survey.
+BlockGrid blocksOf(const LevelSurvey& survey, std::size_t block_samples)
+{
+    BlockGrid blocks = survey.blocks;
+    for (BlockExtent extent = survey.kept; extent.block_samples < block_samples;
+         extent = extent.coarser()) {
+        blocks = reduced(blocks, extent);
+    }
+    return blocks;
+}
+
 // A complete build of a level file.
 class LevelFileBuild {
 public:
@@ -83,7 +83,7 @@ public:
         , monitor_(monitor)
         , means_path_(build.path + ".part.means")
         , checkpoints_(build.path + ".part.checkpoint", subjectOf(build), build.checkpoint_interval)
-        , readers_(*build.source, threadsFor(layout_, build.memory_bytes_max))
+        , readers_(*build.source, levelThreads(layout_, build.memory_bytes_max))
     {}
 
     Status run()
@@ -133,7 +133,7 @@ private:
         }
         const LevelSurvey& survey = survey_->finish();
         monitor_.beginStage(kSurveyShare, kSurveyShare + kErrorsShare);
-        LevelErrorPass errors(*build_.source, build_.scale, survey, *writer_, monitor_);
+        LevelErrorPass errors(*build_.source, build_.scale, survey, writer_.get(), monitor_);
         if (auto begun = errors.begin(); !begun) {
             return begun;
         }
@@ -155,7 +155,12 @@ private:
             return measured;
         }
         monitor_.beginStage(kSurveyShare + kErrorsShare, 1.0);
-        return finish(survey, errors);
+        return finishLevelFile({.key = build_.key,
+                                .layout = layout_,
+                                .scale = build_.scale,
+                                .mean_blocks_max = build_.mean_blocks_max,
+                                .confirm = build_.confirm},
+                               survey, errors, *writer_, monitor_);
     }
 
     // Resumes an interrupted build, or starts a new one.
@@ -252,59 +257,7 @@ private:
                                       .scale = build_.scale,
                                       .means_path = means_path_,
                                       .mean_blocks_max = build_.mean_blocks_max},
-                        *writer_, monitor_);
-    }
-
-    Status finish(const LevelSurvey& survey, LevelErrorPass& pass)
-    {
-        LevelFileHeader header{.key = build_.key,
-                               .layout = layout_,
-                               .statistics = survey.statistics,
-                               .scale = build_.scale,
-                               .block_samples =
-                                   finestBlocks(layout_, build_.mean_blocks_max).block_samples,
-                               .fill_tiles = pass.tileFills().size(),
-                               .coarse_tiles = pass.coarseFills().size(),
-                               .planes = {}};
-        header.layout.has_voids = header.hasVoids();
-        const LevelErrors found = pass.finish();
-        const BlockGrid blocks = blocksOf(survey, header.block_samples);
-        const std::vector<std::uint64_t> samples_index = indexOf(survey.samples_index);
-        const std::vector<std::uint64_t> fills_index = pass.tileFills().index();
-        const std::vector<std::uint64_t> coarse_index = pass.coarseFills().index();
-        std::vector<LevelFileWriter::Array> arrays{{"ranges", survey.ranges.bytes()}};
-        const auto add = [&arrays](std::string name, const auto& values) {
-            arrays.push_back({std::move(name), std::as_bytes(std::span(values))});
-        };
-        for (std::size_t level = 1; level < found.errors.levelCount(); ++level) {
-            add(fmt::format("errors {}", level), found.errors.nodeErrors()[level].errors_m);
-        }
-        add("means", blocks.means_m);
-        if (header.hasVoids()) {
-            add("shares", blocks.shares);
-            add("fills", found.fills_m);
-        }
-        add("checksums", std::as_const(*survey.checksums).values());
-        add("samples index", samples_index);
-        add("fills index", fills_index);
-        add("coarse index", coarse_index);
-        if (auto finished = writer_->finish(std::move(header), arrays, {monitor_, build_.confirm});
-            !finished) {
-            return finished;
-        }
-        monitor_.report(1.0);
-        return Done{};
-    }
-
-    // These blocks may be larger than those of the survey.
-    static BlockGrid blocksOf(const LevelSurvey& survey, std::size_t block_samples)
-    {
-        BlockGrid blocks = survey.blocks;
-        for (BlockExtent extent = survey.kept; extent.block_samples < block_samples;
-             extent = extent.coarser()) {
-            blocks = reduced(blocks, extent);
-        }
-        return blocks;
+                        writer_.get(), monitor_);
     }
 
     const LevelBuild& build_;
@@ -321,6 +274,62 @@ private:
 };
 
 } // namespace
+
+Status finishLevelFile(const LevelFileOf& file,
+                       const LevelSurvey& survey,
+                       LevelErrorPass& pass,
+                       LevelFileWriter& writer,
+                       JobMonitor& monitor)
+{
+    LevelFileHeader header{.key = file.key,
+                           .layout = file.layout,
+                           .statistics = survey.statistics,
+                           .scale = file.scale,
+                           .block_samples =
+                               finestBlocks(file.layout, file.mean_blocks_max).block_samples,
+                           .fill_tiles = pass.tileFills().size(),
+                           .coarse_tiles = pass.coarseFills().size(),
+                           .planes = {}};
+    header.layout.has_voids = header.hasVoids();
+    const LevelErrors found = pass.finish();
+    const BlockGrid blocks = blocksOf(survey, header.block_samples);
+    const std::vector<std::uint64_t> samples_index = indexOf(survey.samples_index);
+    const std::vector<std::uint64_t> fills_index = pass.tileFills().index();
+    const std::vector<std::uint64_t> coarse_index = pass.coarseFills().index();
+    std::vector<LevelFileWriter::Array> arrays{{"ranges", survey.ranges.bytes()}};
+    const auto add = [&arrays](std::string name, const auto& values) {
+        arrays.push_back({std::move(name), std::as_bytes(std::span(values))});
+    };
+    for (std::size_t level = 1; level < found.errors.levelCount(); ++level) {
+        add(fmt::format("errors {}", level), found.errors.nodeErrors()[level].errors_m);
+    }
+    add("means", blocks.means_m);
+    if (header.hasVoids()) {
+        add("shares", blocks.shares);
+        add("fills", found.fills_m);
+    }
+    add("checksums", std::as_const(*survey.checksums).values());
+    add("samples index", samples_index);
+    add("fills index", fills_index);
+    add("coarse index", coarse_index);
+    if (auto finished = writer.finish(std::move(header), arrays, {monitor, file.confirm});
+        !finished) {
+        return finished;
+    }
+    monitor.report(1.0);
+    return Done{};
+}
+
+std::size_t levelThreads(const TileLayout& layout, std::size_t memory_bytes_max)
+{
+    // The memory of a thread in addition to shared memory: two tiles, two float copies of one, and
+    // its part of the incomplete bands of nested levels.
+    constexpr std::size_t kSamples = (kTileSide + 1) * (kTileSide + 1);
+    const std::size_t thread_bytes = kSamples * (2 * sampleBytes(layout.type) + 8) +
+                                     layout.columns / 8 * kTileSide * sampleBytes(layout.type) +
+                                     layout.columns * sizeof(float);
+    return std::max<std::size_t>(1, memory_bytes_max / 2 / thread_bytes);
+}
 
 std::uint64_t levelFileBytesMax(const TileLayout& layout, std::size_t mean_blocks_max)
 {

@@ -14,6 +14,10 @@
 
 namespace marsview {
 
+class LevelErrorPass;
+class LevelFileWriter;
+struct LevelSurvey;
+
 struct LevelBuild {
     const TileSource* source = nullptr; // its level 0 is read in rows of tiles
     ElevationScale scale;
@@ -29,6 +33,26 @@ struct LevelBuild {
     /// The work that an interruption may lose; more if saving takes long.
     std::chrono::milliseconds checkpoint_interval{3'000};
 };
+
+/// The number of threads that measure such a raster within so much memory; at least 1.
+std::size_t levelThreads(const TileLayout& layout,
+                         std::size_t memory_bytes_max = LevelBuild{}.memory_bytes_max);
+
+/// What a level file says of its raster.
+struct LevelFileOf {
+    LevelFileKey key;
+    TileLayout layout;
+    ElevationScale scale;
+    std::size_t mean_blocks_max = LevelBuild{}.mean_blocks_max;
+    std::function<Status()> confirm{}; // as in LevelBuild
+};
+
+/// Writes the results of both passes after their tiles, and publishes the file.
+Status finishLevelFile(const LevelFileOf& file,
+                       const LevelSurvey& survey,
+                       LevelErrorPass& errors,
+                       LevelFileWriter& writer,
+                       JobMonitor& monitor);
 
 /// An upper bound on the disk space used while building the level file of such a raster.
 std::uint64_t levelFileBytesMax(const TileLayout& layout,

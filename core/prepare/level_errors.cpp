@@ -1,7 +1,6 @@
 #include "core/prepare/level_errors.h"
 
 #include "core/levels/level_file.h"
-#include "core/prepare/nested_levels.h"
 #include "core/prepare/tile_rows.h"
 #include "core/terrain/detail_measure.h"
 #include "core/terrain/fill_range.h"
@@ -61,13 +60,13 @@ public:
     Impl(const TileSource& source,
          const ElevationScale& scale,
          const LevelSurvey& survey,
-         LevelFileWriter& writer,
+         LevelFileWriter* writer,
          JobMonitor& monitor)
         : source_(source)
         , scale_(scale)
         , layout_(source.layout())
         , survey_(survey)
-        , writer_(writer)
+        , ordered_(writer)
         , monitor_(monitor)
         , means_(BlockMeans::from(survey.blocks, survey.kept))
         , range_(heightRange(survey.statistics, scale))
@@ -125,6 +124,7 @@ public:
             return false;
         }
         done_ = done;
+        ordered_.startAt(done / tile_columns_);
         return tile_fills_.restore(std::move(tile_fills)) &&
                coarse_fill_parts_.restore(std::move(coarse_fills));
     }
@@ -167,7 +167,7 @@ public:
             monitor_.report(static_cast<double>(++done_) /
                             static_cast<double>(tile_columns_ * tile_rows_));
         }
-        return Done{};
+        return ordered_.done(tile_row);
     }
 
     LevelErrors finish()
@@ -176,6 +176,34 @@ public:
     }
     const TileParts& tileFills() const { return tile_fills_; }
     const TileParts& coarseFills() const { return coarse_fill_parts_; }
+    State state()
+    {
+        return {measure_->errors(), fills_m_,           coarse_fills_,
+                tile_fills_,        coarse_fill_parts_, ordered_};
+    }
+
+    Status keepCoarseFills(const LevelBand& band)
+    {
+        for (std::size_t first = 0; first < band.samples.columns(); first += kTileSide) {
+            if (monitor_.isCanceled()) {
+                return Error{ErrorCode::Canceled, "canceled"};
+            }
+            const TileId id{.kind = TileKind::Samples,
+                            .level = static_cast<std::uint8_t>(band.level),
+                            .column = static_cast<std::uint32_t>(first / kTileSide),
+                            .row = static_cast<std::uint32_t>(band.tile_row)};
+            const SampleGrid tile = columnsOf(band.samples, first, layout_.tileWidth(id));
+            if (!tile.hasVoids()) {
+                continue;
+            }
+            ordered_.put({lastTileRowOf(layout_, band.level, band.tile_row), band.level, id.column},
+                         packedArray(tile),
+                         [this, number = keptTileNumber(layout_, id)](const FilePart& part) {
+                             coarse_fill_parts_.add(number, part);
+                         });
+        }
+        return Done{};
+    }
 
 private:
     // The working memory of one thread.
@@ -361,14 +389,14 @@ private:
         const TileId& id = tile.id;
         const bool is_filled = hasVoids(id.column, id.row);
         if (is_filled) {
-            auto part = writer_.append(packed({.columns = fill->window.columns,
-                                               .rows = fill->window.rows,
-                                               .element_bytes = sizeof(float)},
-                                              std::as_bytes(std::span(fill->means_m))));
-            if (!part) {
-                return std::move(part).error();
-            }
-            tile_fills_.add(id.row * tile_columns_ + id.column, *part);
+            ordered_.put({id.row, 0, id.column},
+                         packed({.columns = fill->window.columns,
+                                 .rows = fill->window.rows,
+                                 .element_bytes = sizeof(float)},
+                                std::as_bytes(std::span(fill->means_m))),
+                         [this, number = id.row * tile_columns_ + id.column](const FilePart& part) {
+                             tile_fills_.add(number, part);
+                         });
         }
         if (!has_coarse_fills_) {
             return Done{};
@@ -415,34 +443,11 @@ private:
         return heights;
     }
 
-    Status keepCoarseFills(const LevelBand& band)
-    {
-        for (std::size_t first = 0; first < band.samples.columns(); first += kTileSide) {
-            if (monitor_.isCanceled()) {
-                return Error{ErrorCode::Canceled, "canceled"};
-            }
-            const TileId id{.kind = TileKind::Samples,
-                            .level = static_cast<std::uint8_t>(band.level),
-                            .column = static_cast<std::uint32_t>(first / kTileSide),
-                            .row = static_cast<std::uint32_t>(band.tile_row)};
-            const SampleGrid tile = columnsOf(band.samples, first, layout_.tileWidth(id));
-            if (!tile.hasVoids()) {
-                continue;
-            }
-            auto part = writer_.append(packedArray(tile));
-            if (!part) {
-                return std::move(part).error();
-            }
-            coarse_fill_parts_.add(keptTileNumber(layout_, id), *part);
-        }
-        return Done{};
-    }
-
     const TileSource& source_;
     ElevationScale scale_;
     TileLayout layout_;
     const LevelSurvey& survey_;
-    LevelFileWriter& writer_;
+    OrderedTiles ordered_;
     JobMonitor& monitor_;
     BlockMeans means_;
     FillRange range_;
@@ -463,7 +468,7 @@ private:
 LevelErrorPass::LevelErrorPass(const TileSource& source,
                                const ElevationScale& scale,
                                const LevelSurvey& survey,
-                               LevelFileWriter& writer,
+                               LevelFileWriter* writer,
                                JobMonitor& monitor)
     : impl_(std::make_unique<Impl>(source, scale, survey, writer, monitor))
 {}
@@ -503,6 +508,16 @@ const TileParts& LevelErrorPass::tileFills() const
 const TileParts& LevelErrorPass::coarseFills() const
 {
     return impl_->coarseFills();
+}
+
+LevelErrorPass::State LevelErrorPass::state()
+{
+    return impl_->state();
+}
+
+Status LevelErrorPass::keepCoarseFills(const LevelBand& band)
+{
+    return impl_->keepCoarseFills(band);
 }
 
 } // namespace marsview

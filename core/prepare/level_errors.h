@@ -6,6 +6,8 @@
 #include "core/prepare/checkpoint_file.h"
 #include "core/prepare/level_file_writer.h"
 #include "core/prepare/level_survey.h"
+#include "core/prepare/nested_levels.h"
+#include "core/prepare/ordered_tiles.h"
 #include "core/terrain/detail_errors.h"
 #include "core/tiles/tile_source.h"
 
@@ -45,10 +47,11 @@ struct LevelErrors {
 /// The second pass. Any threads may process rows; everything else is for one thread.
 class LevelErrorPass {
 public:
+    /// With a null `writer`, fills are not stored.
     LevelErrorPass(const TileSource& source,
                    const ElevationScale& scale,
                    const LevelSurvey& survey,
-                   LevelFileWriter& writer,
+                   LevelFileWriter* writer,
                    JobMonitor& monitor);
     ~LevelErrorPass();
     LevelErrorPass(const LevelErrorPass&) = delete;
@@ -68,6 +71,20 @@ public:
     /// Tiles with voids at level 0 and at the stored levels.
     const TileParts& tileFills() const;
     const TileParts& coarseFills() const;
+
+    /// The state of the pass, to be divided between parts of a map and merged again. While no row
+    /// is being processed.
+    struct State {
+        DetailErrors::NodeErrors& errors;
+        std::vector<float>& fills_m; // as in LevelErrors
+        NestedLevels& coarse_fills;  // bands that are not complete
+        TileParts& tile_fill_parts;
+        TileParts& coarse_fill_parts;
+        OrderedTiles& ordered;
+    };
+    State state();
+    /// Stores a band of fills that another part completed.
+    Status keepCoarseFills(const LevelBand& band);
 
 private:
     class Impl;

@@ -1,11 +1,9 @@
 #include "core/prepare/level_survey.h"
 
-#include "core/prepare/nested_levels.h"
 #include "core/prepare/tile_rows.h"
 #include "core/terrain/detail_measure.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cstring>
 #include <utility>
 
@@ -27,10 +25,10 @@ BlockExtent surveyedBlocks(const TileLayout& layout, std::size_t blocks_max)
 
 class LevelSurveyPass::Impl {
 public:
-    Impl(const SurveyOptions& options, LevelFileWriter& writer, JobMonitor& monitor)
+    Impl(const SurveyOptions& options, LevelFileWriter* writer, JobMonitor& monitor)
         : options_(options)
         , layout_(options.source->layout())
-        , writer_(writer)
+        , ordered_(writer)
         , monitor_(monitor)
         , tile_columns_(layout_.tileColumns(TileKind::Samples, 0))
         , tile_rows_(layout_.tileRows(TileKind::Samples, 0))
@@ -97,6 +95,7 @@ public:
         is_good = is_good && from.get(void_count) && from.get(done);
         void_count_ = void_count;
         done_ = done;
+        ordered_.startAt(std::min<std::size_t>(done / tile_columns_, tile_rows_));
         const auto [sparse_columns, sparse_rows] = sparseSize();
         found_.sparse = from.getGrid(layout_.type, sparse_columns, sparse_rows);
         found_.first_rows = from.getGrid(layout_.type, layout_.columns, firstRowCount());
@@ -175,6 +174,34 @@ public:
             if (auto written = found_.fine_means.write(level, fine[level]); !written) {
                 return written;
             }
+        }
+        return ordered_.done(tile_row);
+    }
+
+    State state() { return {found_, nested_, ordered_, void_count_}; }
+
+    Status keepBand(const LevelBand& band)
+    {
+        if (band.level == DetailMeasure::kSparseLevel) {
+            const std::lock_guard lock(mutex_);
+            keepSparse(band);
+        }
+        if (band.level > top_level_ || band.level < LevelFile::kFirstLevel) {
+            return Done{};
+        }
+        for (std::size_t first = 0; first < band.samples.columns(); first += kTileSide) {
+            if (monitor_.isCanceled()) {
+                return Error{ErrorCode::Canceled, "canceled"};
+            }
+            const TileId id{.kind = TileKind::Samples,
+                            .level = static_cast<std::uint8_t>(band.level),
+                            .column = static_cast<std::uint32_t>(first / kTileSide),
+                            .row = static_cast<std::uint32_t>(band.tile_row)};
+            const SampleGrid tile = columnsOf(band.samples, first, layout_.tileWidth(id));
+            ordered_.put({lastTileRowOf(layout_, band.level, band.tile_row), band.level, id.column},
+                         packedSamples(tile),
+                         [to = &found_.samples_index[keptTileNumber(layout_, id)]](
+                             const FilePart& part) { *to = part; });
         }
         return Done{};
     }
@@ -282,33 +309,6 @@ private:
         }
     }
 
-    Status keepBand(const LevelBand& band)
-    {
-        if (band.level == DetailMeasure::kSparseLevel) {
-            const std::lock_guard lock(mutex_);
-            keepSparse(band);
-        }
-        if (band.level > top_level_ || band.level < LevelFile::kFirstLevel) {
-            return Done{};
-        }
-        for (std::size_t first = 0; first < band.samples.columns(); first += kTileSide) {
-            if (monitor_.isCanceled()) {
-                return Error{ErrorCode::Canceled, "canceled"};
-            }
-            const TileId id{.kind = TileKind::Samples,
-                            .level = static_cast<std::uint8_t>(band.level),
-                            .column = static_cast<std::uint32_t>(first / kTileSide),
-                            .row = static_cast<std::uint32_t>(band.tile_row)};
-            const SampleGrid tile = columnsOf(band.samples, first, layout_.tileWidth(id));
-            auto part = writer_.append(packedSamples(tile));
-            if (!part) {
-                return std::move(part).error();
-            }
-            found_.samples_index[keptTileNumber(layout_, id)] = *part;
-        }
-        return Done{};
-    }
-
     void keepSparse(const LevelBand& band)
     {
         const std::size_t first_row = band.tile_row * kTileSide;
@@ -327,7 +327,7 @@ private:
 
     SurveyOptions options_;
     TileLayout layout_;
-    LevelFileWriter& writer_;
+    OrderedTiles ordered_;
     JobMonitor& monitor_;
     std::size_t tile_columns_;
     std::size_t tile_rows_;
@@ -340,7 +340,7 @@ private:
 };
 
 LevelSurveyPass::LevelSurveyPass(const SurveyOptions& options,
-                                 LevelFileWriter& writer,
+                                 LevelFileWriter* writer,
                                  JobMonitor& monitor)
     : impl_(std::make_unique<Impl>(options, writer, monitor))
 {}
@@ -375,6 +375,16 @@ std::size_t LevelSurveyPass::meanRowCount() const
 Status LevelSurveyPass::surveyMeanRow(TileReader& reader, std::size_t row)
 {
     return impl_->surveyMeanRow(reader, row);
+}
+
+LevelSurveyPass::State LevelSurveyPass::state()
+{
+    return impl_->state();
+}
+
+Status LevelSurveyPass::keepBand(const LevelBand& band)
+{
+    return impl_->keepBand(band);
 }
 
 const LevelSurvey& LevelSurveyPass::finish()

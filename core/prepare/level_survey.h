@@ -5,12 +5,15 @@
 #include "core/base/result.h"
 #include "core/prepare/checkpoint_file.h"
 #include "core/prepare/level_file_writer.h"
+#include "core/prepare/nested_levels.h"
+#include "core/prepare/ordered_tiles.h"
 #include "core/prepare/void_fills.h"
 #include "core/terrain/block_means.h"
 #include "core/terrain/raw_ranges.h"
 #include "core/tiles/tile_checksums.h"
 #include "core/tiles/tile_source.h"
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -43,7 +46,8 @@ struct SurveyOptions {
 /// The first pass. Any threads may process rows; everything else is for one thread.
 class LevelSurveyPass {
 public:
-    LevelSurveyPass(const SurveyOptions& options, LevelFileWriter& writer, JobMonitor& monitor);
+    /// With a null `writer`, the levels are not stored.
+    LevelSurveyPass(const SurveyOptions& options, LevelFileWriter* writer, JobMonitor& monitor);
     ~LevelSurveyPass();
     LevelSurveyPass(const LevelSurveyPass&) = delete;
     LevelSurveyPass& operator=(const LevelSurveyPass&) = delete;
@@ -66,6 +70,18 @@ public:
 
     /// Call when all rows are done.
     const LevelSurvey& finish();
+
+    /// The state of the pass, to be divided between parts of a map and merged again. While no row
+    /// is being processed.
+    struct State {
+        LevelSurvey& found;
+        NestedLevels& nested; // bands that are not complete
+        OrderedTiles& ordered;
+        std::atomic<std::uint64_t>& void_count;
+    };
+    State state();
+    /// Stores a band that another part completed.
+    Status keepBand(const LevelBand& band);
 
 private:
     class Impl;

@@ -118,31 +118,94 @@ void NestedLevels::save(CheckpointWriter& to) const
     }
 }
 
+std::optional<NestedLevels::SavedBand> NestedLevels::readBand(CheckpointReader& from) const
+{
+    std::uint64_t level = 0;
+    std::uint64_t tile_row = 0;
+    std::uint64_t missing = 0;
+    std::uint8_t has_samples = 0;
+    if (!from.get(level) || !from.get(tile_row) || !from.get(missing) || !from.get(has_samples) ||
+        level < first_ || level > last_ || tile_row >= layout_.tileRows(TileKind::Samples, level)) {
+        return std::nullopt;
+    }
+    SavedBand saved{level, tile_row, {.samples = {}, .missing = missing}};
+    if (has_samples != 0) {
+        saved.band.samples = from.getGrid(type_, layout_.columnsAt(TileKind::Samples, level),
+                                          bandRows(level, tile_row));
+        if (!saved.band.samples) {
+            return std::nullopt;
+        }
+    }
+    return saved;
+}
+
 bool NestedLevels::restore(CheckpointReader& from)
 {
     std::uint64_t count = 0;
-    bool is_good = from.get(count);
-    for (std::uint64_t i = 0; is_good && i < count; ++i) {
-        std::uint64_t level = 0;
-        std::uint64_t tile_row = 0;
-        std::uint64_t missing = 0;
-        std::uint8_t has_samples = 0;
-        is_good = from.get(level) && from.get(tile_row) && from.get(missing) &&
-                  from.get(has_samples) && level >= first_ && level <= last_ &&
-                  tile_row < layout_.tileRows(TileKind::Samples, level);
-        if (!is_good) {
-            break;
-        }
-        Band band{.samples = {}, .missing = missing};
-        if (has_samples != 0) {
-            const std::size_t rows = std::min(kTileSide, layout_.rowsAt(TileKind::Samples, level) -
-                                                             tile_row * kTileSide);
-            band.samples = from.getGrid(type_, layout_.columnsAt(TileKind::Samples, level), rows);
-            is_good = band.samples.has_value();
-        }
-        bands_.insert_or_assign({level, tile_row}, std::move(band));
+    if (!from.get(count)) {
+        return false;
     }
-    return is_good;
+    for (std::uint64_t i = 0; i < count; ++i) {
+        std::optional<SavedBand> saved = readBand(from);
+        if (!saved) {
+            return false;
+        }
+        bands_.insert_or_assign({saved->level, saved->tile_row}, std::move(saved->band));
+    }
+    return true;
+}
+
+std::optional<std::vector<LevelBand>>
+NestedLevels::merge(CheckpointReader& from, std::size_t first, std::size_t end)
+{
+    std::uint64_t count = 0;
+    if (!from.get(count)) {
+        return std::nullopt;
+    }
+    const std::lock_guard lock(mutex_);
+    std::vector<LevelBand> complete;
+    for (std::uint64_t i = 0; i < count; ++i) {
+        std::optional<SavedBand> saved = readBand(from);
+        if (!saved) {
+            return std::nullopt;
+        }
+        const std::size_t columns = layout_.columnsAt(TileKind::Samples, saved->level);
+        const std::size_t rows = bandRows(saved->level, saved->tile_row);
+        const auto at = bands_.try_emplace({saved->level, saved->tile_row}).first;
+        Band& band = at->second;
+        if (band.missing == 0) {
+            band.missing = columns * rows;
+        }
+        const std::size_t added = columns * rows - saved->band.missing;
+        if (added > band.missing) {
+            return std::nullopt;
+        }
+        band.missing -= added;
+        for (std::size_t row = 0; saved->band.samples && row < rows; ++row) {
+            const std::size_t map_row =
+                std::min((saved->tile_row * kTileSide + row) << saved->level, layout_.rows - 1);
+            if (map_row / kTileSide < first || map_row / kTileSide >= end) {
+                continue;
+            }
+            if (!band.samples) {
+                band.samples = zeros(type_, columns, rows);
+            }
+            std::memcpy(band.samples->rowData(row), saved->band.samples->rowData(row),
+                        columns * sampleBytes(type_));
+            for (std::size_t column = 0; column < columns; ++column) {
+                if (saved->band.samples->isVoid(column, row)) {
+                    band.samples->markVoid(column, row);
+                }
+            }
+        }
+        if (band.missing == 0) {
+            if (band.samples) {
+                complete.push_back({saved->level, saved->tile_row, std::move(*band.samples)});
+            }
+            bands_.erase(at);
+        }
+    }
+    return complete;
 }
 
 SampleGrid columnsOf(const SampleGrid& samples, std::size_t first_column, std::size_t columns)

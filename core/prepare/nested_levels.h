@@ -5,6 +5,7 @@
 #include "core/raster/sample_grid.h"
 #include "core/tiles/tile.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <map>
 #include <mutex>
@@ -36,11 +37,28 @@ public:
     void save(CheckpointWriter& to) const;
     bool restore(CheckpointReader& from);
 
+    /// Adds the incomplete bands of another part of the map, whose rows of level-0 tiles are
+    /// [first, end), and returns those that it completes. Empty if `from` is not from save() for
+    /// such a map.
+    std::optional<std::vector<LevelBand>>
+    merge(CheckpointReader& from, std::size_t first, std::size_t end);
+
 private:
     struct Band {
         std::optional<SampleGrid> samples; // empty before the first nonempty tile
         std::size_t missing = 0;           // samples
     };
+
+    struct SavedBand {
+        std::size_t level = 0;
+        std::size_t tile_row = 0;
+        Band band;
+    };
+    std::optional<SavedBand> readBand(CheckpointReader& from) const;
+    std::size_t bandRows(std::size_t level, std::size_t tile_row) const
+    {
+        return std::min(kTileSide, layout_.rowsAt(TileKind::Samples, level) - tile_row * kTileSide);
+    }
 
     std::mutex mutex_; // guards bands_
     TileLayout layout_;

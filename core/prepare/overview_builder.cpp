@@ -268,6 +268,17 @@ OverviewBuilder::Rows OverviewBuilder::makeLevel(std::size_t level)
     return {made.samples.data(), has_mask_ ? made.valid.data() : nullptr, made.columns, made.rows};
 }
 
+OverviewBuilder::TileSums OverviewBuilder::sumsOf(std::size_t first_tile_row,
+                                                  std::size_t end_tile_row)
+{
+    if (sum_bits_.empty()) {
+        return {};
+    }
+    const std::size_t first = first_tile_row * tile_columns_;
+    const std::size_t count = end_tile_row * tile_columns_ - first;
+    return {std::span(sum_bits_).subspan(first, count), std::span(counts_).subspan(first, count)};
+}
+
 template <typename Function>
 void OverviewBuilder::forEachPending(std::size_t tile_rows, Function&& function)
 {

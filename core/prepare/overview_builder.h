@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace marsview {
@@ -55,6 +56,14 @@ public:
 
     /// After all tiles: a level beyond kStreamedLevels, whole. Ascending, each once.
     Rows makeLevel(std::size_t level);
+
+    /// The sums of the raster's tiles of some rows, from which levels beyond kStreamedLevels are
+    /// made; empty without such levels. For copying them from one builder to another.
+    struct TileSums {
+        std::span<std::uint64_t> sums; // bits of integers or doubles
+        std::span<std::uint64_t> counts;
+    };
+    TileSums sumsOf(std::size_t first_tile_row, std::size_t end_tile_row);
 
     /// The state needed to resume after the first `tile_rows` rows of tiles.
     std::vector<std::uint8_t> save(std::size_t tile_rows) const;

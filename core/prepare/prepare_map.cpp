@@ -221,6 +221,7 @@ Status makeCopy(const OpenRaster& raster,
     copy.when_there = job.when_there == PrepareJob::WhenThere::Replace
                           ? TiledGeoTiffJob::WhenThere::Replace
                           : TiledGeoTiffJob::WhenThere::Keep;
+    copy.order = job.order;
     copy.bytes_after = levelBytesFor(raster.info);
     copy.checkpoint_interval = job.checkpoint_interval;
     Result<TiledGeoTiffReport> copied = writeTiledGeoTiff(copy, monitor);

@@ -24,6 +24,7 @@ struct PrepareJob {
     /// rebuild damaged files; or rebuild always.
     enum class WhenThere : std::uint8_t { Trust, Check, Replace };
     WhenThere when_there = WhenThere::Trust;
+    TiledGeoTiffJob::Order order = TiledGeoTiffJob::Order::AsMade; // of the tiled GeoTIFF
     std::chrono::milliseconds checkpoint_interval = TiledGeoTiffJob{}.checkpoint_interval;
 };
 

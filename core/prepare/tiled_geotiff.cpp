@@ -2,27 +2,24 @@
 
 #include "core/base/check.h"
 #include "core/base/file_lock.h"
-#include "core/base/parallel.h"
 #include "core/prepare/checkpoints.h"
 #include "core/prepare/disk_room.h"
 #include "core/prepare/geotiff_skeleton.h"
 #include "core/prepare/overview_builder.h"
-#include "core/prepare/tiff_tiles.h"
-#include "core/prepare/tile_encoding.h"
+#include "core/prepare/source_rows.h"
+#include "core/prepare/tiff/cloud_order.h"
+#include "core/prepare/tiff/tiff_tiles.h"
+#include "core/prepare/tile_row_writer.h"
 #include "core/raster/raster_file.h"
 #include "core/raster/source_identity.h"
 #include "core/raster/source_stamp.h"
 #include "core/tiles/tile.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <future>
 #include <optional>
-#include <span>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -32,14 +29,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The total size of the rows that are being read while earlier ones are written.
-constexpr std::size_t kWindowBytes = std::size_t{230} << 20;
-// A row of blocks taller than a tile is read at once up to this size.
-constexpr std::size_t kTallBlockBytesMax = std::size_t{16} << 20;
-
 // At these rows of tiles, finer levels are in the file and coarser ones in the checkpoint: 3 % of
 // a row of tiles in total.
 constexpr std::size_t kTileRowsPerCheckpoint = 8;
+
+// Of the time, if the tiles are put in another order afterwards.
+constexpr double kCopyingShare = 0.9;
 
 // Upper bound even for noise; overviews add a third.
 constexpr double kBytesPerRawByte = 1.34;
@@ -50,107 +45,6 @@ std::string checkpointOf(const std::string& path)
 {
     return path + ".part.checkpoint";
 }
-
-std::size_t tilesAlong(std::size_t samples)
-{
-    return (samples + kTileSide - 1) / kTileSide;
-}
-
-// Identifies a preparation. The location of the source is not part of it.
-std::string keyOf(const RasterInfo& info, const SourceIdentity& source)
-{
-    const auto terms = info.transform ? info.transform->terms() : GeoTransform::Terms{};
-    return fmt::format(
-        "{}; source {} {} {}; band {}; {} x {} {}; nodata {}; mask {}; scale {} {}; "
-        "unit {} {}; datum {}; radius {}; transform {} {}; CRS {}",
-        kFormVersion, source.digest, source.bytes, source.modified_s, info.band, info.columns,
-        info.rows, sampleTypeName(info.type),
-        info.nodata ? fmt::format("{}", *info.nodata) : "none",
-        info.has_mask_band ? "true" : fmt::format("{}", fmt::join(info.other_nodata, " ")),
-        info.scale, info.offset, info.is_unit_declared, info.unit.name, info.vertical_datum,
-        info.reference_radius_m.has_value(), info.transform.has_value(), fmt::join(terms, " "),
-        info.crs ? info.crs->wkt() : "none");
-}
-
-// Rows to read at once: whole rows of tiles and, if they fit, whole rows of the source's blocks.
-struct Windows {
-    std::size_t rows = kTileSide;
-    bool reads_ahead = true;
-};
-
-Windows windowsFor(const RasterFile& source, const RasterInfo& info)
-{
-    const std::size_t row_bytes =
-        info.columns * (sampleBytes(info.type) + (info.needsVoidMask() ? 1 : 0));
-    const std::size_t block_rows =
-        source.hasCheapRows()
-            ? kTileSide
-            : (std::max<std::size_t>(source.blockSize().rows, 1) + kTileSide - 1) / kTileSide *
-                  kTileSide;
-    Windows windows;
-    windows.rows = std::max(kTileSide, kTallBlockBytesMax / row_bytes / kTileSide * kTileSide);
-    if (block_rows > windows.rows) {
-        windows.rows = std::min(
-            block_rows, std::max(kTileSide, kWindowBytes / row_bytes / kTileSide * kTileSide));
-    } else {
-        windows.rows = windows.rows / block_rows * block_rows;
-    }
-    windows.reads_ahead = 2 * windows.rows * row_bytes <= kWindowBytes || windows.rows == kTileSide;
-    return windows;
-}
-
-// Copies the part of a tile within the grid and repeats the last column and row beyond.
-std::vector<std::byte> tileBytes(const std::byte* rows,
-                                 std::size_t columns,
-                                 std::size_t row_count,
-                                 std::size_t tile_column,
-                                 std::size_t sample_bytes)
-{
-    const std::size_t width = std::min(kTileSide, columns - tile_column * kTileSide);
-    const std::size_t row_bytes = kTileSide * sample_bytes;
-    std::vector<std::byte> tile(kTileSide * row_bytes);
-    for (std::size_t y = 0; y < kTileSide; ++y) {
-        std::byte* const to = tile.data() + y * row_bytes;
-        if (y >= row_count) {
-            std::memcpy(to, to - row_bytes, row_bytes);
-            continue;
-        }
-        std::memcpy(to, rows + (y * columns + tile_column * kTileSide) * sample_bytes,
-                    width * sample_bytes);
-        for (std::size_t x = width; x < kTileSide; ++x) {
-            std::memcpy(to + x * sample_bytes, to + (width - 1) * sample_bytes, sample_bytes);
-        }
-    }
-    return tile;
-}
-
-// A mask's tile in the file's format: one bit or byte per sample, all ones if valid.
-template <typename IsValid>
-std::vector<std::byte>
-maskBytes(const TiffPage& page, std::size_t width, std::size_t height, IsValid&& is_valid)
-{
-    std::vector<std::byte> tile(kTileSide * (page.has_bits ? kTileSide / 8 : kTileSide));
-    for (std::size_t y = 0; y < height; ++y) {
-        for (std::size_t x = 0; x < width; ++x) {
-            if (!is_valid(x, y)) {
-                continue;
-            }
-            if (page.has_bits) {
-                tile[(y * kTileSide + x) / 8] |= std::byte{0x80} >> (x % 8);
-            } else {
-                tile[y * kTileSide + x] = std::byte{0xFF};
-            }
-        }
-    }
-    return tile;
-}
-
-std::vector<std::byte> encodeMask(const TiffPage& page, std::vector<std::byte> tile)
-{
-    return encodeTile(tile, page.has_bits ? kTileSide / 8 : kTileSide, 1, page.predictor);
-}
-
-using EncodedTiles = std::vector<std::vector<std::byte>>;
 
 // One preparation, from its skeleton or an interrupted attempt to the complete file.
 class Preparation {
@@ -173,14 +67,10 @@ public:
 
 private:
     bool tryResume();
-    bool findPages();
     bool opensAsTheMap() const;
-    Status copyTileRow(const SampleGrid& grid, std::size_t grid_row, std::size_t tile_row);
-    Status
-    writeLevelRows(std::size_t level, const OverviewBuilder::Rows& rows, std::size_t tile_row);
-    Status append(std::size_t page, std::size_t tile_row, EncodedTiles& tiles);
+    Status writeOverviewRows(std::size_t tile_row, bool is_last);
     std::optional<JobPlace> reach();
-    std::size_t tileRows() const { return tilesAlong(info_.rows); }
+    std::size_t tileRows() const { return (info_.rows + kTileSide - 1) / kTileSide; }
 
     const TiledGeoTiffJob& job_;
     RasterFile& source_;
@@ -190,10 +80,7 @@ private:
     TiledGeoTiffReport& report_;
     std::string part_path_;
     OverviewBuilder overviews_;
-    std::optional<TiffTiles> tiles_;
-    // Pages by level: 0 is the raster.
-    std::vector<std::size_t> pages_;
-    std::vector<std::size_t> mask_pages_;
+    std::optional<TileRowWriter> writer_;
     std::size_t tile_rows_done_ = 0;
     Checkpoints checkpoints_;
 };
@@ -223,32 +110,6 @@ void Preparation::discard()
     checkpoints_.remove();
 }
 
-// Finds the page of every level by its size.
-bool Preparation::findPages()
-{
-    const std::size_t levels = overviews_.levelCount() + 1;
-    constexpr std::size_t kNone = ~std::size_t{0};
-    pages_.assign(levels, kNone);
-    mask_pages_.assign(info_.needsVoidMask() ? levels : 0, kNone);
-    const std::vector<TiffPage>& pages = tiles_->pages();
-    for (std::size_t i = 0; i < pages.size(); ++i) {
-        for (std::size_t level = 0; level < levels; ++level) {
-            if (pages[i].columns ==
-                    TileLayout::samplesAlong(TileKind::Means, level, info_.columns) &&
-                pages[i].rows == TileLayout::samplesAlong(TileKind::Means, level, info_.rows)) {
-                std::vector<std::size_t>& of = pages[i].is_mask ? mask_pages_ : pages_;
-                if (level < of.size()) {
-                    of[level] = i;
-                }
-            }
-        }
-    }
-    const auto is_found = [](std::size_t page) { return page != kNone; };
-    return pages.size() == pages_.size() + mask_pages_.size() &&
-           std::all_of(pages_.begin(), pages_.end(), is_found) &&
-           std::all_of(mask_pages_.begin(), mask_pages_.end(), is_found);
-}
-
 // Opens the file as any program would.
 bool Preparation::opensAsTheMap() const
 {
@@ -269,31 +130,31 @@ bool Preparation::tryResume()
         !checkpoint->state.getAny(overviews)) {
         return false;
     }
-    Result<TiffTiles> tiles = TiffTiles::open(part_path_);
-    if (!tiles) {
+    Result<TileRowWriter> writer = TileRowWriter::open(part_path_, info_);
+    if (!writer) {
         return false;
     }
-    tiles_ = std::move(tiles).value();
+    writer_ = std::move(writer).value();
+    TiffTiles& tiles = writer_->tiles();
     const auto tile_rows = static_cast<std::size_t>(place.rows);
-    const Result<std::uint64_t> bytes = tiles_->fileBytes();
-    if (!bytes || *bytes < place.file_bytes || !findPages() ||
-        !overviews_.restore(tile_rows, overviews)) {
+    const Result<std::uint64_t> bytes = tiles.fileBytes();
+    if (!bytes || *bytes < place.file_bytes || !overviews_.restore(tile_rows, overviews)) {
         return false;
     }
-    for (const std::vector<std::size_t>* pages : {&pages_, &mask_pages_}) {
-        for (std::size_t level = 0; level < pages->size(); ++level) {
-            const std::size_t page = (*pages)[level];
-            const std::size_t complete =
-                level > OverviewBuilder::kStreamedLevels ? 0 : tile_rows >> level;
-            const std::size_t noted = complete * tiles_->pages()[page].tile_columns;
-            if (!tiles_->holdsTiles(page, noted, place.file_bytes) ||
-                !tiles_->areWhole(page, noted)) {
-                return false;
-            }
+    const auto holds = [&](std::size_t page, std::size_t level) {
+        const std::size_t complete =
+            level > OverviewBuilder::kStreamedLevels ? 0 : tile_rows >> level;
+        const std::size_t noted = complete * tiles.pages()[page].tile_columns;
+        return tiles.holdsTiles(page, noted, place.file_bytes) && tiles.areWhole(page, noted);
+    };
+    for (std::size_t level = 0; level < writer_->levelCount(); ++level) {
+        if (!holds(writer_->page(level), level) ||
+            (writer_->hasMasks() && !holds(writer_->maskPage(level), level))) {
+            return false;
         }
     }
     tile_rows_done_ = tile_rows;
-    if (!opensAsTheMap() || !tiles_->trim(place.file_bytes)) {
+    if (!opensAsTheMap() || !tiles.trim(place.file_bytes)) {
         return false;
     }
     checkpoints_.adopt();
@@ -310,7 +171,7 @@ Status Preparation::begin()
                                             std::min(tile_rows_done_ * kTileSide, info_.rows),
                                             info_.rows));
     } else {
-        tiles_.reset();
+        writer_.reset();
         tile_rows_done_ = 0;
         discard();
         if (was_begun) {
@@ -323,102 +184,35 @@ Status Preparation::begin()
             !laid_out) {
             return laid_out;
         }
-        Result<TiffTiles> tiles = TiffTiles::open(part_path_);
-        if (!tiles) {
-            return std::move(tiles).error();
+        Result<TileRowWriter> writer = TileRowWriter::open(part_path_, info_);
+        if (!writer) {
+            return std::move(writer).error();
         }
-        tiles_ = std::move(tiles).value();
-        if (!findPages()) {
-            return writeError(part_path_, 0, "was not created with the requested layout");
-        }
+        writer_ = std::move(writer).value();
     }
     return Done{};
 }
 
-Status Preparation::append(std::size_t page, std::size_t tile_row, EncodedTiles& tiles)
+// The overviews' rows of tiles that this row of tiles completes.
+Status Preparation::writeOverviewRows(std::size_t tile_row, bool is_last)
 {
-    for (std::size_t i = 0; i < tiles.size(); ++i) {
-        if (tiles[i].empty()) {
-            return Error{ErrorCode::TooLarge,
-                         fmt::format("{}: not enough memory to compress its tiles", part_path_)};
+    for (std::size_t k = 1;
+         k <= std::min(overviews_.levelCount(), OverviewBuilder::kStreamedLevels); ++k) {
+        if (is_last || (tile_row + 1) % (std::size_t{1} << k) == 0) {
+            if (Status written =
+                    writer_->writeLevelRow(k, overviews_.rowsOf(k, tile_row), tile_row >> k);
+                !written) {
+                return written;
+            }
         }
-        if (Status written = tiles_->append(page, tile_row * tiles.size() + i, tiles[i]);
-            !written) {
-            return written;
-        }
-        tiles[i] = {};
     }
     return Done{};
-}
-
-Status Preparation::copyTileRow(const SampleGrid& grid, std::size_t grid_row, std::size_t tile_row)
-{
-    const std::size_t height = std::min(kTileSide, info_.rows - tile_row * kTileSide);
-    const std::size_t count = tilesAlong(info_.columns);
-    const std::size_t sample_bytes = sampleBytes(info_.type);
-    EncodedTiles tiles(count);
-    EncodedTiles masks(info_.needsVoidMask() ? count : 0);
-    const TiffPage& page = tiles_->pages()[pages_[0]];
-    const std::byte* const rows = grid.visit([&](auto samples) {
-        return reinterpret_cast<const std::byte*>(samples.row(grid_row).data());
-    });
-    parallelRanges(count, 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            std::vector<std::byte> tile = tileBytes(rows, info_.columns, height, i, sample_bytes);
-            tiles[i] = encodeTile(tile, kTileSide, sample_bytes, page.predictor);
-            if (!masks.empty()) {
-                const TiffPage& mask_page = tiles_->pages()[mask_pages_[0]];
-                const std::size_t first = i * kTileSide;
-                masks[i] = encodeMask(
-                    mask_page, maskBytes(mask_page, std::min(kTileSide, info_.columns - first),
-                                         height, [&](std::size_t x, std::size_t y) {
-                                             return !grid.isVoid(first + x, grid_row + y);
-                                         }));
-            }
-            overviews_.addTile(grid, grid_row, i, tile_row);
-        }
-    });
-    if (Status written = append(pages_[0], tile_row, tiles); !written || masks.empty()) {
-        return written;
-    }
-    return append(mask_pages_[0], tile_row, masks);
-}
-
-Status Preparation::writeLevelRows(std::size_t level,
-                                   const OverviewBuilder::Rows& rows,
-                                   std::size_t tile_row)
-{
-    const std::size_t count = tilesAlong(rows.columns);
-    const std::size_t sample_bytes = sampleBytes(info_.type);
-    EncodedTiles tiles(count);
-    EncodedTiles masks(info_.needsVoidMask() ? count : 0);
-    const TiffPage& page = tiles_->pages()[pages_[level]];
-    parallelRanges(count, 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            std::vector<std::byte> tile =
-                tileBytes(rows.samples, rows.columns, rows.rows, i, sample_bytes);
-            tiles[i] = encodeTile(tile, kTileSide, sample_bytes, page.predictor);
-            if (!masks.empty()) {
-                const TiffPage& mask_page = tiles_->pages()[mask_pages_[level]];
-                const std::size_t first = i * kTileSide;
-                masks[i] = encodeMask(
-                    mask_page, maskBytes(mask_page, std::min(kTileSide, rows.columns - first),
-                                         rows.rows, [&](std::size_t x, std::size_t y) {
-                                             return rows.valid[y * rows.columns + first + x] != 0;
-                                         }));
-            }
-        }
-    });
-    if (Status written = append(pages_[level], tile_row, tiles); !written || masks.empty()) {
-        return written;
-    }
-    return append(mask_pages_[level], tile_row, masks);
 }
 
 std::optional<JobPlace> Preparation::reach()
 {
-    const Status flushed = tiles_->flush();
-    const Result<std::uint64_t> bytes = tiles_->fileBytes();
+    const Status flushed = writer_->tiles().flush();
+    const Result<std::uint64_t> bytes = writer_->tiles().fileBytes();
     if (!flushed || !bytes) {
         return std::nullopt;
     }
@@ -427,78 +221,53 @@ std::optional<JobPlace> Preparation::reach()
 
 Status Preparation::copy(JobMonitor& monitor)
 {
-    const Windows windows = windowsFor(source_, info_);
-    const auto window_at = [&](std::size_t row) {
-        return GridWindow{0, row, info_.columns, std::min(windows.rows, info_.rows - row)};
+    SourceRows rows(source_, info_);
+    const auto copy_row = [&](const SampleGrid& grid, std::size_t grid_row,
+                              std::size_t tile_row) -> Status {
+        if (monitor.isCanceled()) {
+            return Error{ErrorCode::Canceled, ""};
+        }
+        const bool is_last = tile_row + 1 == tileRows();
+        if (Status written = writer_->copyRow(grid, grid_row, tile_row, overviews_); !written) {
+            return written;
+        }
+        if (Status written = writeOverviewRows(tile_row, is_last); !written) {
+            return written;
+        }
+        tile_rows_done_ = tile_row + 1;
+        if (!is_last && tile_rows_done_ % kTileRowsPerCheckpoint == 0 && checkpoints_.isDue()) {
+            checkpoints_.save([this] { return reach(); },
+                              [this](CheckpointWriter& to) {
+                                  to.putArray(overviews_.save(tile_rows_done_));
+                                  return true;
+                              });
+        }
+        monitor.report(static_cast<double>(tile_rows_done_) / static_cast<double>(tileRows()));
+        return Done{};
     };
-    const auto read = [&](std::size_t row) {
-        return source_.readWindow(window_at(row), {info_.nodata});
-    };
-    std::future<Result<LoadedSamples>> ahead;
-    for (std::size_t row = tile_rows_done_ * kTileSide; row < info_.rows;) {
-        Result<LoadedSamples> samples = ahead.valid() ? ahead.get() : read(row);
-        if (!samples) {
-            return std::move(samples).error();
-        }
-        const std::size_t end = row + samples->grid.rows();
-        if (windows.reads_ahead && end < info_.rows) {
-            ahead = std::async(std::launch::async, read, end);
-        }
-        for (std::size_t grid_row = 0; row < end;
-             grid_row += kTileSide, row = std::min(row + kTileSide, end)) {
-            if (monitor.isCanceled()) {
-                return Error{ErrorCode::Canceled, ""};
-            }
-            if (Status written = copyTileRow(samples->grid, grid_row, tile_rows_done_); !written) {
-                return written;
-            }
-            const std::size_t tile_row = tile_rows_done_++;
-            const bool is_last = tile_rows_done_ == tileRows();
-            for (std::size_t k = 1;
-                 k <= std::min(overviews_.levelCount(), OverviewBuilder::kStreamedLevels); ++k) {
-                if (is_last || tile_rows_done_ % (std::size_t{1} << k) == 0) {
-                    if (Status written =
-                            writeLevelRows(k, overviews_.rowsOf(k, tile_row), tile_row >> k);
-                        !written) {
-                        return written;
-                    }
-                }
-            }
-            if (!is_last && tile_rows_done_ % kTileRowsPerCheckpoint == 0 && checkpoints_.isDue()) {
-                checkpoints_.save([this] { return reach(); },
-                                  [this](CheckpointWriter& to) {
-                                      to.putArray(overviews_.save(tile_rows_done_));
-                                      return true;
-                                  });
-            }
-            monitor.report(static_cast<double>(tile_rows_done_) / static_cast<double>(tileRows()));
-        }
-        report_.samples_read += samples->grid.columns() * samples->grid.rows();
+    const Status copied = rows.each(tile_rows_done_, tileRows(), copy_row);
+    report_.samples_read += rows.samplesRead();
+    if (!copied) {
+        return copied;
     }
     for (std::size_t k = OverviewBuilder::kStreamedLevels + 1; k <= overviews_.levelCount(); ++k) {
-        const OverviewBuilder::Rows level = overviews_.makeLevel(k);
-        for (std::size_t first = 0; first < level.rows; first += kTileSide) {
-            OverviewBuilder::Rows rows = level;
-            rows.samples += first * level.columns * sampleBytes(info_.type);
-            rows.valid += level.valid != nullptr ? first * level.columns : 0;
-            rows.rows = std::min(kTileSide, level.rows - first);
-            if (Status written = writeLevelRows(k, rows, first / kTileSide); !written) {
-                return written;
-            }
+        if (Status written = writer_->writeLevel(k, overviews_.makeLevel(k)); !written) {
+            return written;
         }
     }
-    if (Status flushed = tiles_->flush(); !flushed) {
+    TiffTiles& tiles = writer_->tiles();
+    if (Status flushed = tiles.flush(); !flushed) {
         return flushed;
     }
-    const Result<std::uint64_t> bytes = tiles_->fileBytes();
+    const Result<std::uint64_t> bytes = tiles.fileBytes();
     if (!bytes) {
         return bytes.error();
     }
-    for (std::size_t page = 0; page < tiles_->pages().size(); ++page) {
-        const TiffPage& of = tiles_->pages()[page];
-        MARSVIEW_CHECK(tiles_->holdsTiles(page, of.tile_columns * of.tile_rows, *bytes));
+    for (std::size_t page = 0; page < tiles.pages().size(); ++page) {
+        const TiffPage& of = tiles.pages()[page];
+        MARSVIEW_CHECK(tiles.holdsTiles(page, of.tile_columns * of.tile_rows, *bytes));
     }
-    tiles_.reset();
+    writer_.reset();
     return Done{};
 }
 
@@ -506,10 +275,11 @@ Status checkSpace(const TiledGeoTiffJob& job, const RasterInfo& info)
 {
     const std::uint64_t bytes = tiledGeoTiffBytesMax(info);
     const std::uint64_t written = bytesOnDisk(job.path + ".part");
-    Status alone = checkRoom({.path = job.path, .bytes = bytes, .written = written});
+    const std::uint64_t again = job.order == TiledGeoTiffJob::Order::OverviewsFirst ? bytes : 0;
+    Status alone = checkRoom({.path = job.path, .bytes = bytes + again, .written = written});
     return !alone ? std::move(alone)
                   : checkRoom({.path = job.path + " and the files built from it",
-                               .bytes = bytes + job.bytes_after,
+                               .bytes = bytes + std::max(again, job.bytes_after),
                                .written = written});
 }
 
@@ -577,6 +347,18 @@ Result<FileLock> lockFor(const TiledGeoTiffJob& job, JobMonitor& monitor, bool& 
     }
 }
 
+// Replaces a complete file by one with its tiles in the order of a cloud-optimized GeoTIFF.
+Status putOverviewsFirst(const std::string& path, const std::string& part, JobMonitor& monitor)
+{
+    if (Status written = orderForCloud(path, part, monitor); !written) {
+        return written;
+    }
+    std::error_code failure;
+    fs::rename(part, path, failure);
+    return failure ? Status(writeError(path, failure.value(), "cannot be written"))
+                   : Status(Done{});
+}
+
 Status publish(const TiledGeoTiffJob& job, Preparation& preparation)
 {
     std::error_code failure;
@@ -596,6 +378,21 @@ Status publish(const TiledGeoTiffJob& job, Preparation& preparation)
 }
 
 } // namespace
+
+std::string tiledGeoTiffKey(const RasterInfo& info, const SourceIdentity& source)
+{
+    const auto terms = info.transform ? info.transform->terms() : GeoTransform::Terms{};
+    return fmt::format(
+        "{}; source {} {} {}; band {}; {} x {} {}; nodata {}; mask {}; scale {} {}; "
+        "unit {} {}; datum {}; radius {}; transform {} {}; CRS {}",
+        kFormVersion, source.digest, source.bytes, source.modified_s, info.band, info.columns,
+        info.rows, sampleTypeName(info.type),
+        info.nodata ? fmt::format("{}", *info.nodata) : "none",
+        info.has_mask_band ? "true" : fmt::format("{}", fmt::join(info.other_nodata, " ")),
+        info.scale, info.offset, info.is_unit_declared, info.unit.name, info.vertical_datum,
+        info.reference_radius_m.has_value(), info.transform.has_value(), fmt::join(terms, " "),
+        info.crs ? info.crs->wkt() : "none");
+}
 
 std::uint64_t tiledGeoTiffBytesMax(const RasterInfo& info)
 {
@@ -631,12 +428,22 @@ Result<TiledGeoTiffReport> writeTiledGeoTiff(const TiledGeoTiffJob& job, JobMoni
     }
     TiledGeoTiffReport report;
     report.samples = info->columns * info->rows;
-    const std::string key = keyOf(*info, *before);
+    const std::string key = tiledGeoTiffKey(*info, *before);
+    const bool is_reordered = job.order == TiledGeoTiffJob::Order::OverviewsFirst;
     std::error_code failure;
     Preparation preparation(job, *source, *info, key, before->path, stamp.text, report);
     if (job.when_there == TiledGeoTiffJob::WhenThere::Keep && fs::exists(job.path, failure) &&
         readGeoTiffOrigin(job.path).key == key) {
         preparation.discard(); // as after a kill during publishing
+        if (is_reordered && !isOrderedForCloud(job.path)) {
+            Status ordered = putOverviewsFirst(job.path, preparation.partPath(), monitor);
+            if (!ordered) {
+                return std::move(ordered).error();
+            }
+            report.notes.push_back(fmt::format("{}: its overviews are now first", job.path));
+            report.bytes = fs::file_size(job.path, failure);
+            return report;
+        }
         report.is_there = true;
         report.notes.push_back(
             fmt::format("{}: is up to date with its source{}", job.path,
@@ -650,6 +457,7 @@ Result<TiledGeoTiffReport> writeTiledGeoTiff(const TiledGeoTiffJob& job, JobMoni
     }
     Status copied = preparation.begin();
     if (copied) {
+        const JobPart copying(monitor, 0.0, is_reordered ? kCopyingShare : 1.0);
         copied = preparation.copy(monitor);
     }
     if (!copied) {
@@ -674,6 +482,14 @@ Result<TiledGeoTiffReport> writeTiledGeoTiff(const TiledGeoTiffJob& job, JobMoni
             fmt::format(
                 "{}: changed while it was being read; start again when no program writes to it",
                 job.source)};
+    }
+    if (is_reordered) {
+        const JobPart ordering(monitor, kCopyingShare, 1.0);
+        const std::string& part = preparation.partPath();
+        if (Status ordered = putOverviewsFirst(part, part + ".ordered", monitor); !ordered) {
+            preparation.discard();
+            return std::move(ordered).error();
+        }
     }
     if (Status published = publish(job, preparation); !published) {
         return std::move(published).error();

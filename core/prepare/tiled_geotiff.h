@@ -7,6 +7,7 @@
 #include "core/base/job_monitor.h"
 #include "core/base/result.h"
 #include "core/raster/raster_info.h"
+#include "core/raster/source_identity.h"
 
 #include <chrono>
 #include <cstddef>
@@ -25,7 +26,11 @@ struct TiledGeoTiffJob {
     WhenBusy when_busy = WhenBusy::Fail; // if another program is writing the same file
     enum class WhenThere : std::uint8_t { Keep, Replace };
     WhenThere when_there = WhenThere::Keep; // if the file exists from the same source
-    std::uint64_t bytes_after = 0;          // that must remain free in addition to the file
+    /// The order of the tiles: as they are made, row by row with the overviews between them, or the
+    /// overviews first, as in a cloud-optimized GeoTIFF. The latter writes the file a second time.
+    enum class Order : std::uint8_t { AsMade, OverviewsFirst };
+    Order order = Order::AsMade;
+    std::uint64_t bytes_after = 0; // that must remain free in addition to the file
     /// The work that an interruption may lose; more if checkpoints are slow. 0 writes a checkpoint
     /// at every opportunity, however long it takes.
     std::chrono::milliseconds checkpoint_interval{3000};
@@ -38,6 +43,10 @@ struct TiledGeoTiffReport {
     std::uint64_t bytes = 0;        // of the file
     bool is_there = false;          // it existed already, and nothing was done
 };
+
+/// Identifies the source and the settings of a file: equal if the file need not be made again. The
+/// location of the source is not part of it.
+std::string tiledGeoTiffKey(const RasterInfo& info, const SourceIdentity& source);
 
 /// An upper bound on the size of a tiled GeoTIFF of this raster.
 std::uint64_t tiledGeoTiffBytesMax(const RasterInfo& info);

@@ -75,6 +75,26 @@ TEST_F(LevelBuilder, ReadsEveryTileTwice)
     EXPECT_EQ(fileCount(), 1U);
 }
 
+TEST_F(LevelBuilder, WritesTheSameBytesOnAnyNumberOfThreads)
+{
+    const auto built = [this](std::size_t memory_bytes_max) {
+        test::GridTileSource source(someTerrain());
+        JobMonitor monitor;
+        EXPECT_TRUE(buildLevelFile({.source = &source,
+                                    .scale = {},
+                                    .key = {},
+                                    .path = path(),
+                                    .memory_bytes_max = memory_bytes_max,
+                                    .mean_blocks_max = 2000},
+                                   monitor));
+        return test::readFile(path());
+    };
+    const std::string alone = built(1);
+    for (int i = 0; i < 5; ++i) {
+        EXPECT_TRUE(built(std::size_t{1} << 30) == alone);
+    }
+}
+
 TEST_F(LevelBuilder, StopsSoonWhenCanceledAndLeavesNoFiles)
 {
     for (const std::uint64_t after : {0U, 1U, 30U, 52U, 99U}) {

@@ -1,4 +1,4 @@
-#include "core/prepare/tile_encoding.h"
+#include "core/prepare/tiff/tile_encoding.h"
 
 #include "core/base/check.h"
 #include "core/base/deflate.h"

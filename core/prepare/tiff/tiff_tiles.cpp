@@ -1,4 +1,4 @@
-#include "core/prepare/tiff_tiles.h"
+#include "core/prepare/tiff/tiff_tiles.h"
 
 #include "core/base/deflate.h"
 #include "core/base/parallel.h"
@@ -180,6 +180,32 @@ Result<std::uint64_t> TiffTiles::fileBytes() const
         return writeError(impl_->path, errno, "cannot determine its size");
     }
     return static_cast<std::uint64_t>(status.st_size);
+}
+
+std::uint64_t TiffTiles::encodedBytes(std::size_t page, std::size_t tile) const
+{
+    return TIFFGetStrileByteCount(impl_->handles.at(page).get(), static_cast<std::uint32_t>(tile));
+}
+
+std::uint64_t TiffTiles::offsetOf(std::size_t page, std::size_t tile) const
+{
+    return TIFFGetStrileOffset(impl_->handles.at(page).get(), static_cast<std::uint32_t>(tile));
+}
+
+Result<std::vector<std::byte>> TiffTiles::encoded(std::size_t page, std::size_t tile) const
+{
+    TIFF* file = impl_->handles.at(page).get();
+    const std::uint64_t bytes = encodedBytes(page, tile);
+    // Deflate never doubles the size of its input.
+    const bool is_there = bytes > 0 && bytes <= 2 * std::uint64_t{TIFFTileSize64(file)};
+    std::vector<std::byte> encoded(is_there ? bytes : 0);
+    if (!is_there ||
+        pread(TIFFFileno(file), encoded.data(), encoded.size(),
+              static_cast<off_t>(offsetOf(page, tile))) != static_cast<ssize_t>(encoded.size())) {
+        return Error{ErrorCode::Invalid,
+                     fmt::format("{}: tile {} of page {} is missing", impl_->path, tile, page)};
+    }
+    return encoded;
 }
 
 bool TiffTiles::holdsTiles(std::size_t page, std::size_t tiles, std::uint64_t file_bytes) const

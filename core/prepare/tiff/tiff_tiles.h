@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/result.h"
-#include "core/prepare/tile_encoding.h"
+#include "core/prepare/tiff/tile_encoding.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -47,6 +47,15 @@ public:
 
     /// The size of the file in bytes.
     Result<std::uint64_t> fileBytes() const;
+
+    /// The encoded tile as it is in the file. Invalid if it is missing.
+    Result<std::vector<std::byte>> encoded(std::size_t page, std::size_t tile) const;
+
+    /// The number of bytes of an encoded tile; 0 if it is missing.
+    std::uint64_t encodedBytes(std::size_t page, std::size_t tile) const;
+
+    /// The position of an encoded tile; 0 if it is missing.
+    std::uint64_t offsetOf(std::size_t page, std::size_t tile) const;
 
     /// Whether the first `tiles` tiles of a page exist and end within `file_bytes`.
     bool holdsTiles(std::size_t page, std::size_t tiles, std::uint64_t file_bytes) const;

@@ -1,0 +1,132 @@
+#include "core/prepare/parts/part_state.h"
+
+#include "core/levels/level_file_format.h"
+#include "core/prepare/disk_room.h"
+#include "core/prepare/tiled_geotiff.h"
+#include "core/raster/source_identity.h"
+
+#include <filesystem>
+#include <fmt/format.h>
+#include <system_error>
+#include <utility>
+
+namespace marsview {
+namespace {
+
+// To be increased with every change of the files.
+constexpr int kVersion = 1;
+
+} // namespace
+
+std::string PartedMap::subject() const
+{
+    return fmt::format("parts {}; level file {}; at most {} means; {} parts; {}", kVersion,
+                       kLevelFileVersion, mean_blocks_max, parts, key);
+}
+
+std::string PartedMap::file(std::size_t part, const char* ending) const
+{
+    return (std::filesystem::path(folder) / fmt::format("{}-of-{}.{}", part, parts, ending))
+        .string();
+}
+
+Result<PartedMap> partedMap(const OpenRaster& raster,
+                            std::size_t parts,
+                            const std::string& folder,
+                            std::size_t mean_blocks_max)
+{
+    const Result<SourceIdentity> identity = identify(raster.spec.path);
+    if (!identity) {
+        return identity.error();
+    }
+    return PartedMap{.info = raster.info,
+                     .voids = raster.voids(),
+                     .scale = raster.info.elevationScale(),
+                     .key = tiledGeoTiffKey(raster.info, *identity),
+                     .source_path = identity->path,
+                     .parts = parts,
+                     .folder = folder,
+                     .mean_blocks_max = mean_blocks_max};
+}
+
+void beginPartState(CheckpointWriter& to, const PartedMap& map)
+{
+    to.putArray(map.subject());
+}
+
+Result<CheckpointReader> openPartState(const PartedMap& map, std::size_t part, const char* ending)
+{
+    const std::string path = map.file(part, ending);
+    std::error_code ignored;
+    if (!std::filesystem::exists(path, ignored)) {
+        return Error{ErrorCode::NotFound, path + ": does not exist"};
+    }
+    std::optional<CheckpointReader> reader = CheckpointReader::open(path);
+    std::string subject;
+    if (!reader || !reader->getAny(subject)) {
+        return Error{ErrorCode::Damaged,
+                     fmt::format("{}: is damaged; prepare part {} again", path, part)};
+    }
+    if (subject != map.subject()) {
+        return Error{ErrorCode::Invalid,
+                     fmt::format("{}: was made from another source or with other settings; "
+                                 "prepare part {} again",
+                                 path, part)};
+    }
+    return std::move(*reader);
+}
+
+void PartTiles::save(CheckpointWriter& to) const
+{
+    to.put(raster_bytes);
+    to.put(levels_bytes);
+    to.putArray(checksums);
+    edges.save(to);
+    to.putArray(sums);
+    to.putArray(counts);
+}
+
+bool PartTiles::restore(CheckpointReader& from)
+{
+    return from.get(raster_bytes) && from.get(levels_bytes) && from.getAny(checksums) &&
+           edges.restore(from) && from.getAny(sums) && from.getAny(counts);
+}
+
+Result<std::shared_ptr<const GeotiffTileSource>> openPartTiles(const PartedMap& map,
+                                                               const std::string& path)
+{
+    const Result<RasterFile> file = RasterFile::open(path);
+    if (!file) {
+        return file.error();
+    }
+    return GeotiffTileSource::of(*file, map.voids);
+}
+
+std::vector<std::size_t> absentParts(const PartedMap& map)
+{
+    std::vector<std::size_t> absent;
+    for (std::size_t part = 1; part <= map.parts; ++part) {
+        std::error_code ignored;
+        if (!std::filesystem::exists(map.file(part, kPartSurvey), ignored)) {
+            absent.push_back(part);
+        }
+    }
+    return absent;
+}
+
+std::vector<std::size_t> missingParts(const PartedMap& map)
+{
+    std::vector<std::size_t> missing;
+    for (std::size_t part = 1; part <= map.parts; ++part) {
+        Result<CheckpointReader> state = openPartState(map, part, kPartSurvey);
+        PartTiles tiles(map);
+        if (!state || !tiles.restore(*state) ||
+            bytesOnDisk(map.file(part, kPartRaster)) != tiles.raster_bytes ||
+            bytesOnDisk(map.file(part, kPartLevels)) != tiles.levels_bytes) {
+            missing.push_back(part);
+        }
+    }
+    return missing;
+}
+
+} // namespace marsview

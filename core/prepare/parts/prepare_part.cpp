@@ -1,0 +1,379 @@
+#include "core/prepare/parts/prepare_part.h"
+
+#include "core/base/deflate.h"
+#include "core/base/file_lock.h"
+#include "core/files/file_bytes.h"
+#include "core/prepare/disk_room.h"
+#include "core/prepare/geotiff_skeleton.h"
+#include "core/prepare/parts/errors_part.h"
+#include "core/prepare/parts/merged_survey.h"
+#include "core/prepare/parts/part_state.h"
+#include "core/prepare/parts/survey_part.h"
+#include "core/prepare/source_rows.h"
+#include "core/prepare/tile_row_writer.h"
+#include "core/prepare/tile_rows.h"
+#include "core/prepare/tiled_geotiff.h"
+#include "core/raster/source_stamp.h"
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fmt/format.h>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+namespace marsview {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+// Of the threads that measure: a part is small, and other parts may run beside it.
+constexpr std::size_t kMemoryBytesMax = std::size_t{256} << 20;
+
+double secondsSince(Clock::time_point start)
+{
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+void removeFile(const std::string& path)
+{
+    std::error_code ignored;
+    fs::remove(path, ignored);
+}
+
+Status renameTo(const std::string& from, const std::string& to)
+{
+    std::error_code failure;
+    fs::rename(from, to, failure);
+    return failure ? Status(writeError(to, failure.value(), "cannot be written")) : Status(Done{});
+}
+
+Error writingState(const std::string& path)
+{
+    return {ErrorCode::Unreadable,
+            fmt::format("{}: cannot be written; make room there or choose another folder", path)};
+}
+
+// One part in work.
+class Part {
+public:
+    Part(const OpenRaster& raster, const PartedMap& map, std::size_t part, JobMonitor& monitor)
+        : raster_(raster)
+        , map_(map)
+        , part_(part)
+        , rows_(map.rowsOf(part))
+        , monitor_(monitor)
+        , new_raster_(map.file(part, "new.tif"))
+    {}
+
+    bool isSurveyed() const
+    {
+        Result<CheckpointReader> state = openPartState(map_, part_, kPartSurvey);
+        PartTiles tiles(map_);
+        return state && tiles.restore(*state) &&
+               bytesOnDisk(map_.file(part_, kPartRaster)) == tiles.raster_bytes &&
+               bytesOnDisk(map_.file(part_, kPartLevels)) == tiles.levels_bytes;
+    }
+
+    bool isMeasured() const
+    {
+        Result<CheckpointReader> state = openPartState(map_, part_, kPartErrors);
+        std::uint64_t bytes = 0;
+        return state && state->get(bytes) && bytesOnDisk(map_.file(part_, kPartFills)) == bytes;
+    }
+
+    Status copy(PartTiles& tiles)
+    {
+        removeFile(map_.file(part_, kPartSurvey));
+        removeFile(map_.file(part_, kPartErrors));
+        if (Status made =
+                writeGeoTiffSkeleton(new_raster_, map_.info, {map_.key, map_.source_path});
+            !made) {
+            return made;
+        }
+        Result<TileRowWriter> writer = TileRowWriter::open(new_raster_, map_.info);
+        Result<RasterFile> source = RasterFile::open(raster_.spec.path, raster_.spec.band);
+        if (!writer || !source) {
+            return writer ? std::move(source).error() : std::move(writer).error();
+        }
+        const RasterInfo& info = map_.info;
+        OverviewBuilder overviews(info.columns, info.rows, info.type, info.nodata,
+                                  info.needsVoidMask());
+        SourceRows rows(*source, info);
+        Status copied = rows.each(
+            rows_.first, rows_.end,
+            [&](const SampleGrid& grid, std::size_t grid_row, std::size_t tile_row) -> Status {
+                if (monitor_.isCanceled()) {
+                    return Error{ErrorCode::Canceled, "canceled"};
+                }
+                Status written = writer->copyRow(grid, grid_row, tile_row, overviews);
+                if (written) {
+                    written = tiles.edges.addRow(overviews, tile_row, rows_, *writer);
+                }
+                monitor_.report(static_cast<double>(tile_row + 1 - rows_.first) /
+                                static_cast<double>(rows_.end - rows_.first));
+                return written;
+            });
+        if (!copied) {
+            return copied;
+        }
+        const OverviewBuilder::TileSums sums = overviews.sumsOf(rows_.first, rows_.end);
+        tiles.sums.assign(sums.sums.begin(), sums.sums.end());
+        tiles.counts.assign(sums.counts.begin(), sums.counts.end());
+        if (Status flushed = writer->tiles().flush(); !flushed) {
+            return flushed;
+        }
+        return keepChecksums(*writer, tiles);
+    }
+
+    Status survey(PartTiles& tiles)
+    {
+        const auto source = openPartTiles(map_, new_raster_);
+        if (!source) {
+            return source.error();
+        }
+        const TileLayout& layout = (*source)->layout();
+        const std::string levels = map_.file(part_, kPartLevels);
+        auto writer = LevelFileWriter::create(levels);
+        if (!writer) {
+            return std::move(writer).error();
+        }
+        const std::string means = map_.file(part_, "means");
+        LevelSurveyPass pass({.source = source->get(),
+                              .scale = map_.scale,
+                              .means_path = means,
+                              .mean_blocks_max = map_.mean_blocks_max},
+                             writer->get(), monitor_);
+        if (Status begun = pass.begin(); !begun) {
+            return begun;
+        }
+        pass.state().ordered.startAt(rows_.first);
+        TileReaders readers(**source, levelThreads(layout, kMemoryBytesMax));
+        const auto survey_row = [&pass](TileReader& reader, std::size_t row) {
+            return pass.surveyRow(reader, row);
+        };
+        const auto rows =
+            readers.eachRow({.first = rows_.first, .end = rows_.end}, survey_row, monitor_);
+        if (!rows) {
+            return rows.error();
+        }
+        std::vector<std::size_t> mean_rows;
+        forEachTileRow(map_, rows_, [&](std::size_t level, std::size_t row) {
+            if (level > 0 && rows_.hasMeans(level, row, map_.tileRows())) {
+                mean_rows.push_back(meanRowNumber(layout, level, row));
+            }
+        });
+        if (Status done = surveyMeans(pass, readers, mean_rows, monitor_); !done) {
+            return done;
+        }
+        if (!(*writer)->flush()) {
+            return writingState(levels);
+        }
+        (*writer)->keep();
+        tiles.levels_bytes = bytesOnDisk(levels + ".part");
+        tiles.raster_bytes = bytesOnDisk(new_raster_);
+        CheckpointWriter to(map_.file(part_, kPartSurvey));
+        beginPartState(to, map_);
+        tiles.save(to);
+        Status saved = saveSurvey(to, pass, layout, rows_);
+        removeFile(means);
+        if (saved) {
+            saved = renameTo(levels + ".part", levels);
+        }
+        if (saved) {
+            saved = renameTo(new_raster_, map_.file(part_, kPartRaster));
+        }
+        if (saved && !to.finish()) {
+            return writingState(map_.file(part_, kPartSurvey));
+        }
+        return saved;
+    }
+
+    Status measure()
+    {
+        const auto source = openPartTiles(map_, map_.file(part_, kPartRaster));
+        if (!source) {
+            return source.error();
+        }
+        const TileLayout& layout = (*source)->layout();
+        const std::string means = map_.file(part_, "means");
+        LevelSurveyPass survey({.source = source->get(),
+                                .scale = map_.scale,
+                                .means_path = means,
+                                .mean_blocks_max = map_.mean_blocks_max},
+                               nullptr, monitor_);
+        Status done = mergeSurveys(map_, layout, survey);
+        if (done) {
+            done = measureRows(**source, survey.finish());
+        }
+        removeFile(means);
+        return done;
+    }
+
+    void discard() const
+    {
+        removeFile(new_raster_);
+        removeFile(map_.file(part_, "means"));
+    }
+
+private:
+    Status keepChecksums(const TileRowWriter& writer, PartTiles& tiles) const
+    {
+        Status read = Done{};
+        forEachTileRow(map_, rows_, [&](std::size_t level, std::size_t row) {
+            if (!rows_.hasMeans(level, row, map_.tileRows())) {
+                return;
+            }
+            forEachTileOfRow(writer, level, row, [&](std::size_t page, std::size_t tile) {
+                const auto encoded = writer.tiles().encoded(page, tile);
+                if (!encoded) {
+                    read = encoded.error();
+                    return;
+                }
+                tiles.checksums.push_back(crc32Of(*encoded));
+            });
+        });
+        return read;
+    }
+
+    Status measureRows(const TileSource& source, const LevelSurvey& survey)
+    {
+        const TileLayout& layout = source.layout();
+        const std::string fills = map_.file(part_, kPartFills);
+        auto writer = LevelFileWriter::create(fills);
+        if (!writer) {
+            return std::move(writer).error();
+        }
+        LevelErrorPass pass(source, map_.scale, survey, writer->get(), monitor_);
+        if (Status begun = pass.begin(); !begun) {
+            return begun;
+        }
+        pass.state().ordered.startAt(rows_.first);
+        TileReaders readers(source, levelThreads(layout, kMemoryBytesMax));
+        const auto measure_row = [&pass](TileReader& reader, std::size_t row) {
+            return pass.measureRow(reader, row);
+        };
+        const auto rows =
+            readers.eachRow({.first = rows_.first, .end = rows_.end}, measure_row, monitor_);
+        if (!rows) {
+            return rows.error();
+        }
+        if (!(*writer)->flush()) {
+            return writingState(fills);
+        }
+        (*writer)->keep();
+        if (Status renamed = renameTo(fills + ".part", fills); !renamed) {
+            return renamed;
+        }
+        CheckpointWriter to(map_.file(part_, kPartErrors));
+        beginPartState(to, map_);
+        to.put(bytesOnDisk(fills));
+        saveErrors(to, pass, layout, rows_);
+        return to.finish() ? Status(Done{}) : Status(writingState(map_.file(part_, kPartErrors)));
+    }
+
+    const OpenRaster& raster_;
+    const PartedMap& map_;
+    std::size_t part_;
+    PartRows rows_;
+    JobMonitor& monitor_;
+    std::string new_raster_;
+};
+
+// Of the time of a part.
+constexpr double kCopyingShare = 0.7;
+constexpr double kSurveyEnd = 0.8;
+
+Status makePart(Part& part, const PartedMap& map, PartReport& report, JobMonitor& monitor)
+{
+    if (!part.isSurveyed()) {
+        const Clock::time_point start = Clock::now();
+        PartTiles tiles(map);
+        {
+            const JobPart copying(monitor, 0.0, kCopyingShare);
+            if (Status copied = part.copy(tiles); !copied) {
+                return copied;
+            }
+        }
+        report.copy_seconds = secondsSince(start);
+        const JobPart surveying(monitor, kCopyingShare, kSurveyEnd);
+        if (Status surveyed = part.survey(tiles); !surveyed) {
+            return surveyed;
+        }
+        report.is_copied = true;
+        report.level_seconds = secondsSince(start) - report.copy_seconds;
+    }
+    report.awaited = absentParts(map);
+    report.is_measured = part.isMeasured();
+    if (!report.awaited.empty() || report.is_measured) {
+        monitor.report(1.0);
+        return Done{};
+    }
+    const Clock::time_point start = Clock::now();
+    const JobPart measuring(monitor, kSurveyEnd, 1.0);
+    Status measured = part.measure();
+    report.is_measured = measured.has_value();
+    report.level_seconds += secondsSince(start);
+    return measured;
+}
+
+} // namespace
+
+Result<PartReport> preparePart(const OpenRaster& raster, const PartJob& job, JobMonitor& monitor)
+{
+    if (Status surface = checkIsSurface(raster.spec.path, raster.info); !surface) {
+        return std::move(surface).error();
+    }
+    const SourceStamp stamp = stampOf(raster.spec.path);
+    const Result<PartedMap> map = partedMap(raster, job.parts, job.folder, job.mean_blocks_max);
+    if (!map) {
+        return map.error();
+    }
+    std::error_code failure;
+    fs::create_directories(job.folder, failure);
+    if (failure) {
+        return writeError(job.folder, failure.value(), "cannot be created");
+    }
+    const std::string lock_path = map->file(job.part, "lock");
+    const auto lock = FileLock::tryLock(lock_path, FileLock::Kind::Exclusive);
+    if (!lock) {
+        return lock.error();
+    }
+    if (!*lock) {
+        return Error{ErrorCode::Unreadable,
+                     fmt::format("{}: is being prepared by another program (process {}); wait for "
+                                 "it or cancel it there",
+                                 map->file(job.part, kPartRaster), FileLock::holder(lock_path))};
+    }
+    PartReport report;
+    report.rows = map->rowsOf(job.part);
+    report.samples = std::uint64_t{map->info.columns} *
+                     (std::min(report.rows.end * kTileSide, map->info.rows) -
+                      std::min(report.rows.first * kTileSide, map->info.rows));
+    Part part(raster, *map, job.part, monitor);
+    Status made = makePart(part, *map, report, monitor);
+    if (made && report.is_copied) {
+        const Result<SourceIdentity> now = identify(raster.spec.path);
+        if (!now || tiledGeoTiffKey(map->info, *now) != map->key || !isUntouched(stamp)) {
+            std::error_code ignored;
+            fs::remove(map->file(job.part, kPartSurvey), ignored);
+            made = Error{ErrorCode::Invalid,
+                         fmt::format("{}: changed while it was being read; start again when no "
+                                     "program writes to it",
+                                     raster.spec.path)};
+        }
+    }
+    if (!made) {
+        part.discard();
+        if (made.error().code == ErrorCode::Canceled) {
+            return Error{ErrorCode::Canceled, fmt::format("{}: preparing was canceled",
+                                                          map->file(job.part, kPartRaster))};
+        }
+        return std::move(made).error();
+    }
+    return report;
+}
+
+} // namespace marsview

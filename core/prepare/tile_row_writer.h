@@ -1,0 +1,60 @@
+// Encodes rows of tiles of a map and of its overviews, and appends them to a laid-out file.
+#pragma once
+
+#include "core/base/result.h"
+#include "core/prepare/overview_builder.h"
+#include "core/prepare/tiff/tiff_tiles.h"
+#include "core/raster/raster_info.h"
+#include "core/raster/sample_grid.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace marsview {
+
+/// The file is one of writeGeoTiffSkeleton(). Tiles of a row are encoded on all cores. For one
+/// thread.
+class TileRowWriter {
+public:
+    /// Opens the file. Unreadable if it was not laid out for such a map.
+    static Result<TileRowWriter> open(const std::string& path, const RasterInfo& info);
+
+    TiffTiles& tiles() noexcept { return tiles_; }
+    const TiffTiles& tiles() const noexcept { return tiles_; }
+    std::size_t levelCount() const noexcept { return pages_.size(); }
+    /// The page of a level, 0 being the raster, and of its mask if the map needs one.
+    std::size_t page(std::size_t level) const { return pages_[level]; }
+    bool hasMasks() const noexcept { return !mask_pages_.empty(); }
+    std::size_t maskPage(std::size_t level) const { return mask_pages_[level]; }
+
+    /// Appends the raster's row of tiles, whose first row is row `grid_row` of `grid`, then the
+    /// row's masks, and adds the tiles to `overviews`.
+    Status copyRow(const SampleGrid& grid,
+                   std::size_t grid_row,
+                   std::size_t tile_row,
+                   OverviewBuilder& overviews);
+    /// Appends a row of tiles of an overview, then the row's masks.
+    Status
+    writeLevelRow(std::size_t level, const OverviewBuilder::Rows& rows, std::size_t tile_row);
+    /// The same for all rows of a level.
+    Status writeLevel(std::size_t level, const OverviewBuilder::Rows& all);
+
+private:
+    using EncodedTiles = std::vector<std::vector<std::byte>>;
+
+    TileRowWriter(TiffTiles tiles, const RasterInfo& info, std::string path);
+    bool findPages();
+    Status append(std::size_t page, std::size_t tile_row, EncodedTiles& tiles);
+
+    TiffTiles tiles_;
+    std::string path_;
+    std::size_t columns_;
+    std::size_t rows_;
+    SampleType type_;
+    // Pages by level: 0 is the raster.
+    std::vector<std::size_t> pages_;
+    std::vector<std::size_t> mask_pages_;
+};
+
+} // namespace marsview
