@@ -6,11 +6,7 @@
 namespace marsview {
 namespace {
 
-// Distance of the near plane as a fraction of the camera's distance. A 24-bit depth buffer then
-// still resolves a millionth of the distance at the target.
-constexpr double kNearShare = 1.0 / 200.0;
-
-double halfHeight(const OrbitCamera& camera)
+double halfHeight(const CameraPose& camera)
 {
     return std::tan(camera.field_of_view.radians() / 2.0);
 }
@@ -33,10 +29,10 @@ ScenePoint eyeOf(const OrbitCamera& camera)
     return camera.target - axesOf(camera).forward * camera.distance_m;
 }
 
-ClipRange clipRange(const OrbitCamera& camera, const SceneBox& box)
+ClipRange clipRange(const CameraPose& camera, const SceneBox& box)
 {
-    const Vec3 forward = axesOf(camera).forward;
-    const ScenePoint eye = eyeOf(camera);
+    const Vec3& forward = camera.axes.forward;
+    const ScenePoint& eye = camera.eye;
     double depth_min = dot(box.minimum - eye, forward);
     double depth_max = depth_min;
     for (const ScenePoint& corner : box.corners()) {
@@ -48,9 +44,9 @@ ClipRange clipRange(const OrbitCamera& camera, const SceneBox& box)
     return {.near_m = near_m, .far_m = std::max(depth_max * 1.001, near_m * 2.0)};
 }
 
-Matrix4 viewRotation(const OrbitCamera& camera)
+Matrix4 viewRotation(const CameraPose& camera)
 {
-    const CameraAxes axes = axesOf(camera);
+    const CameraAxes& axes = camera.axes;
     Matrix4 m;
     const auto set_row = [&m](std::size_t row, const Vec3& v) {
         m(row, 0) = v.x;
@@ -63,7 +59,7 @@ Matrix4 viewRotation(const OrbitCamera& camera)
     return m;
 }
 
-Matrix4 projection(const OrbitCamera& camera, const Viewport& viewport, const ClipRange& clip)
+Matrix4 projection(const CameraPose& camera, const Viewport& viewport, const ClipRange& clip)
 {
     const double f = 1.0 / halfHeight(camera);
     Matrix4 m;
@@ -76,21 +72,21 @@ Matrix4 projection(const OrbitCamera& camera, const Viewport& viewport, const Cl
     return m;
 }
 
-Ray pickRay(const OrbitCamera& camera, const Viewport& viewport, PixelPoint pixel)
+Ray pickRay(const CameraPose& camera, const Viewport& viewport, PixelPoint pixel)
 {
-    const CameraAxes axes = axesOf(camera);
+    const CameraAxes& axes = camera.axes;
     const double h = halfHeight(camera);
     const double x = (2.0 * pixel.x / viewport.width - 1.0) * h * viewport.aspect();
     const double y = (1.0 - 2.0 * pixel.y / viewport.height) * h;
-    return {.origin = eyeOf(camera),
+    return {.origin = camera.eye,
             .direction = normalized(axes.forward + axes.right * x + axes.up * y)};
 }
 
 std::optional<PixelPoint>
-project(const OrbitCamera& camera, const Viewport& viewport, const ScenePoint& point)
+project(const CameraPose& camera, const Viewport& viewport, const ScenePoint& point)
 {
-    const CameraAxes axes = axesOf(camera);
-    const Vec3 p = point - eyeOf(camera);
+    const CameraAxes& axes = camera.axes;
+    const Vec3 p = point - camera.eye;
     const double depth = dot(p, axes.forward);
     if (!(depth > 0.0)) {
         return std::nullopt;
@@ -101,14 +97,14 @@ project(const OrbitCamera& camera, const Viewport& viewport, const ScenePoint& p
                       .y = (1.0 - dot(p, axes.up) / h) / 2.0 * viewport.height};
 }
 
-double metersPerPixel(const OrbitCamera& camera, const Viewport& viewport)
+double metersPerPixel(const CameraPose& camera, const Viewport& viewport)
 {
     return 2.0 * camera.distance_m * halfHeight(camera) / viewport.height;
 }
 
-double metersPerPixel(const OrbitCamera& camera, const Viewport& viewport, const ScenePoint& at)
+double metersPerPixel(const CameraPose& camera, const Viewport& viewport, const ScenePoint& at)
 {
-    const double depth_m = dot(at - eyeOf(camera), axesOf(camera).forward);
+    const double depth_m = dot(at - camera.eye, camera.axes.forward);
     return 2.0 * depth_m * halfHeight(camera) / viewport.height;
 }
 

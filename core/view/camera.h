@@ -70,6 +70,29 @@ struct CameraAxes {
 CameraAxes axesOf(const OrbitCamera& camera);
 ScenePoint eyeOf(const OrbitCamera& camera);
 
+/// What a picture needs to know of a camera, in any scene.
+struct CameraPose {
+    ScenePoint eye;
+    CameraAxes axes;
+    double distance_m = 1.0; // of the target
+    Angle field_of_view;     // vertical
+
+    CameraPose(const ScenePoint& from, const CameraAxes& to, double target_m, Angle field)
+        : eye(from)
+        , axes(to)
+        , distance_m(target_m)
+        , field_of_view(field)
+    {}
+    // NOLINTNEXTLINE(google-explicit-constructor): every camera is at a pose
+    CameraPose(const OrbitCamera& camera)
+        : CameraPose(eyeOf(camera), axesOf(camera), camera.distance_m, camera.field_of_view)
+    {}
+};
+
+/// Distance of the near plane as a fraction of the camera's distance. A 24-bit depth buffer then
+/// still resolves a millionth of the distance at the target.
+inline constexpr double kNearShare = 1.0 / 200.0;
+
 /// The range of depths along the view direction that may contain geometry.
 struct ClipRange {
     double near_m = 0.1;
@@ -78,25 +101,25 @@ struct ClipRange {
 
 /// 0 < near < far; encloses the part of `box` that is farther from the eye than 1/200 of the
 /// camera's distance. Navigation keeps the terrain farther away than that.
-ClipRange clipRange(const OrbitCamera& camera, const SceneBox& box);
+ClipRange clipRange(const CameraPose& camera, const SceneBox& box);
 
 /// Scene directions to eye directions: x right, y up, z backward. No translation: subtract the eye
 /// first.
-Matrix4 viewRotation(const OrbitCamera& camera);
+Matrix4 viewRotation(const CameraPose& camera);
 
 /// OpenGL's perspective projection, depth -1 at near and 1 at far.
-Matrix4 projection(const OrbitCamera& camera, const Viewport& viewport, const ClipRange& clip);
+Matrix4 projection(const CameraPose& camera, const Viewport& viewport, const ClipRange& clip);
 
 /// The ray from the eye through a position in the picture.
-Ray pickRay(const OrbitCamera& camera, const Viewport& viewport, PixelPoint pixel);
+Ray pickRay(const CameraPose& camera, const Viewport& viewport, PixelPoint pixel);
 
 /// The position of a point in the picture. Empty if it is not in front of the eye.
 std::optional<PixelPoint>
-project(const OrbitCamera& camera, const Viewport& viewport, const ScenePoint& point);
+project(const CameraPose& camera, const Viewport& viewport, const ScenePoint& point);
 
 /// The width of a pixel in scene meters at the target and at another point, measured across the
 /// view, so that tilt and exaggeration do not matter. Negative behind the eye.
-double metersPerPixel(const OrbitCamera& camera, const Viewport& viewport);
-double metersPerPixel(const OrbitCamera& camera, const Viewport& viewport, const ScenePoint& at);
+double metersPerPixel(const CameraPose& camera, const Viewport& viewport);
+double metersPerPixel(const CameraPose& camera, const Viewport& viewport, const ScenePoint& at);
 
 } // namespace marsview

@@ -2,6 +2,7 @@
 
 #include "core/base/check.h"
 #include "core/base/parallel.h"
+#include "core/view/flat_nodes.h"
 #include "core/view/frustum.h"
 
 #include <algorithm>
@@ -21,16 +22,6 @@ constexpr std::size_t kHalf = DetailErrors::kNodeCells / 2;
 
 // Rows of nodes that a thread takes at once.
 constexpr std::size_t kRangeRows = 64;
-
-double distance(const ScenePoint& eye, const SceneBox& box)
-{
-    const auto outside = [](double p, double low, double high) {
-        return std::max({low - p, p - high, 0.0});
-    };
-    return length({outside(eye.x, box.minimum.x, box.maximum.x),
-                   outside(eye.y, box.minimum.y, box.maximum.y),
-                   outside(eye.z, box.minimum.z, box.maximum.z)});
-}
 
 DetailNode ancestor(const DetailNode& node, std::size_t level)
 {
@@ -76,6 +67,7 @@ struct DetailSelector::Pass {
     DetailTarget target;
     double pixels = 1.0;          // width of a meter across the view at a distance of one meter
     double range_per_error = 1.0; // meters per meter
+    double range_per_sag = 1.0;   // likewise, of errors that exaggeration does not raise
     const SizeRanges& size_ranges_m;
     DetailSelection selection;
 };
@@ -84,12 +76,13 @@ DetailSelector::DetailSelector(std::shared_ptr<const SurfaceAnalysis> analysis,
                                std::size_t columns,
                                std::size_t rows,
                                const SceneFrame& frame)
+    : DetailSelector(analysis, std::make_unique<FlatNodes>(analysis, columns, rows, frame))
+{}
+
+DetailSelector::DetailSelector(std::shared_ptr<const SurfaceAnalysis> analysis,
+                               std::unique_ptr<NodeSpace> space)
     : analysis_(std::move(analysis))
-    , columns_(columns)
-    , rows_(rows)
-    , frame_(frame)
-    , cell_m_(std::max(std::hypot(frame.east_per_column, frame.north_per_column),
-                       std::hypot(frame.east_per_row, frame.north_per_row)))
+    , space_(std::move(space))
 {}
 
 DetailSelection DetailSelector::select(const DetailView& view, const DetailTarget& target)
@@ -97,17 +90,20 @@ DetailSelection DetailSelector::select(const DetailView& view, const DetailTarge
     MARSVIEW_CHECK(target.error_px > 0.0 && target.texel_px > 0.0 && view.exaggeration > 0.0);
     if (view.exaggeration != exaggeration_) {
         exaggeration_ = view.exaggeration;
+        space_->setExaggeration(exaggeration_);
         at_rest_m_.clear();
         moving_m_.clear();
     }
+    const CameraPose pose = view.pose ? *view.pose : CameraPose(view.camera);
     const double pixels =
-        view.viewport.height / (2.0 * std::tan(view.camera.field_of_view.radians() / 2.0));
-    Pass pass{.eye = eyeOf(view.camera),
-              .frustum = view.part ? Frustum(view.camera, view.viewport, *view.part)
-                                   : Frustum(view.camera, view.viewport),
+        view.viewport.height / (2.0 * std::tan(pose.field_of_view.radians() / 2.0));
+    Pass pass{.eye = pose.eye,
+              .frustum = view.part ? Frustum(pose, view.viewport, *view.part)
+                                   : Frustum(pose, view.viewport),
               .target = target,
               .pixels = pixels,
               .range_per_error = pixels * view.exaggeration / target.error_px,
+              .range_per_sag = pixels / target.error_px,
               .size_ranges_m = sizeRangesFor(target),
               .selection = {}};
     const std::size_t top = analysis_->errors.levelCount() - 1;
@@ -128,16 +124,15 @@ void DetailSelector::visit(const DetailNode& node,
     if (analysis_->bounds.bounds(node.level, node.column, node.row).isEmpty()) {
         return;
     }
-    const SceneBox box = boxOf(node);
-    if (!above.is_inside) {
-        if (pass.frustum.isOutside(box)) {
-            return;
-        }
-        above.is_inside = pass.frustum.isInside(box);
+    const NodeSpace::Sight sight = space_->sight(node, pass.frustum, pass.eye, above.is_inside);
+    if (sight.is_outside) {
+        return;
     }
-    const double distance_m = distance(pass.eye, box);
+    above.is_inside = sight.is_inside;
+    const double distance_m = sight.distance_m;
     if (!above.has_relief) {
-        const double side_m = cell_m_ * static_cast<double>(DetailErrors::kNodeCells << node.level);
+        const double side_m =
+            space_->cellM() * static_cast<double>(DetailErrors::kNodeCells << node.level);
         const double texel_m = side_m / static_cast<double>(kReliefTexels);
         above.has_relief = node.level <= kReliefLevelMin ||
                            pass.pixels * texel_m <= pass.target.texel_px * distance_m;
@@ -162,7 +157,7 @@ void DetailSelector::visit(const DetailNode& node,
         return;
     }
     selected.node = node;
-    selected.quadrants = quadrantsIn(pass.frustum, node, above.is_inside);
+    selected.quadrants = quadrantsIn(pass, node, above.is_inside);
     if (selected.quadrants == 0) {
         return;
     }
@@ -172,12 +167,14 @@ void DetailSelector::visit(const DetailNode& node,
     // The error of a level seen from `nearest_m` or farther.
     const auto seen_error = [&](const DetailNode& seen, double nearest_m) {
         const double error_m = static_cast<double>(analysis_->errors.nodeError(seen));
-        return error_m > 0.0 ? pass.range_per_error * pass.target.error_px * error_m / nearest_m
-                             : 0.0;
+        const double sag_m = space_->sagM(seen.level);
+        return (error_m > 0.0 ? pass.range_per_error * pass.target.error_px * error_m / nearest_m
+                              : 0.0) +
+               (sag_m > 0.0 ? pass.range_per_sag * pass.target.error_px * sag_m / nearest_m : 0.0);
     };
     double error_px = seen_error(node, distance_m);
     if (!pass.target.has_every_sample) {
-        const double furthest_m = distance_m + length(box.maximum - box.minimum);
+        const double furthest_m = distance_m + sight.diagonal_m;
         // The ranges of a coarser level, if there is one, to which parts of the node may morph.
         const auto give_way = [&](std::size_t level, CornerRanges& ranges_m) {
             if (level >= analysis_->errors.levelCount()) {
@@ -203,7 +200,7 @@ void DetailSelector::visit(const DetailNode& node,
 // Quadrants have the terrain of the nodes one level down: a quadrant is drawn from samples of
 // these, even where its vertices have morphed to a coarser level.
 std::uint8_t
-DetailSelector::quadrantsIn(const Frustum& frustum, const DetailNode& node, bool is_inside) const
+DetailSelector::quadrantsIn(const Pass& pass, const DetailNode& node, bool is_inside) const
 {
     if (node.level == 0) {
         return kAllQuadrants;
@@ -215,7 +212,7 @@ DetailSelector::quadrantsIn(const Frustum& frustum, const DetailNode& node, bool
         const bool is_there = below.column < analysis_->errors.columns(level) &&
                               below.row < analysis_->errors.rows(level) &&
                               !analysis_->bounds.bounds(level, below.column, below.row).isEmpty() &&
-                              (is_inside || !frustum.isOutside(boxOf(below)));
+                              (is_inside || !space_->isOutside(below, pass.frustum, pass.eye));
         quadrants |= is_there ? 1U << i : 0U;
     }
     return static_cast<std::uint8_t>(quadrants);
@@ -235,69 +232,41 @@ std::size_t DetailSelector::triangleCount(const SelectedNode& selected) const
     std::size_t count = 0;
     for (std::size_t i = 0; i < kQuadrantCount; ++i) {
         if ((selected.quadrants >> i & 1U) != 0) {
-            count += 2 * cells(columns_, selected.node.column, i % 2) *
-                     cells(rows_, selected.node.row, i / 2);
+            count += 2 * cells(space_->columns(), selected.node.column, i % 2) *
+                     cells(space_->rows(), selected.node.row, i / 2);
         }
     }
     return count;
 }
 
-SceneBox DetailSelector::boxOf(const DetailNode& node) const
-{
-    const MinMaxPyramid::Bounds bounds =
-        analysis_->bounds.bounds(node.level, node.column, node.row);
-    const double low = static_cast<double>(bounds.minimum_m) * exaggeration_;
-    const double high = static_cast<double>(bounds.maximum_m) * exaggeration_;
-    const std::size_t side = DetailErrors::kNodeCells << node.level;
-    const GridPoint first{static_cast<double>(node.column * side),
-                          static_cast<double>(node.row * side)};
-    const GridPoint last{static_cast<double>(std::min((node.column + 1) * side, columns_ - 1)),
-                         static_cast<double>(std::min((node.row + 1) * side, rows_ - 1))};
-    SceneBox box{frame_.toScene(first, low), frame_.toScene(first, high)};
-    for (const GridPoint corner :
-         {last, GridPoint{first.column, last.row}, GridPoint{last.column, first.row}}) {
-        const ScenePoint p = frame_.toScene(corner, low);
-        box.minimum.x = std::min(box.minimum.x, p.x);
-        box.minimum.y = std::min(box.minimum.y, p.y);
-        box.maximum.x = std::max(box.maximum.x, p.x);
-        box.maximum.y = std::max(box.maximum.y, p.y);
-    }
-    return box;
-}
-
-// The diagonal of boxOf(node), without constructing the box: there are millions of nodes.
-double DetailSelector::diagonalOf(const DetailNode& node) const
-{
-    const MinMaxPyramid::Bounds bounds =
-        analysis_->bounds.bounds(node.level, node.column, node.row);
-    if (bounds.isEmpty()) {
-        return 0.0;
-    }
-    const std::size_t side = DetailErrors::kNodeCells << node.level;
-    const auto width =
-        static_cast<double>(std::min((node.column + 1) * side, columns_ - 1) - node.column * side);
-    const auto height =
-        static_cast<double>(std::min((node.row + 1) * side, rows_ - 1) - node.row * side);
-    return length(
-        {std::abs(frame_.east_per_column) * width + std::abs(frame_.east_per_row) * height,
-         std::abs(frame_.north_per_column) * width + std::abs(frame_.north_per_row) * height,
-         (static_cast<double>(bounds.maximum_m) - static_cast<double>(bounds.minimum_m)) *
-             exaggeration_});
-}
-
+// Where a map closes around its body, both of its ends have the same ranges.
 float DetailSelector::rangeAt(std::size_t level,
                               std::size_t column,
                               std::size_t row,
                               const Pass& pass) const
 {
+    const float own = ownRangeAt(level, column, row, pass);
+    const std::size_t last = analysis_->errors.columns(level);
+    return space_->closes() && (column == 0 || column == last)
+               ? std::max(own, ownRangeAt(level, last - column, row, pass))
+               : own;
+}
+
+float DetailSelector::ownRangeAt(std::size_t level,
+                                 std::size_t column,
+                                 std::size_t row,
+                                 const Pass& pass) const
+{
     const CornerGrid& sizes = pass.size_ranges_m[level];
     const float by_size = sizes.values[row * (sizes.columns + 1) + column];
     const double error_m = static_cast<double>(analysis_->errors.cornerError(level, column, row));
-    const auto by_error =
-        static_cast<float>(std::min(pass.range_per_error * error_m, static_cast<double>(kNever)));
+    const auto by_error = static_cast<float>(
+        std::min(pass.range_per_error * error_m + pass.range_per_sag * space_->sagM(level),
+                 static_cast<double>(kNever)));
     float by_relief = 0.0F;
     if (level > kReliefLevelMin) {
-        const double texel_m = cell_m_ * static_cast<double>(DetailErrors::kNodeCells << level) /
+        const double texel_m = space_->cellM() *
+                               static_cast<double>(DetailErrors::kNodeCells << level) /
                                static_cast<double>(kReliefTexels);
         by_relief = static_cast<float>(pass.pixels * texel_m / (pass.target.texel_px * kMorphEnd));
     }
@@ -336,7 +305,7 @@ DetailSelector::SizeRanges DetailSelector::sizeRanges(double range_per_size) con
         parallelRanges(ranges.rows, kRangeRows, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin * ranges.columns; i < end * ranges.columns; ++i) {
                 const DetailNode node{level, i % ranges.columns, i / ranges.columns};
-                const double diagonal = diagonalOf(node);
+                const double diagonal = space_->diagonalM(node);
                 diagonals.values[i] = static_cast<float>(diagonal);
                 ranges.values[i] = static_cast<float>(range_per_size * diagonal);
                 if (!grandchild_diagonals.values.empty()) {

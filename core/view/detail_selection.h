@@ -24,6 +24,7 @@
 #include "core/geo/scene_frame.h"
 #include "core/terrain/surface_analysis.h"
 #include "core/view/camera.h"
+#include "core/view/node_space.h"
 
 #include <array>
 #include <cstddef>
@@ -33,8 +34,6 @@
 #include <vector>
 
 namespace marsview {
-
-class Frustum;
 
 /// The end of the morph to the next level, in ranges.
 inline constexpr double kMorphEnd = 1.2;
@@ -60,7 +59,8 @@ struct DetailView {
     OrbitCamera camera;
     Viewport viewport;
     double exaggeration = 1.0;
-    std::optional<PixelArea> part{}; // of the viewport that is drawn; nothing for all of it
+    std::optional<PixelArea> part{};  // of the viewport that is drawn; nothing for all of it
+    std::optional<CameraPose> pose{}; // replaces `camera` in the scene of a body
 };
 
 /// The requested quality.
@@ -101,6 +101,9 @@ public:
                    std::size_t columns,
                    std::size_t rows,
                    const SceneFrame& frame);
+    /// `space` is of the map of `analysis`.
+    DetailSelector(std::shared_ptr<const SurfaceAnalysis> analysis,
+                   std::unique_ptr<NodeSpace> space);
 
     /// Everything that is in the picture and not void.
     DetailSelection select(const DetailView& view, const DetailTarget& target);
@@ -116,19 +119,16 @@ private:
     using SizeRanges = std::vector<CornerGrid>; // by level
     const SizeRanges& sizeRangesFor(const DetailTarget& target);
     SizeRanges sizeRanges(double range_per_size) const;
-    SceneBox boxOf(const DetailNode& node) const;
-    std::uint8_t quadrantsIn(const Frustum& frustum, const DetailNode& node, bool is_inside) const;
+    std::uint8_t quadrantsIn(const Pass& pass, const DetailNode& node, bool is_inside) const;
     std::size_t triangleCount(const SelectedNode& selected) const;
-    double diagonalOf(const DetailNode& node) const;
     void visit(const DetailNode& node, Above above, SelectedNode& selected, Pass& pass) const;
     float rangeAt(std::size_t level, std::size_t column, std::size_t row, const Pass& pass) const;
+    float
+    ownRangeAt(std::size_t level, std::size_t column, std::size_t row, const Pass& pass) const;
     CornerRanges rangesOf(const DetailNode& node, const Pass& pass) const;
 
     std::shared_ptr<const SurfaceAnalysis> analysis_;
-    std::size_t columns_;
-    std::size_t rows_;
-    SceneFrame frame_;
-    double cell_m_ = 1.0; // the longer side of a cell of level 0
+    std::unique_ptr<NodeSpace> space_;
     double exaggeration_ = 0.0;
     SizeRanges at_rest_m_; // for exaggeration_; empty until requested
     SizeRanges moving_m_;

@@ -16,10 +16,10 @@ double furthestInside(const Vec3& low, const Vec3& high, const Vec3& inward)
 
 } // namespace
 
-Frustum::Frustum(const OrbitCamera& camera, const Viewport& viewport, const PixelArea& part)
-    : eye_(eyeOf(camera))
+Frustum::Frustum(const CameraPose& camera, const Viewport& viewport, const PixelArea& part)
+    : eye_(camera.eye)
 {
-    const CameraAxes axes = axesOf(camera);
+    const CameraAxes& axes = camera.axes;
     const double half_height = std::tan(camera.field_of_view.radians() / 2.0);
     const double half_width = half_height * viewport.aspect();
     // Of the part's sides, at a depth of 1.
@@ -46,6 +46,20 @@ bool Frustum::isInside(const SceneBox& box) const noexcept
     // For the mirrored box, the innermost corner is the outermost.
     return std::all_of(inward_.begin(), inward_.end(),
                        [&](const Vec3& n) { return furthestInside(high, low, n) >= 0.0; });
+}
+
+bool Frustum::isOutside(const OrientedBox& box) const noexcept
+{
+    const Vec3 middle = box.center - eye_;
+    return std::any_of(inward_.begin(), inward_.end(),
+                       [&](const Vec3& n) { return dot(middle, n) + box.reachAlong(n) < 0.0; });
+}
+
+bool Frustum::isInside(const OrientedBox& box) const noexcept
+{
+    const Vec3 middle = box.center - eye_;
+    return std::all_of(inward_.begin(), inward_.end(),
+                       [&](const Vec3& n) { return dot(middle, n) - box.reachAlong(n) >= 0.0; });
 }
 
 } // namespace marsview

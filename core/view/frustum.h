@@ -1,6 +1,7 @@
 // Conservative tests of boxes against the picture.
 #pragma once
 
+#include "core/base/oriented_box.h"
 #include "core/view/camera.h"
 #include "core/view/scene_box.h"
 
@@ -11,17 +12,20 @@ namespace marsview {
 /// The view pyramid, or the part of it behind a part of the picture, without near and far planes.
 class Frustum {
 public:
-    Frustum(const OrbitCamera& camera, const Viewport& viewport)
+    Frustum(const CameraPose& camera, const Viewport& viewport)
         : Frustum(camera, viewport, {0, 0, viewport.width, viewport.height})
     {}
     /// Behind a part of the picture.
-    Frustum(const OrbitCamera& camera, const Viewport& viewport, const PixelArea& part);
+    Frustum(const CameraPose& camera, const Viewport& viewport, const PixelArea& part);
 
     /// True only if no point of the box is in the picture. May be false for boxes outside near the
     /// edges.
     bool isOutside(const SceneBox& box) const noexcept;
     /// True only if every point of the box is in the picture.
     bool isInside(const SceneBox& box) const noexcept;
+    /// The same for a box in any direction.
+    bool isOutside(const OrientedBox& box) const noexcept;
+    bool isInside(const OrientedBox& box) const noexcept;
 
 private:
     ScenePoint eye_;

@@ -7,16 +7,6 @@
 namespace marsview {
 namespace {
 
-constexpr Angle kTiltMax = Angle::degrees(85.0);
-
-// Minimum height of the eye above the terrain as a fraction of its distance: four times that of the
-// near plane, so that the near plane does not clip the terrain.
-constexpr double kClearanceShare = 1.0 / 50.0;
-
-// The lowest position in the picture of the terrain under a target in the air, between the middle
-// (0) and the lower edge (1).
-constexpr double kGroundLowest = 0.75;
-
 // Outside the map, a zoom anchors on a point at most this many camera distances away.
 constexpr double kAnchorReach = 2.0;
 
@@ -25,8 +15,6 @@ constexpr double kDiagonalsFarthest = 4.0;
 
 // A drag towards the horizon moves the map by at most this many camera distances.
 constexpr double kDragReach = 4.0;
-
-constexpr double kHomeMargin = 1.04;
 
 Angle wrapped(Angle azimuth)
 {
@@ -260,7 +248,7 @@ OrbitCamera homeCamera(const SceneBox& box, const Viewport& viewport, Angle fiel
 {
     OrbitCamera camera;
     camera.field_of_view = field_of_view;
-    camera.tilt = Angle::degrees(40.0);
+    camera.tilt = kHomeTilt;
     const CameraAxes axes = axesOf(camera);
     const double slope = std::tan(field_of_view.radians() / 2.0) / kHomeMargin;
     const auto corners = box.corners();

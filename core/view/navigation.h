@@ -15,6 +15,20 @@ namespace marsview {
 /// Height of the terrain in scene meters (exaggerated) at a scene position; NaN without terrain.
 using GroundQuery = std::function<double(double east_m, double north_m)>;
 
+inline constexpr Angle kTiltMax = Angle::degrees(85.0);
+
+/// Minimum height of the eye above the terrain as a fraction of its distance: four times that of
+/// the near plane, so that the near plane does not clip the terrain.
+inline constexpr double kClearanceShare = 1.0 / 50.0;
+
+/// The lowest position in the picture of the terrain under a target in the air, between the middle
+/// (0) and the lower edge (1).
+inline constexpr double kGroundLowest = 0.75;
+
+/// Of the first view: its size over that of what it shows, and its tilt.
+inline constexpr double kHomeMargin = 1.04;
+inline constexpr Angle kHomeTilt = Angle::degrees(40.0);
+
 /// The limits of the camera.
 struct NavigationLimits {
     SceneBox box{};
