@@ -47,6 +47,8 @@ const std::vector<Layer>& layers()
          {"core/base/", "core/geo/", "core/files/", "core/raster/", "core/contours/"}},
         {"core/names/", {"core/base/", "core/geo/", "core/vector/", "core/names/"}},
         {"core/view/", {"core/base/", "core/geo/", "core/raster/", "core/terrain/", "core/view/"}},
+        {"core/globe/",
+         {"core/base/", "core/geo/", "core/terrain/", "core/body/", "core/view/", "core/globe/"}},
         {"core/session/", {"core/"}},
         {"haptics/", {"core/", "haptics/"}},
         {"ui/render/", {"core/", "ui/render/"}},

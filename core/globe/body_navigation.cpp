@@ -1,0 +1,202 @@
+#include "core/globe/body_navigation.h"
+
+#include "core/view/navigation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace marsview {
+namespace {
+
+constexpr double kCellsNearest = 2.0;
+constexpr double kNearestShare = 1e-7; // of the radius
+constexpr double kSizesFarthest = 4.0;
+constexpr double kRadiiFarthest = 12.0;
+
+// An area of at least this reach is looked at as a ball.
+constexpr Angle kBallReach = Angle::degrees(50.0);
+
+Angle shortTurn(Angle angle)
+{
+    return Angle::radians(std::remainder(angle.radians(), 2.0 * std::numbers::pi));
+}
+
+double largestRadius(const Ellipsoid& ellipsoid)
+{
+    return std::max(ellipsoid.equatorial_m, ellipsoid.polar_m);
+}
+
+Vec3 directionOf(const GeographicPoint& place)
+{
+    const double cosine = std::cos(place.latitude.radians());
+    return {cosine * std::cos(place.longitude.radians()),
+            cosine * std::sin(place.longitude.radians()), std::sin(place.latitude.radians())};
+}
+
+GeographicPoint placeInDirection(const Vec3& direction)
+{
+    return {.longitude = Angle::radians(std::atan2(direction.y, direction.x)),
+            .latitude =
+                Angle::radians(std::atan2(direction.z, std::hypot(direction.x, direction.y)))};
+}
+
+double angleBetween(const Vec3& a, const Vec3& b)
+{
+    return std::atan2(length(cross(a, b)), dot(a, b));
+}
+
+// The place itself, or where the way from the area's middle to it leaves the area.
+GeographicPoint withinArea(const GeographicPoint& place, const BodyArea& area)
+{
+    const Vec3 middle = directionOf(area.middle);
+    const Vec3 there = directionOf(place);
+    if (angleBetween(middle, there) <= area.reach.radians()) {
+        return place;
+    }
+    const Vec3 aside = normalized(there - middle * dot(there, middle));
+    return isFinite(aside) ? placeInDirection(middle * std::cos(area.reach.radians()) +
+                                              aside * std::sin(area.reach.radians()))
+                           : area.middle;
+}
+
+// The maximum height of the target above the terrain at which that terrain is still well inside the
+// picture. Infinite if the view is so steep that it always is.
+double hangMax(const BodyCamera& camera)
+{
+    const double slope = kGroundLowest * std::tan(camera.field_of_view.radians() / 2.0);
+    const double fall = std::sin(camera.tilt.radians()) - slope * std::cos(camera.tilt.radians());
+    return fall > 0.0 ? camera.distance_m * slope / fall : HUGE_VAL;
+}
+
+// How much the eye is too low. Negative if it is high enough or not above terrain.
+double
+clearanceMissing(const BodyCamera& camera, const BodyLimits& limits, const BodyGround& ground)
+{
+    const BodyPlace eye = placeOf(poseOf(camera, limits.ellipsoid).eye, limits.ellipsoid);
+    const double clear_m = kClearanceShare * camera.distance_m;
+    if (eye.height_m >= limits.highest_m + clear_m) {
+        return -1.0;
+    }
+    const double ground_m = ground(eye.foot);
+    return std::isfinite(ground_m) ? ground_m + clear_m - eye.height_m : -1.0;
+}
+
+// The largest tilt, at most the camera's, at which the eye is clear of the terrain: searched in
+// steps, because the terrain may rise and fall under the eye, then by bisection, so that it changes
+// smoothly.
+Angle clearTilt(BodyCamera camera, const BodyLimits& limits, const BodyGround& ground)
+{
+    constexpr int kSteps = 32;
+    constexpr int kBisections = 24;
+    const Angle tilt = camera.tilt;
+    const auto is_clear = [&](double share) {
+        camera.tilt = tilt * share;
+        return clearanceMissing(camera, limits, ground) <= 0.0;
+    };
+    int step = kSteps - 1;
+    while (step > 0 && !is_clear(static_cast<double>(step) / kSteps)) {
+        --step;
+    }
+    double clear = static_cast<double>(step) / kSteps;
+    double blocked = static_cast<double>(step + 1) / kSteps;
+    for (int i = 0; i < kBisections; ++i) {
+        const double middle = (clear + blocked) / 2.0;
+        (is_clear(middle) ? clear : blocked) = middle;
+    }
+    return tilt * clear;
+}
+
+BodyCamera cleared(BodyCamera camera, const BodyLimits& limits, const BodyGround& ground)
+{
+    const double ground_m = ground(camera.target);
+    double highest_m = limits.highest_m;
+    if (std::isfinite(ground_m)) {
+        highest_m = std::clamp(highest_m, ground_m, ground_m + hangMax(camera));
+        camera.height_m = std::max(camera.height_m, ground_m);
+    }
+    camera.height_m = std::min(camera.height_m, highest_m);
+    const double missing_m = clearanceMissing(camera, limits, ground);
+    if (missing_m > 0.0) {
+        // The surplus compensates for rounding and for the angle between both normals.
+        camera.height_m =
+            std::min(camera.height_m + 1.01 * missing_m + 1e-6 * camera.distance_m, highest_m);
+        if (clearanceMissing(camera, limits, ground) > 0.0) {
+            camera.tilt = clearTilt(camera, limits, ground);
+        }
+    }
+    return camera;
+}
+
+} // namespace
+
+BodyArea areaOf(const BodyGrid& grid)
+{
+    constexpr std::size_t kMeasured = 17;
+    const auto at = [&](std::size_t i, std::size_t j) {
+        return grid.at(i * (grid.columns() - 1) / (kMeasured - 1),
+                       j * (grid.rows() - 1) / (kMeasured - 1), 0.0);
+    };
+    BodyArea area{.middle = placeOf(at(kMeasured / 2, kMeasured / 2), grid.ellipsoid()).foot,
+                  .reach = {}};
+    const Vec3 middle = directionOf(area.middle);
+    double reach = 0.0;
+    for (std::size_t j = 0; j < kMeasured; ++j) {
+        for (std::size_t i = 0; i < kMeasured; ++i) {
+            reach = std::max(reach, angleBetween(middle, at(i, j)));
+        }
+    }
+    // A map that goes around the body and leaves out a pole covers less, but is looked at alike.
+    area.reach = Angle::radians(std::min(1.001 * reach, std::numbers::pi));
+    return area;
+}
+
+BodyLimits bodyLimits(const BodyGrid& grid, double lowest_m, double highest_m)
+{
+    const double radius_m = largestRadius(grid.ellipsoid());
+    const BodyArea area = areaOf(grid);
+    const double size_m =
+        2.0 * radius_m * std::sin(std::min(area.reach.radians(), std::numbers::pi / 2.0)) +
+        highest_m - lowest_m;
+    return {.ellipsoid = grid.ellipsoid(),
+            .area = area,
+            .lowest_m = lowest_m,
+            .highest_m = highest_m,
+            .distance_min_m = std::max(kCellsNearest * grid.stepMaxM(), kNearestShare * radius_m),
+            .distance_max_m =
+                area.reach >= kBallReach ? kRadiiFarthest * radius_m : kSizesFarthest * size_m};
+}
+
+BodyCamera constrained(BodyCamera camera, const BodyLimits& limits, const BodyGround& ground)
+{
+    camera.target = withinArea(camera.target, limits.area);
+    camera.target.longitude = shortTurn(camera.target.longitude);
+    camera.distance_m = std::clamp(camera.distance_m, limits.distance_min_m, limits.distance_max_m);
+    camera.azimuth = shortTurn(camera.azimuth);
+    camera.tilt = std::clamp(camera.tilt, Angle{}, kTiltMax);
+    camera.height_m = std::clamp(camera.height_m, limits.lowest_m, limits.highest_m);
+    return cleared(camera, limits, ground);
+}
+
+BodyCamera homeCamera(const BodyLimits& limits, const Viewport& viewport, Angle field_of_view)
+{
+    BodyCamera camera{.target = limits.area.middle,
+                      .height_m = std::clamp(0.0, limits.lowest_m, limits.highest_m),
+                      .field_of_view = field_of_view};
+    const double radius_m = largestRadius(limits.ellipsoid);
+    const double slope =
+        std::tan(field_of_view.radians() / 2.0) * std::min(1.0, viewport.aspect()) / kHomeMargin;
+    if (limits.area.reach >= kBallReach) {
+        const double outer_m = radius_m + std::max(limits.highest_m, 0.0);
+        camera.distance_m =
+            outer_m / std::sin(std::atan(slope)) - length(targetOf(camera, limits.ellipsoid));
+        return camera;
+    }
+    // The near edge of the area, the widest in the picture, decides.
+    const double half_m = radius_m * std::sin(limits.area.reach.radians());
+    camera.tilt = kHomeTilt;
+    camera.distance_m = half_m * (1.0 / slope + std::sin(kHomeTilt.radians()));
+    return camera;
+}
+
+} // namespace marsview

@@ -1,0 +1,52 @@
+// Navigation over a body: pure functions from one camera to the next.
+//
+// None of them keeps the camera within the limits; call constrained() once at the end.
+#pragma once
+
+#include "core/body/body_grid.h"
+#include "core/globe/body_camera.h"
+
+#include <functional>
+
+namespace marsview {
+
+/// The exaggerated height in meters of the terrain at a place; NaN without terrain.
+using BodyGround = std::function<double(const GeographicPoint&)>;
+
+/// The part of a body that terrain covers: all places within an angle from the middle, seen from
+/// the body's center.
+struct BodyArea {
+    GeographicPoint middle{};
+    Angle reach = Angle::degrees(180.0);
+};
+
+/// Around all samples of a map.
+BodyArea areaOf(const BodyGrid& grid);
+
+/// The limits of the camera. Heights are exaggerated.
+struct BodyLimits {
+    Ellipsoid ellipsoid;
+    BodyArea area;
+    double lowest_m = 0.0;
+    double highest_m = 0.0;
+    double distance_min_m = 1.0;
+    double distance_max_m = 1e9;
+};
+
+/// From two cells to where the whole area is small.
+BodyLimits bodyLimits(const BodyGrid& grid, double lowest_m, double highest_m);
+
+/// The camera within the limits: target in the area, distance and tilt (0 to 85°) limited, azimuth
+/// in [-180°, 180°], longitude likewise, the eye at least 1/50 of its distance above the terrain
+/// under it. The target is at most so high above the terrain under it that this terrain does not
+/// leave the picture at the bottom. An eye that is too low rises with the target up to that limit,
+/// then by reducing the tilt.
+BodyCamera constrained(BodyCamera camera, const BodyLimits& limits, const BodyGround& ground);
+
+/// Shows the whole area: from straight above if it is most of the body, otherwise from the south
+/// at a tilt of 40°.
+BodyCamera homeCamera(const BodyLimits& limits,
+                      const Viewport& viewport,
+                      Angle field_of_view = Angle::degrees(40));
+
+} // namespace marsview
