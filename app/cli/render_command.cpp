@@ -34,6 +34,7 @@ struct RenderOptions {
     std::string ramp;
     std::vector<double> light_deg{315.0, 45.0};
     bool has_contours = false;
+    bool is_on_body = false;
 };
 
 Status runRender(const RenderOptions& options)
@@ -48,7 +49,8 @@ Status runRender(const RenderOptions& options)
         return viewport.error();
     }
     const ColorRamp* ramp = options.ramp.empty() ? nullptr : colorRampNamed(options.ramp);
-    Result<Scene> scene = openScene(options.map, ramp);
+    Result<Scene> scene =
+        openScene(options.map, ramp, {}, options.is_on_body ? SceneKind::Body : SceneKind::Flat);
     if (!scene) {
         return std::move(scene).error();
     }
@@ -140,6 +142,14 @@ void addRenderCommand(CLI::App& app, CommandAction& run)
         ->capture_default_str()
         ->check(finiteNumber());
     command->add_flag("--contours", options->has_contours, "draw contour lines");
+    command
+        ->add_option_function<std::string>(
+            "--scene",
+            [options](const std::string& scene) { options->is_on_body = scene == "body"; },
+            "flat: the map is laid out in the plane; body: it lies on its body")
+        ->type_name("SCENE")
+        ->default_str("flat")
+        ->check(oneOf({"flat", "body"}));
     command->callback([options, &run] { run = [options] { return runRender(*options); }; });
 }
 

@@ -1,10 +1,27 @@
 #include "app/console/picture.h"
 
+#include "core/globe/body_navigation.h"
+
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 namespace marsview {
 namespace {
+
+Result<GridPoint> placeOnMap(const Scene& scene, const MapPoint& look_at)
+{
+    const Georeference& georeference = scene.map->georeference();
+    const GridPoint grid = georeference.toGrid(look_at);
+    const double last_column = static_cast<double>(georeference.columns() - 1);
+    const double last_row = static_cast<double>(georeference.rows() - 1);
+    if (!(grid.column >= 0.0 && grid.column <= last_column && grid.row >= 0.0 &&
+          grid.row <= last_row)) {
+        return Error{ErrorCode::OutOfRange,
+                     fmt::format("--look-at: {},{} is not on the map", look_at.x, look_at.y)};
+    }
+    return grid;
+}
 
 Result<OrbitCamera>
 cameraFrom(const PictureOptions& options, const Scene& scene, double exaggeration)
@@ -17,15 +34,11 @@ cameraFrom(const PictureOptions& options, const Scene& scene, double exaggeratio
     camera.azimuth = Angle::degrees(options.azimuth_deg);
     if (options.look_at) {
         const Georeference& georeference = scene.map->georeference();
-        const GridPoint grid = georeference.toGrid(*options.look_at);
-        const double last_column = static_cast<double>(georeference.columns() - 1);
-        const double last_row = static_cast<double>(georeference.rows() - 1);
-        if (!(grid.column >= 0.0 && grid.column <= last_column && grid.row >= 0.0 &&
-              grid.row <= last_row)) {
-            return Error{ErrorCode::OutOfRange,
-                         fmt::format("--look-at: {},{} is not on the map", options.look_at->x,
-                                     options.look_at->y)};
+        const Result<GridPoint> place = placeOnMap(scene, *options.look_at);
+        if (!place) {
+            return place.error();
         }
+        const GridPoint grid = *place;
         const double height_m = scene.map->heightfield().heightWaiting(grid);
         camera.target = georeference.sceneFrame().toScene(
             grid, std::isnan(height_m) ? 0.0 : height_m * exaggeration);
@@ -34,14 +47,64 @@ cameraFrom(const PictureOptions& options, const Scene& scene, double exaggeratio
     return scene.bounded(camera, exaggeration, Scene::Ground::Waiting);
 }
 
+// The camera in the scene of the body.
+Result<CameraPose>
+bodyPoseFrom(const PictureOptions& options, const Scene& scene, double exaggeration)
+{
+    const HeightRange range = scene.map->heightfield().range().value_or(HeightRange{});
+    const BodyLimits limits = bodyLimits(*scene.body_grid, range.minimum_m * exaggeration,
+                                         range.maximum_m * exaggeration);
+    const auto height = [&](const GridPoint& grid) {
+        return exaggeration * scene.map->heightfield().heightWaiting(grid);
+    };
+    BodyCamera camera = homeCamera(limits, options.viewport);
+    if (options.tilt_deg) {
+        camera.tilt = Angle::degrees(*options.tilt_deg);
+    }
+    camera.azimuth = Angle::degrees(options.azimuth_deg);
+    camera.distance_m = options.distance_m.value_or(camera.distance_m);
+    const Georeference& georeference = scene.map->georeference();
+    if (options.look_at) {
+        const Result<GridPoint> grid = placeOnMap(scene, *options.look_at);
+        if (!grid) {
+            return grid.error();
+        }
+        const auto place = georeference.toGeographic(*grid);
+        if (!place) {
+            return Error{ErrorCode::OutOfRange, "--look-at: is not on the body"};
+        }
+        camera.target = *place;
+        const double height_m = height(*grid);
+        camera.height_m = std::isnan(height_m) ? 0.0 : height_m;
+    }
+    camera = constrained(camera, limits, [&](const GeographicPoint& place) {
+        const auto grid = georeference.toGrid(place);
+        return grid ? height(*grid) : std::numeric_limits<double>::quiet_NaN();
+    });
+    return poseOf(camera, limits.ellipsoid);
+}
+
 } // namespace
 
 Result<OffscreenPicture> drawPicture(const Scene& scene, const PictureOptions& options)
 {
     const double exaggeration = options.exaggeration.value_or(scene.exaggeration);
-    const Result<OrbitCamera> camera = cameraFrom(options, scene, exaggeration);
-    if (!camera) {
-        return camera.error();
+    DrawRequest request{
+        .viewport = options.viewport,
+        .detail = {.error_px = options.error_px, .has_every_sample = options.has_every_sample},
+        .samples = options.samples};
+    if (scene.body_grid) {
+        const Result<CameraPose> pose = bodyPoseFrom(options, scene, exaggeration);
+        if (!pose) {
+            return pose.error();
+        }
+        request.body_pose = *pose;
+    } else {
+        const Result<OrbitCamera> camera = cameraFrom(options, scene, exaggeration);
+        if (!camera) {
+            return camera.error();
+        }
+        request.camera = *camera;
     }
     DrawStyle style;
     style.exaggeration = exaggeration;
@@ -49,13 +112,7 @@ Result<OffscreenPicture> drawPicture(const Scene& scene, const PictureOptions& o
     style.look.has_contours = options.has_contours;
     style.look.light_azimuth = Angle::degrees(options.light_deg.front());
     style.look.light_altitude = Angle::degrees(options.light_deg.back());
-    Result<OffscreenPicture> picture = drawOffscreen(
-        *scene.renderer,
-        {.camera = *camera,
-         .viewport = options.viewport,
-         .detail = {.error_px = options.error_px, .has_every_sample = options.has_every_sample},
-         .samples = options.samples},
-        style, DepthUse::No);
+    Result<OffscreenPicture> picture = drawOffscreen(*scene.renderer, request, style, DepthUse::No);
     if (picture && picture->report.problem) {
         return *picture->report.problem; // a part of the terrain would be coarser than requested
     }

@@ -77,8 +77,29 @@ void showIn(Scene& scene, std::shared_ptr<const Map> map, const ColorRamp* ramp)
     scene.exaggeration = suitableExaggeration(*scene.map);
 }
 
-Result<Scene>
-openScene(const MapOptions& options, const ColorRamp* ramp, std::function<void()> notify)
+Status showOnBody(Scene& scene, std::shared_ptr<const Map> map, const ColorRamp* ramp)
+{
+    LongJob job("placing");
+    Result<std::shared_ptr<const BodyGrid>> body =
+        BodyGrid::make(map->georeference(), job.monitor());
+    if (!body) {
+        return Error{body.error().code,
+                     fmt::format("{} {}", map->spec().path, body.error().message)};
+    }
+    scene.map = std::move(map);
+    scene.body_grid = std::move(body).value();
+    TerrainLayer layer = terrainLayer(scene.map, scene.map->georeference().sceneFrame(),
+                                      ramp != nullptr ? *ramp : scene.ramp());
+    layer.body = scene.body_grid;
+    scene.renderer->setLayers({std::move(layer)});
+    scene.exaggeration = suitableExaggeration(*scene.map);
+    return Done{};
+}
+
+Result<Scene> openScene(const MapOptions& options,
+                        const ColorRamp* ramp,
+                        std::function<void()> notify,
+                        SceneKind kind)
 {
     Result<Scene> scene = emptyScene(std::move(notify));
     if (!scene) {
@@ -89,6 +110,12 @@ openScene(const MapOptions& options, const ColorRamp* ramp, std::function<void()
         openMap(options.spec(), defaultMapResources(), job.monitor());
     if (!map) {
         return std::move(map).error();
+    }
+    if (kind == SceneKind::Body) {
+        if (Status shown = showOnBody(*scene, std::move(map).value(), ramp); !shown) {
+            return std::move(shown).error();
+        }
+        return scene;
     }
     showIn(*scene, std::move(map).value(), ramp);
     return scene;

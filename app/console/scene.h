@@ -22,7 +22,8 @@ struct Scene {
     std::unique_ptr<EglContext> context; // outlives the renderer
     std::unique_ptr<TerrainRenderer> renderer;
     std::shared_ptr<const Map> map;
-    double exaggeration = 1.0; // that suits the map
+    double exaggeration = 1.0;                   // that suits the map
+    std::shared_ptr<const BodyGrid> body_grid{}; // of the map, on its body; null in the flat scene
 
     /// The default ramp of the map's body.
     const ColorRamp& ramp() const;
@@ -42,15 +43,25 @@ struct Scene {
     bounded(const OrbitCamera& camera, double with_exaggeration, Ground which = Ground::Now) const;
 };
 
+/// Where maps lie.
+enum class SceneKind {
+    Flat,
+    Body,
+};
+
 /// A renderer without a map; `notify` is TerrainRenderer's. Call it first, since it fails early.
 Result<Scene> emptyScene(std::function<void()> notify = {});
 /// From now on the map is drawn. `ramp` is null for the one that suits the body.
 void showIn(Scene& scene, std::shared_ptr<const Map> map, const ColorRamp* ramp);
+/// The same, in the scene of the map's body. Errors: those of BodyPositions.
+Status showOnBody(Scene& scene, std::shared_ptr<const Map> map, const ColorRamp* ramp);
 
 /// Reads and analyzes the map, showing progress. `ramp` is null for the body's default; `notify` is
 /// TerrainRenderer's.
-Result<Scene>
-openScene(const MapOptions& options, const ColorRamp* ramp, std::function<void()> notify = {});
+Result<Scene> openScene(const MapOptions& options,
+                        const ColorRamp* ramp,
+                        std::function<void()> notify = {},
+                        SceneKind kind = SceneKind::Flat);
 
 /// The size that the option --size says: "1280x800".
 Result<Viewport> viewportFrom(const std::string& text);

@@ -2,9 +2,7 @@
 
 namespace marsview {
 HeightAtlas::HeightAtlas(std::size_t slot_columns, std::size_t slot_rows)
-    : slots_(slot_columns * slot_rows)
-    , contents_(slots_.size())
-    , slot_columns_(slot_columns)
+    : slots_(slot_columns, slot_rows)
 {
     bind(GL_TEXTURE0);
     glTexImage2D(GL_TEXTURE_2D, 0, GL_R32F, static_cast<GLsizei>(slot_columns * kNodeSide),
@@ -19,27 +17,12 @@ std::optional<HeightAtlas::Place> HeightAtlas::place(const LayerNode& node,
                                                      std::uint64_t generation,
                                                      std::vector<TileId>& missing)
 {
-    std::optional<std::size_t> slot = slots_.find(node);
-    const bool is_known = slot.has_value();
-    if (!is_known) {
-        slot = slots_.assign(node);
-        if (!slot) {
-            return std::nullopt;
-        }
-    }
-    const Place place{static_cast<int>(*slot % slot_columns_ * kNodeSide),
-                      static_cast<int>(*slot / slot_columns_ * kNodeSide)};
-    Content& content = contents_[*slot];
-    if (!is_known || (content.state == NodeState::Coarser && content.generation != generation)) {
-        content.missing.clear();
-        content.generation = generation;
-        content.state = readNode(surface, node.node, heights_, content.missing);
-        send(place);
-    }
-    if (content.state == NodeState::Coarser) {
-        missing.insert(missing.end(), content.missing.begin(), content.missing.end());
-    }
-    return place;
+    return slots_.place(node, {.generation = generation}, missing,
+                        [&](const Place& place, std::vector<TileId>& lacking) {
+                            const NodeState state = readNode(surface, node.node, heights_, lacking);
+                            send(place);
+                            return state;
+                        });
 }
 
 void HeightAtlas::send(const Place& place)

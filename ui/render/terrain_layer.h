@@ -1,6 +1,7 @@
 // A map as input of the renderer.
 #pragma once
 
+#include "core/body/body_grid.h"
 #include "core/geo/scene_frame.h"
 #include "core/session/map.h"
 #include "core/terrain/heightfield.h"
@@ -21,6 +22,7 @@ struct TerrainLayer {
     SlopeRange slope_range; // over which it is spread where it shows slopes
     double slope_max = 1.0; // that relief tiles are made for
     std::shared_ptr<const ReliefTile> relief; // of the whole map
+    std::shared_ptr<const BodyGrid> body{};   // on its body; null in the flat scene
 };
 
 /// The layer of a map that lies in the scene as `frame` says.

@@ -5,7 +5,11 @@
 #include "ui/render/terrain_renderer.h"
 
 #include "core/base/check.h"
+#include "core/globe/body_camera.h"
+#include "core/globe/body_nodes.h"
 #include "core/view/scene_box.h"
+#include "ui/render/body_atlas.h"
+#include "ui/render/body_uniforms.h"
 #include "ui/render/cover_texture.h"
 #include "ui/render/frame_target.h"
 #include "ui/render/gl_objects.h"
@@ -32,6 +36,7 @@ constexpr int kCells = static_cast<int>(DetailErrors::kNodeCells);
 constexpr int kSide = kCells + 1;
 constexpr int kHalf = kCells / 2;
 constexpr GLsizei kQuadrantIndices = 6 * kHalf * kHalf;
+constexpr GLsizei kPoleIndices = 3 * kCells;
 
 // How many tiles are sent to the driver for a picture in motion: a millisecond each in software.
 constexpr std::size_t kHastyUploads = 8;
@@ -79,7 +84,7 @@ struct IndexRange {
 constexpr std::size_t kNodesPerDraw = 32;
 
 // Texture units.
-enum Unit : GLint { Heights, Ramp, Relief, FirstCover };
+enum Unit : GLint { Heights, Ramp, Relief, FirstCover, FirstOnBody = FirstCover + kCoversMax };
 
 struct Color3 {
     float red;
@@ -120,6 +125,7 @@ struct Layer {
     TerrainLayer source;
     std::uint32_t number = 0; // never used twice
     DrawnSurface surface;
+    std::array<float, 2> pole_heights_m{};
     DetailSelector selector;
     GlTexture ramp;
     CoverTexture cover;
@@ -133,14 +139,14 @@ struct Layer {
         : source(layer)
         , number(layer_number)
         , surface(*source.heightfield, source.analysis->means)
-        , selector(source.analysis,
-                   source.heightfield->columns(),
-                   source.heightfield->rows(),
-                   source.frame)
+        , selector(selectorOf(source))
         , cover(*source.heightfield, source.analysis->means)
         , tell(notify)
     {
         sendRamp();
+        if (source.body) {
+            pole_heights_m = poleHeights(surface, source.analysis->errors.levelCount() - 1);
+        }
         if (source.heightfield->isTiled()) {
             requests.emplace(source.heightfield->tiles()->raster(), TileUrgency::View, notify);
         }
@@ -179,6 +185,33 @@ struct Layer {
                 report.problem = std::move(failure);
             }
         }
+    }
+
+    static DetailSelector selectorOf(const TerrainLayer& layer)
+    {
+        return layer.body ? DetailSelector(layer.analysis,
+                                           std::make_unique<BodyNodes>(layer.analysis, layer.body))
+                          : DetailSelector(layer.analysis, layer.heightfield->columns(),
+                                           layer.heightfield->rows(), layer.frame);
+    }
+
+    HeightRange range() const { return source.heightfield->range().value_or(HeightRange{}); }
+    // Of a layer on its body.
+    BodySubject onBody(double exaggeration) const
+    {
+        const Ellipsoid& body = source.body->ellipsoid();
+        const double radius_m = std::max(body.equatorial_m, body.polar_m);
+        const HeightRange heights = range();
+        const double reach_m =
+            exaggeration * std::max(std::abs(heights.minimum_m), std::abs(heights.maximum_m));
+        constexpr double kReachShare = 1.5; // so that few exaggerations need another lattice
+        return {.surface = &surface,
+                .grid = source.body.get(),
+                .frame = source.frame,
+                .lattice =
+                    BodyLattice::reaching(std::max(kReachShare * radius_m, radius_m + reach_m)),
+                .exaggeration = exaggeration,
+                .pole_heights_m = pole_heights_m};
     }
 
     SceneBox box(double exaggeration) const
@@ -242,6 +275,7 @@ struct TerrainRenderer::Impl {
     std::string driver_name;
     bool is_software = false;
     HeightAtlas atlas;
+    std::optional<BodyAtlas> body_atlas; // once a layer lies on its body
     ReliefCache reliefs;
     FrameTarget frame_target;
     Viewport kept_size;
@@ -258,11 +292,13 @@ struct TerrainRenderer::Impl {
     struct Batch {
         std::vector<NodeInstance> nodes;
         std::array<std::vector<NodeInstance>, kQuadrantCount> quadrants;
+        std::array<std::vector<NodeInstance>, 2> poles; // at the first and the last row
 
         bool isEmpty() const
         {
-            return nodes.empty() && std::all_of(quadrants.begin(), quadrants.end(),
-                                                [](const auto& part) { return part.empty(); });
+            const auto is_empty = [](const auto& part) { return part.empty(); };
+            return nodes.empty() && std::all_of(quadrants.begin(), quadrants.end(), is_empty) &&
+                   std::all_of(poles.begin(), poles.end(), is_empty);
         }
     };
     std::vector<Batch> batches; // one a page
@@ -303,21 +339,34 @@ struct TerrainRenderer::Impl {
                  const SceneFrame& frame,
                  double exaggeration) const;
     void drawInstances(std::vector<NodeInstance>& instances_of, const IndexRange& range) const;
-    ClipRange clip(const OrbitCamera& camera, double exaggeration) const;
+    ClipRange clip(const CameraPose& camera, double exaggeration) const;
+    std::optional<NodeSlots::Place>
+    placeOf(Layer& layer, const DetailNode& node, double exaggeration);
+    void beginRound(const Layer& layer);
+    static void addPoles(const DetailNode& node,
+                         const BodyGrid& body,
+                         const NodeInstance& instance,
+                         Batch& batch);
 };
 
 void TerrainRenderer::Impl::makeNodeMesh()
 {
     std::vector<std::uint8_t> cells;
-    cells.reserve(std::size_t{2} * kSide * kSide);
+    cells.reserve(std::size_t{2} * (kSide * kSide + 2 * kCells));
     for (int row = 0; row < kSide; ++row) {
         for (int column = 0; column < kSide; ++column) {
             cells.push_back(static_cast<std::uint8_t>(column));
             cells.push_back(static_cast<std::uint8_t>(row));
         }
     }
+    for (const int row : {kFirstPoleRow, kLastPoleRow}) {
+        for (int column = 0; column < kCells; ++column) {
+            cells.push_back(static_cast<std::uint8_t>(column));
+            cells.push_back(static_cast<std::uint8_t>(row));
+        }
+    }
     std::vector<std::uint16_t> indices;
-    indices.reserve(std::size_t{6} * kCells * kCells);
+    indices.reserve(std::size_t{6} * kCells * kCells + 2 * kPoleIndices);
     // One quadrant after the other.
     constexpr int kQuadrantCells = kHalf * kHalf;
     for (int cell = 0; cell < kCells * kCells; ++cell) {
@@ -328,6 +377,18 @@ void TerrainRenderer::Impl::makeNodeMesh()
         const int lower_left = upper_left + kSide;
         for (const int index : {upper_left, lower_left + 1, upper_left + 1, // upper
                                 upper_left, lower_left, lower_left + 1}) {  // lower
+            indices.push_back(static_cast<std::uint16_t>(index));
+        }
+    }
+    // From the first and from the last row to a pole.
+    for (int column = 0; column < kCells; ++column) {
+        for (const int index : {column, column + 1, kSide * kSide + column}) {
+            indices.push_back(static_cast<std::uint16_t>(index));
+        }
+    }
+    for (int column = 0; column < kCells; ++column) {
+        const int corner = kCells * kSide + column;
+        for (const int index : {corner, kSide * kSide + kCells + column, corner + 1}) {
             indices.push_back(static_cast<std::uint16_t>(index));
         }
     }
@@ -374,7 +435,8 @@ TerrainRenderer::Impl::select(Layer& layer, const DrawRequest& request, double e
         DetailSelection selection = layer.selector.select({.camera = request.camera,
                                                            .viewport = request.viewport,
                                                            .exaggeration = exaggeration,
-                                                           .part = request.part},
+                                                           .part = request.part,
+                                                           .pose = request.body_pose},
                                                           target);
         if (reliefCount(selection) <= room || i == kCoarserMax) {
             return selection;
@@ -390,15 +452,20 @@ void TerrainRenderer::Impl::drawLayer(std::size_t index,
 {
     Layer& layer = *layers[index];
     const Heightfield& heightfield = *layer.source.heightfield;
-    const GridPoint anchor = nodeAnchor(layer.source.frame.toGrid(eyeOf(request.camera)),
-                                        heightfield.columns(), heightfield.rows());
-    const auto cover_count = static_cast<int>(std::min<std::size_t>(index, kCoversMax));
+    const BodyGrid* body = layer.source.body.get();
+    const GridPoint anchor = body != nullptr
+                                 ? GridPoint{}
+                                 : nodeAnchor(layer.source.frame.toGrid(eyeOf(request.camera)),
+                                              heightfield.columns(), heightfield.rows());
+    const auto cover_count =
+        body != nullptr ? 0 : static_cast<int>(std::min<std::size_t>(index, kCoversMax));
     const GlProgram& program = shaders.terrain(
         {.mode = style.look.mode,
          .has_contours = style.look.has_contours,
          .has_voids = layer.hasVoids(),
          .is_ray_corrected = !isCheap(request) && !(request.is_interim && is_software),
-         .cover_count = cover_count});
+         .cover_count = cover_count,
+         .is_on_body = body != nullptr});
     glUseProgram(program.id());
     setUniforms(program, index, request, style, anchor);
 
@@ -410,19 +477,14 @@ void TerrainRenderer::Impl::drawLayer(std::size_t index,
                              .slope_max = layer.source.slope_max};
     };
     reliefs.find(request_of(layer.wholeNode()), top); // so that it is not given up
-    atlas.beginRound();
-    const std::uint64_t generation = layer.generation();
+    beginRound(layer);
     layer.missing.clear();
     for (const SelectedNode& selected : selection.nodes) {
-        const LayerNode key{.layer = layer.number, .node = selected.node};
-        const auto place_of = [&] {
-            return atlas.place(key, layer.surface, generation, layer.missing);
-        };
-        std::optional<HeightAtlas::Place> slot = place_of();
+        std::optional<NodeSlots::Place> slot = placeOf(layer, selected.node, style.exaggeration);
         if (!slot) {
             drawBatches(request);
-            atlas.beginRound();
-            slot = place_of();
+            beginRound(layer);
+            slot = placeOf(layer, selected.node, style.exaggeration);
         }
         const auto relief = reliefs.find(request_of(selected.relief), top);
         if (!relief) {
@@ -431,6 +493,9 @@ void TerrainRenderer::Impl::drawLayer(std::size_t index,
         Batch& batch = batches[relief->page];
         const NodeInstance instance =
             nodeInstance(selected, anchor, layer.surface.baseMeters(), *slot, *relief);
+        if (body != nullptr) {
+            addPoles(selected.node, *body, instance, batch);
+        }
         if (selected.quadrants == kAllQuadrants) {
             batch.nodes.push_back(instance);
             continue;
@@ -442,6 +507,45 @@ void TerrainRenderer::Impl::drawLayer(std::size_t index,
         }
     }
     drawBatches(request);
+}
+
+void TerrainRenderer::Impl::beginRound(const Layer& layer)
+{
+    if (!layer.source.body) {
+        atlas.beginRound();
+        return;
+    }
+    if (!body_atlas) {
+        const StoreSizes& stores = is_software ? kStoresInSoftware : kStoresOnGpu;
+        body_atlas.emplace(stores.atlas_columns, stores.atlas_rows);
+    }
+    body_atlas->beginRound();
+    body_atlas->bind(GL_TEXTURE0 + FirstOnBody);
+}
+
+std::optional<NodeSlots::Place>
+TerrainRenderer::Impl::placeOf(Layer& layer, const DetailNode& node, double exaggeration)
+{
+    const LayerNode key{.layer = layer.number, .node = node};
+    return layer.source.body ? body_atlas->place(key, layer.onBody(exaggeration),
+                                                 layer.generation(), layer.missing)
+                             : atlas.place(key, layer.surface, layer.generation(), layer.missing);
+}
+
+// Triangles that close a map around its body at a pole.
+void TerrainRenderer::Impl::addPoles(const DetailNode& node,
+                                     const BodyGrid& body,
+                                     const NodeInstance& instance,
+                                     Batch& batch)
+{
+    if (node.row == 0 && body.poleAtFirstRow() != BodyGrid::Pole::None && !body.isPole(0)) {
+        batch.poles.front().push_back(instance);
+    }
+    const std::size_t last_row = body.rows() - 1;
+    if (body.poleAtLastRow() != BodyGrid::Pole::None && !body.isPole(last_row) &&
+        (node.row + 1) * (DetailErrors::kNodeCells << node.level) >= last_row) {
+        batch.poles.back().push_back(instance);
+    }
 }
 
 void TerrainRenderer::Impl::drawBatches(const DrawRequest& request)
@@ -461,6 +565,10 @@ void TerrainRenderer::Impl::drawBatches(const DrawRequest& request)
         for (std::size_t i = 0; i < kQuadrantCount; ++i) {
             drawInstances(batch.quadrants[i],
                           {.first = i * kQuadrantIndices, .count = kQuadrantIndices});
+        }
+        for (std::size_t i = 0; i < batch.poles.size(); ++i) {
+            drawInstances(batch.poles[i], {.first = kAll * kQuadrantIndices + i * kPoleIndices,
+                                           .count = kPoleIndices});
         }
     }
     glBindBuffer(GL_ARRAY_BUFFER, 0);
@@ -505,26 +613,31 @@ void TerrainRenderer::Impl::setUniforms(const GlProgram& program,
             glUniform4f(location, static_cast<GLfloat>(values)...);
         }
     };
-    atlas.bind(GL_TEXTURE0 + Heights);
+    const CameraPose pose = request.pose();
+    if (layer.source.body) {
+        setBodyUniforms(program, pose, layer.onBody(style.exaggeration), FirstOnBody);
+    } else {
+        atlas.bind(GL_TEXTURE0 + Heights);
+        glUniform1i(program.uniform("u_heights"), Heights);
+    }
     glActiveTexture(GL_TEXTURE0 + Ramp);
     glBindTexture(GL_TEXTURE_2D, layer.ramp.id());
-    glUniform1i(program.uniform("u_heights"), Heights);
     glUniform1i(program.uniform("u_ramp"), Ramp);
     glUniform1i(program.uniform("u_relief"), Relief);
 
     const Matrix4 clip_from_eye =
-        projection(request.camera, request.viewport, clip(request.camera, style.exaggeration)) *
-        viewRotation(request.camera);
+        projection(pose, request.viewport, clip(pose, style.exaggeration)) * viewRotation(pose);
     glUniformMatrix4fv(program.uniform("u_clip_from_eye"), 1, GL_FALSE,
                        asFloats(clip_from_eye).data());
     const double base_m = layer.surface.baseMeters();
-    const Vec3 anchor_from_eye =
-        frame.toScene(anchor, base_m * style.exaggeration) - eyeOf(request.camera);
+    const Vec3 anchor_from_eye = frame.toScene(anchor, base_m * style.exaggeration) - pose.eye;
     set("u_anchor_from_eye", anchor_from_eye.x, anchor_from_eye.y, anchor_from_eye.z);
     set("u_frame", frame.east_per_column, frame.east_per_row, frame.north_per_column,
         frame.north_per_row);
     set("u_exaggeration", style.exaggeration);
-    set("u_last_sample", static_cast<double>(heightfield.columns() - 1) - anchor.column,
+    const std::size_t columns =
+        layer.source.body ? layer.source.body->columns() : heightfield.columns();
+    set("u_last_sample", static_cast<double>(columns - 1) - anchor.column,
         static_cast<double>(heightfield.rows() - 1) - anchor.row);
 
     setRays(program, request, frame, style.exaggeration);
@@ -555,7 +668,7 @@ void TerrainRenderer::Impl::setUniforms(const GlProgram& program,
         slopes_rad > 0.0 ? -slopes.minimum.radians() / slopes_rad : 0.5);
 
     const HeightRange range = heightfield.range().value_or(HeightRange{});
-    const double pixel_m = metersPerPixel(request.camera, request.viewport);
+    const double pixel_m = metersPerPixel(pose, request.viewport);
     const double interval_m = contourInterval(look, range, pixel_m, style.exaggeration);
     if (interval_m > 0.0) {
         // Lines are counted in fives, so a multiple of five intervals may be left out.
@@ -565,7 +678,8 @@ void TerrainRenderer::Impl::setUniforms(const GlProgram& program,
         set("u_contour", 0.0, 0.5);
     }
 
-    for (std::size_t i = 0; i < std::min<std::size_t>(index, kCoversMax); ++i) {
+    const std::size_t covers = layer.source.body ? 0 : std::min<std::size_t>(index, kCoversMax);
+    for (std::size_t i = 0; i < covers; ++i) {
         const Layer& cover = *layers[index - 1 - i];
         const GLint unit = FirstCover + static_cast<GLint>(i);
         cover.cover.bind(GL_TEXTURE0 + static_cast<GLenum>(unit));
@@ -596,11 +710,11 @@ void TerrainRenderer::Impl::setRays(const GlProgram& program,
                                     double exaggeration) const
 {
     const Viewport drawn = drawnSize(request);
-    const Matrix4 rotation = viewRotation(request.camera);
+    const Matrix4 rotation = viewRotation(request.pose());
     const auto axis = [&rotation](std::size_t row) {
         return Vec3{rotation(row, 0), rotation(row, 1), rotation(row, 2)};
     };
-    const double half_height = std::tan(request.camera.field_of_view.radians() / 2.0);
+    const double half_height = std::tan(request.pose().field_of_view.radians() / 2.0);
     const double half_width = half_height * request.viewport.aspect();
     const std::array<Vec3, 3> rays{axis(0) * -half_width - axis(1) * half_height - axis(2),
                                    axis(0) * (2.0 * half_width / drawn.width),
@@ -621,8 +735,18 @@ void TerrainRenderer::Impl::setRays(const GlProgram& program,
 }
 
 // All layers share one depth range, so that their depths can be compared.
-ClipRange TerrainRenderer::Impl::clip(const OrbitCamera& camera, double exaggeration) const
+ClipRange TerrainRenderer::Impl::clip(const CameraPose& camera, double exaggeration) const
 {
+    if (!layers.empty() && layers.front()->source.body) {
+        HeightRange all = layers.front()->range();
+        for (const auto& layer : layers) {
+            const HeightRange range = layer->range();
+            all = {std::min(all.minimum_m, range.minimum_m),
+                   std::max(all.maximum_m, range.maximum_m)};
+        }
+        return bodyClipRange(camera, layers.front()->source.body->ellipsoid(),
+                             all.minimum_m * exaggeration, all.maximum_m * exaggeration);
+    }
     SceneBox box;
     for (const auto& layer : layers) {
         const SceneBox more = layer->box(exaggeration);
@@ -682,7 +806,8 @@ void TerrainRenderer::setLayers(const std::vector<TerrainLayer>& layers)
         MARSVIEW_CHECK(layer.heightfield && layer.analysis && layer.ramp != nullptr);
         const auto known = std::find_if(before.begin(), before.end(), [&](const auto& old) {
             return old && old->source.heightfield == layer.heightfield &&
-                   old->source.analysis == layer.analysis && old->source.frame == layer.frame;
+                   old->source.analysis == layer.analysis && old->source.frame == layer.frame &&
+                   old->source.body == layer.body;
         });
         if (known == before.end()) {
             auto added = std::make_unique<Layer>(layer, impl_->next_layer_number++, impl_->notify);
@@ -701,7 +826,7 @@ void TerrainRenderer::setLayers(const std::vector<TerrainLayer>& layers)
     }
 }
 
-ClipRange TerrainRenderer::clip(const OrbitCamera& camera, double exaggeration) const
+ClipRange TerrainRenderer::clip(const CameraPose& camera, double exaggeration) const
 {
     return impl_->clip(camera, exaggeration);
 }
@@ -784,7 +909,8 @@ std::size_t TerrainRenderer::countTriangles(const DrawRequest& request, double e
         count += layer->selector
                      .select({.camera = request.camera,
                               .viewport = request.viewport,
-                              .exaggeration = exaggeration},
+                              .exaggeration = exaggeration,
+                              .pose = request.body_pose},
                              request.detail)
                      .triangle_count;
     }

@@ -28,7 +28,7 @@ struct DrawStyle {
 
 /// One picture: from where, how large, how fine.
 struct DrawRequest {
-    OrbitCamera camera;
+    OrbitCamera camera{};
     Viewport viewport;
     DetailTarget detail{};
     double scale = 1.0;   // share of the viewport's width and height that is drawn, then enlarged
@@ -42,6 +42,9 @@ struct DrawRequest {
     std::optional<PixelArea> part{};
     /// A better picture follows at once: in software, colors are those of the mesh's place.
     bool is_interim = false;
+    std::optional<CameraPose> body_pose{}; // replaces `camera` where layers lie on their body
+
+    CameraPose pose() const { return body_pose ? *body_pose : CameraPose(camera); }
 };
 
 /// Cost and detail of a picture.
@@ -78,7 +81,7 @@ public:
     void setLayers(const std::vector<TerrainLayer>& layers);
 
     /// The depths between which everything is drawn.
-    ClipRange clip(const OrbitCamera& camera, double exaggeration) const;
+    ClipRange clip(const CameraPose& camera, double exaggeration) const;
 
     /// Shading is being made that draw() asked for.
     bool isLoading() const;

@@ -10,7 +10,7 @@ namespace {
 // Positions are samples relative to an anchor near the eye, and meters over the base height: whole
 // numbers, the same for a sample whichever node it is drawn with, so that nodes that meet compute
 // the same bits. See core/view/detail_selection.h for ranges and morphing.
-constexpr const char* kTerrainVertex = R"(#version 330 core
+constexpr const char* kTerrainVertex = R"(
 layout(location = 0) in vec2 a_cell;
 layout(location = 1) in vec3 a_place;
 layout(location = 2) in vec4 a_slot;
@@ -19,11 +19,7 @@ layout(location = 4) in vec2 a_uncle;
 layout(location = 5) in vec4 a_parent;
 layout(location = 6) in vec4 a_grandparent;
 layout(location = 7) in vec3 a_color_heights;
-uniform sampler2D u_heights;
 uniform vec2 u_last_sample;
-uniform vec3 u_anchor_from_eye;
-uniform vec4 u_frame; // east per column, east per row, north per column, north per row
-uniform float u_exaggeration;
 uniform mat4 u_clip_from_eye;
 out float v_height;
 out vec2 v_relief;
@@ -36,19 +32,6 @@ invariant gl_Position;
 const float kNodeCells = 32.0;
 const float kMorphEnd = 1.2;
 
-// Column, row, height.
-vec3 vertexAt(vec2 cell)
-{
-    vec2 place = min(a_place.xy + cell * a_place.z, u_last_sample);
-    return vec3(place, texelFetch(u_heights, ivec2(a_slot.xy + cell), 0).r);
-}
-
-vec3 fromEye(vec3 p)
-{
-    return vec3(dot(u_frame.xy, p.xy), dot(u_frame.zw, p.xy), p.z * u_exaggeration) +
-           u_anchor_from_eye;
-}
-
 // Between corners. Exact where a share is 0 or 1.
 float between(vec4 corners, vec2 share)
 {
@@ -57,15 +40,49 @@ float between(vec4 corners, vec2 share)
 }
 
 // How far a vertex has given way to the next level, 0 … 1.
-float morph(vec3 p, vec4 ranges, vec2 share)
+float morph(vec3 from_eye, vec4 ranges, vec2 share)
 {
     float range = between(ranges, share);
-    return clamp((length(fromEye(p)) - range) / ((kMorphEnd - 1.0) * range), 0.0, 1.0);
+    return clamp((length(from_eye) - range) / ((kMorphEnd - 1.0) * range), 0.0, 1.0);
 }
 
 vec3 blend(vec3 from, vec3 to, float share)
 {
     return share <= 0.0 ? from : share >= 1.0 ? to : from + (to - from) * share;
+}
+
+vec2 sampleOf(vec2 cell)
+{
+    return min(a_place.xy + cell * a_place.z, u_last_sample);
+}
+
+// What colors need, from the vertex's column, row and height.
+void setSurface(vec3 p)
+{
+    v_height = p.z;
+    v_sample = p.xy;
+    v_relief = (p.xy - a_place.xy) * a_relief.x + a_relief.yz;
+    v_layer = a_relief.w;
+    v_color_heights = a_color_heights;
+    v_relief_per_sample = a_relief.x;
+}
+
+#ifndef BODY
+uniform sampler2D u_heights;
+uniform vec3 u_anchor_from_eye;
+uniform vec4 u_frame; // east per column, east per row, north per column, north per row
+uniform float u_exaggeration;
+
+// Column, row, height.
+vec3 vertexAt(vec2 cell)
+{
+    return vec3(sampleOf(cell), texelFetch(u_heights, ivec2(a_slot.xy + cell), 0).r);
+}
+
+vec3 fromEye(vec3 p)
+{
+    return vec3(dot(u_frame.xy, p.xy), dot(u_frame.zw, p.xy), p.z * u_exaggeration) +
+           u_anchor_from_eye;
 }
 
 void main()
@@ -75,17 +92,90 @@ void main()
     vec3 own = vertexAt(a_cell);
     vec3 next = vertexAt(next_cell);
     vec3 last = vertexAt(last_cell);
-    float to_last = morph(next, a_grandparent, a_uncle + next_cell / (4.0 * kNodeCells));
-    float to_next = morph(own, a_parent, a_slot.zw + a_cell / (2.0 * kNodeCells));
+    float to_last = morph(fromEye(next), a_grandparent, a_uncle + next_cell / (4.0 * kNodeCells));
+    float to_next = morph(fromEye(own), a_parent, a_slot.zw + a_cell / (2.0 * kNodeCells));
     vec3 p = blend(own, blend(next, last, to_last), to_next);
-    v_height = p.z;
-    v_sample = p.xy;
-    v_relief = (p.xy - a_place.xy) * a_relief.x + a_relief.yz;
-    v_layer = a_relief.w;
-    v_color_heights = a_color_heights;
-    v_relief_per_sample = a_relief.x;
+    setSurface(p);
     gl_Position = u_clip_from_eye * vec4(fromEye(p), 1.0);
 }
+#else
+uniform sampler2D u_near;  // position within a cube of the lattice; height
+uniform isampler2D u_far;  // cube
+uniform sampler2D u_east;  // where the east and the north of the relief's slopes point, with the
+uniform sampler2D u_north; // ratio of its lengths to those on the body
+uniform vec3 u_eye_near;
+uniform vec3 u_eye_far;
+uniform float u_lattice; // side of a cube, a power of two
+uniform float u_axes_squared;
+uniform mat3 u_target;   // columns: east, north and up at the camera's target
+uniform float u_exaggeration;
+uniform vec4 u_pole[2];  // from the eye; height over the base
+out mat2 v_turn;         // of slopes
+out vec3 v_ray;          // from the eye, in the directions that slopes are turned to
+
+// A vertex's position has the same bits whichever node it is drawn with: a difference of cubes is
+// exact, and so is its product with a power of two.
+vec3 fromEye(vec3 cube, vec3 within)
+{
+    return (cube - u_eye_far) * u_lattice + (within - u_eye_near);
+}
+
+// A map that ends within a node has all further vertices at its last column or row. They count as
+// on the node's far side, so that both ends of a map around the body have the same ranges.
+vec2 shareOf(vec2 share, vec2 at_sample)
+{
+    return vec2(at_sample.x >= u_last_sample.x ? 1.0 : share.x,
+                at_sample.y >= u_last_sample.y ? 1.0 : share.y);
+}
+
+void main()
+{
+    bool is_pole = a_cell.y > kNodeCells;
+    int pole = a_cell.y > 2.0 * kNodeCells ? 1 : 0;
+    vec2 own_cell = is_pole ? vec2(a_cell.x, pole == 1 ? kNodeCells : 0.0) : a_cell;
+    vec2 next_cell = 2.0 * floor(own_cell * 0.5);
+    vec2 last_cell = 4.0 * floor(own_cell * 0.25);
+    ivec2 own_texel = ivec2(a_slot.xy + own_cell);
+    ivec2 next_texel = ivec2(a_slot.xy + next_cell);
+    ivec2 last_texel = ivec2(a_slot.xy + last_cell);
+    vec4 own_near = texelFetch(u_near, own_texel, 0);
+    vec4 next_near = texelFetch(u_near, next_texel, 0);
+    vec4 last_near = texelFetch(u_near, last_texel, 0);
+    vec3 own_far = vec3(texelFetch(u_far, own_texel, 0).xyz);
+    vec3 own = fromEye(own_far, own_near.xyz);
+    vec3 next = fromEye(vec3(texelFetch(u_far, next_texel, 0).xyz), next_near.xyz);
+    vec3 last = fromEye(vec3(texelFetch(u_far, last_texel, 0).xyz), last_near.xyz);
+    vec2 own_sample = sampleOf(own_cell);
+    vec2 next_sample = sampleOf(next_cell);
+    float to_last = morph(next, a_grandparent,
+                          shareOf(a_uncle + next_cell / (4.0 * kNodeCells), next_sample));
+    float to_next =
+        morph(own, a_parent, shareOf(a_slot.zw + own_cell / (2.0 * kNodeCells), own_sample));
+    vec3 p = blend(own, blend(next, last, to_last), to_next);
+    vec3 surface = blend(vec3(own_sample, own_near.w),
+                         blend(vec3(next_sample, next_near.w),
+                               vec3(sampleOf(last_cell), last_near.w), to_last),
+                         to_next);
+    if (is_pole) {
+        p = u_pole[pole].xyz;
+        surface.z = u_pole[pole].w;
+    }
+    setSurface(surface);
+
+    vec3 out_of = own_far * u_lattice + own_near.xyz;
+    vec3 up = normalize(vec3(out_of.xy, out_of.z * u_axes_squared));
+    // The directions at the target, turned the shortest way to the ground here.
+    vec3 middle = (u_target[2] + up) / max(1.0 + dot(u_target[2], up), 1e-3);
+    vec3 to_east = u_target[0] - dot(up, u_target[0]) * middle;
+    vec3 to_north = u_target[1] - dot(up, u_target[1]) * middle;
+    vec3 east = texelFetch(u_east, own_texel, 0).xyz;
+    vec3 north = texelFetch(u_north, own_texel, 0).xyz;
+    v_turn = mat2(dot(east, to_east), dot(east, to_north), dot(north, to_east),
+                  dot(north, to_north));
+    v_ray = vec3(dot(p, to_east), dot(p, to_north), dot(p, up) / u_exaggeration);
+    gl_Position = u_clip_from_eye * vec4(p, 1.0);
+}
+#endif
 )";
 
 constexpr const char* kTerrainFragment = R"(
@@ -205,9 +295,26 @@ vec4 withoutVoids(vec4 relief)
     return relief;
 }
 
+#ifdef BODY
+in mat2 v_turn;
+in vec3 v_ray;
+
+vec2 slopeOf(vec4 relief)
+{
+    return v_turn * relief.rg;
+}
+#else
+vec2 slopeOf(vec4 relief)
+{
+    return relief.rg;
+}
+#endif
+
 #ifdef RAY_CORRECTED
 flat in float v_relief_per_sample;
+#ifndef BODY
 uniform vec3 u_ray[3]; // east, north and true height of a ray: [0] + pixel x × [1] + pixel y × [2]
+#endif
 uniform vec4 u_grid;   // column per east, per north, row per east, per north
 
 const float kFacingMin = 0.1;       // of the sine of the angle between ray and ground
@@ -217,10 +324,17 @@ const float kShiftMax = 6.0 / 272.0; // texels: fewer than a tile's border
 // pixel's worth on slopes. A Newton step along the ray from the mesh to the relief, with its slope.
 vec4 reliefOnRay(vec4 relief)
 {
+#ifdef BODY
+    vec3 ray = v_ray;
+    float facing = dot(slopeOf(relief), ray.xy) * u_slope_unit_true - ray.z;
+    vec2 along = ray.xy * v_turn; // in the directions of the relief
+#else
     vec3 ray = u_ray[0] + gl_FragCoord.x * u_ray[1] + gl_FragCoord.y * u_ray[2];
     float facing = dot(relief.rg, ray.xy) * u_slope_unit_true - ray.z;
+    vec2 along = ray.xy;
+#endif
     float way = (v_height - colorHeight(relief.b)) / max(facing, kFacingMin * length(ray));
-    vec2 shift = vec2(dot(u_grid.xy, ray.xy), dot(u_grid.zw, ray.xy)) * (way * v_relief_per_sample);
+    vec2 shift = vec2(dot(u_grid.xy, along), dot(u_grid.zw, along)) * (way * v_relief_per_sample);
     vec2 place = v_relief + clamp(shift, -kShiftMax, kShiftMax);
     vec4 met = textureGrad(u_relief, vec3(place, v_layer), dFdx(v_relief), dFdy(v_relief));
 #ifdef VOIDS
@@ -240,7 +354,7 @@ void main()
 #ifdef RAY_CORRECTED
     relief = reliefOnRay(relief);
 #endif
-    vec2 slope = relief.rg;
+    vec2 slope = slopeOf(relief);
     float height = colorHeight(relief.b);
 #ifdef CONTOURS
     float ink = contour(height); // before any pixel is given up: it takes differences between them
@@ -296,16 +410,23 @@ void main()
 }
 )";
 
+std::string vertexSourceFor(bool is_on_body)
+{
+    return fmt::format("#version 330 core\n{}{}", is_on_body ? "#define BODY\n" : "",
+                       kTerrainVertex);
+}
+
 Result<GlProgram> compiledTerrain(const TerrainShaderKey& key)
 {
     const std::string fragment = fmt::format(
         "#version 330 core\n#define RAMP_TEXELS {}.0\n#define HILLSHADE_WHITE {:.4f}\n"
-        "#define MODE {}\n#define COVERS {}\n{}{}{}{}",
+        "#define MODE {}\n#define COVERS {}\n{}{}{}{}{}",
         kRampTexels, kHillshadeWhite, static_cast<int>(key.mode), key.cover_count,
         key.has_contours ? "#define CONTOURS\n" : "",
         key.is_ray_corrected ? "#define RAY_CORRECTED\n" : "",
-        key.has_voids ? "#define VOIDS\n" : "", kTerrainFragment);
-    return GlProgram::create(kTerrainVertex, fragment.c_str());
+        key.has_voids ? "#define VOIDS\n" : "", key.is_on_body ? "#define BODY\n" : "",
+        kTerrainFragment);
+    return GlProgram::create(vertexSourceFor(key.is_on_body).c_str(), fragment.c_str());
 }
 
 } // namespace
@@ -336,9 +457,9 @@ const GlProgram& TerrainShaders::terrain(const TerrainShaderKey& key)
     return terrain_.emplace(key, std::move(program).value()).first->second;
 }
 
-std::string TerrainShaders::vertexSource()
+std::string TerrainShaders::vertexSource(bool is_on_body)
 {
-    return kTerrainVertex;
+    return vertexSourceFor(is_on_body);
 }
 
 } // namespace marsview

@@ -23,14 +23,19 @@ struct TerrainShaderKey {
     /// instead of the mesh.
     bool is_ray_corrected = false;
     int cover_count = 0; // maps that lie over this one, at most kCoversMax
+    bool is_on_body = false;
     auto operator<=>(const TerrainShaderKey&) const = default;
 };
 
 inline constexpr int kCoversMax = 3;
 
+/// Rows of vertices that lie at the pole next to a map's first or last row, instead of in a row.
+inline constexpr int kFirstPoleRow = 64;
+inline constexpr int kLastPoleRow = 65;
+
 /// The program's locations of the vertex attributes.
 enum TerrainAttribute : unsigned {
-    kCellAttribute,         // vertex: column and row within the node, 0 … 32
+    kCellAttribute,         // vertex: column and row within the node, 0 … 32; see kFirstPoleRow
     kPlaceAttribute,        // node: first sample relative to the anchor, samples a cell
     kSlotAttribute,         // node: place in the height atlas, place in the parent
     kReliefAttribute,       // node: texture coordinate = sample × x + (y, z), layer w
@@ -50,7 +55,7 @@ public:
     const GlProgram& sky() const noexcept { return sky_; }
 
     /// The vertex stage's source, for tests that look at its results.
-    static std::string vertexSource();
+    static std::string vertexSource(bool is_on_body = false);
 
 private:
     explicit TerrainShaders(GlProgram sky)

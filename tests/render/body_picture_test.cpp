@@ -1,0 +1,313 @@
+// Maps drawn on their bodies: no gaps, and where the samples are.
+
+#include "core/globe/body_camera.h"
+#include "core/globe/body_navigation.h"
+#include "tests/render/render_fixture.h"
+
+#include <GeographicLib/Geocentric.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+namespace marsview::test {
+namespace {
+
+constexpr double kFar = std::numeric_limits<double>::infinity();
+constexpr Viewport kViewport{480, 360};
+
+// A map with mountains, placed.
+struct BodyPictureMap {
+    Georeference georeference;
+    DrawnMap drawn;
+    std::shared_ptr<const BodyGrid> grid;
+
+    BodyPictureMap(const char* crs,
+                   std::size_t columns,
+                   std::size_t rows,
+                   const GeoTransform::Terms& terms,
+                   double relief_m)
+        : georeference(columns, rows, *GeoTransform::fromTerms(terms), *Crs::fromText(crs))
+        , drawn(terrain(columns, rows, relief_m), georeference.sceneFrame())
+    {
+        JobMonitor monitor;
+        grid = BodyGrid::make(georeference, monitor).value();
+    }
+
+    static Heightfield terrain(std::size_t columns, std::size_t rows, double relief_m)
+    {
+        Random random(17);
+        return floatTerrain(
+            columns, rows,
+            heightsFrom(fractalHeights(random, columns, rows, relief_m, 0.5), columns));
+    }
+    TerrainLayer layer() const
+    {
+        TerrainLayer made = drawn.layer();
+        made.body = grid;
+        return made;
+    }
+    BodyLimits limits(double exaggeration) const
+    {
+        const HeightRange range = drawn.field->range().value();
+        return bodyLimits(*grid, range.minimum_m * exaggeration, range.maximum_m * exaggeration);
+    }
+};
+
+BodyPictureMap wholeMars()
+{
+    return {"IAU_2015:49900", 360, 180, {0, 1, 0, 90, 0, -1}, 8000.0};
+}
+
+class BodyPicture : public RenderTest {
+protected:
+    OffscreenPicture drawFrom(const BodyPictureMap& map,
+                              const BodyCamera& camera,
+                              double exaggeration,
+                              DetailTarget detail = {})
+    {
+        renderer_->setLayers({map.layer()});
+        DrawStyle style;
+        style.exaggeration = exaggeration;
+        style.sky_top = kSkyColor;
+        style.sky_bottom = kSkyColor;
+        DrawRequest request{.viewport = kViewport, .detail = detail};
+        request.body_pose = poseOf(camera, map.grid->ellipsoid());
+        OffscreenPicture picture = drawOffscreen(*renderer_, request, style, DepthUse::Yes).value();
+        EXPECT_TRUE(picture.report.is_complete);
+        return picture;
+    }
+};
+
+// Depths along the view direction by intersecting all triangles with the rays through the pixels'
+// middles, in double. Positions are CartConvert's.
+std::vector<double>
+castDepths(const BodyPictureMap& map, const CameraPose& pose, double exaggeration)
+{
+    const Ellipsoid& body = map.grid->ellipsoid();
+    const GeographicLib::Geocentric frame(body.equatorial_m, body.flattening());
+    const double axes = body.polar_m / body.equatorial_m;
+    const std::size_t columns = map.grid->columns();
+    const std::size_t rows = map.grid->rows();
+    std::vector<Vec3> points(columns * rows);
+    for (std::size_t row = 0; row < rows; ++row) {
+        for (std::size_t column = 0; column < columns; ++column) {
+            const std::size_t sample = map.grid->rasterColumn(column);
+            const auto place = map.georeference.toGeographic(
+                GridPoint{static_cast<double>(sample), static_cast<double>(row)});
+            const double graphic_deg =
+                std::atan(std::tan(place->latitude.radians()) / (axes * axes)) * 180.0 /
+                std::numbers::pi;
+            Vec3& p = points[row * columns + column];
+            frame.Forward(graphic_deg, place->longitude.degrees(),
+                          exaggeration * map.drawn.field->sample(sample, row), p.x, p.y, p.z);
+        }
+    }
+    std::vector<double> depths(static_cast<std::size_t>(kViewport.width * kViewport.height), kFar);
+    const auto cast = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
+        std::array<std::optional<PixelPoint>, 3> corners{
+            project(pose, kViewport, a), project(pose, kViewport, b), project(pose, kViewport, c)};
+        if (!corners[0] || !corners[1] || !corners[2]) {
+            return;
+        }
+        const auto [left, right] = std::minmax({corners[0]->x, corners[1]->x, corners[2]->x});
+        const auto [top, bottom] = std::minmax({corners[0]->y, corners[1]->y, corners[2]->y});
+        const auto pixel = [](double value, int most) {
+            return static_cast<int>(std::clamp(std::floor(value), 0.0, most - 1.0));
+        };
+        const Vec3 u = b - a;
+        const Vec3 v = c - a;
+        for (int y = pixel(top, kViewport.height); y <= pixel(bottom, kViewport.height); ++y) {
+            for (int x = pixel(left, kViewport.width); x <= pixel(right, kViewport.width); ++x) {
+                const Ray ray = pickRay(pose, kViewport, {x + 0.5, y + 0.5});
+                const Vec3 across = cross(ray.direction, v);
+                const double determinant = dot(u, across);
+                const Vec3 from = ray.origin - a;
+                const double s = dot(from, across) / determinant;
+                const Vec3 other = cross(from, u);
+                const double t = dot(ray.direction, other) / determinant;
+                if (s >= -1e-9 && t >= -1e-9 && s + t <= 1.0 + 1e-9) {
+                    const double depth =
+                        dot(v, other) / determinant * dot(ray.direction, pose.axes.forward);
+                    double& nearest = depths[static_cast<std::size_t>(y * kViewport.width + x)];
+                    if (depth > 0.0) {
+                        nearest = std::min(nearest, depth);
+                    }
+                }
+            }
+        }
+    };
+    for (std::size_t row = 0; row + 1 < rows; ++row) {
+        for (std::size_t column = 0; column + 1 < columns; ++column) {
+            const Vec3& a = points[row * columns + column];
+            const Vec3& d = points[(row + 1) * columns + column + 1];
+            cast(a, points[row * columns + column + 1], d);
+            cast(a, points[(row + 1) * columns + column], d);
+        }
+    }
+    return depths;
+}
+
+// The share of pixels whose surface is within a pixel of the exact one: between the depths around.
+double shareWithinAPixel(const std::vector<double>& drawn, const std::vector<double>& exact)
+{
+    std::size_t count = 0;
+    std::size_t within = 0;
+    const auto width = static_cast<std::size_t>(kViewport.width);
+    for (std::size_t y = 1; y + 1 < static_cast<std::size_t>(kViewport.height); ++y) {
+        for (std::size_t x = 1; x + 1 < width; ++x) {
+            double low = kFar;
+            double high = 0.0;
+            for (std::size_t j = y - 1; j <= y + 1; ++j) {
+                for (std::size_t i = x - 1; i <= x + 1; ++i) {
+                    low = std::min(low, exact[j * width + i]);
+                    high = std::max(high, exact[j * width + i]);
+                }
+            }
+            if (low == kFar && drawn[y * width + x] == kFar) {
+                continue;
+            }
+            ++count;
+            const double depth = drawn[y * width + x];
+            within += depth >= low * (1.0 - 1e-4) && depth <= high * (1.0 + 1e-4) ? 1U : 0U;
+        }
+    }
+    return count == 0 ? 1.0 : static_cast<double>(within) / static_cast<double>(count);
+}
+
+BodyCamera over(double longitude_deg, double latitude_deg, double distance_m, double tilt_deg = 0.0)
+{
+    return {.target = {.longitude = Angle::degrees(longitude_deg),
+                       .latitude = Angle::degrees(latitude_deg)},
+            .height_m = 0.0,
+            .distance_m = distance_m,
+            .azimuth = Angle::degrees(30.0),
+            .tilt = Angle::degrees(tilt_deg)};
+}
+
+TEST_F(BodyPicture, IsWithinAPixelOfEverySampleCastInDouble)
+{
+    struct View {
+        BodyCamera camera;
+        double exaggeration;
+    };
+    const BodyPictureMap mars = wholeMars();
+    for (const View& view :
+         {View{over(20.0, 10.0, 1.0e7), 1.0}, View{over(0.5, -5.0, 1.5e6, 50.0), 5.0},
+          View{over(-120.0, 60.0, 3e6, 30.0), 10.0}, View{over(100.0, -40.0, 4e5, 70.0), 3.0}}) {
+        const CameraPose pose = poseOf(view.camera, mars.grid->ellipsoid());
+        const OffscreenPicture picture = drawFrom(mars, view.camera, view.exaggeration);
+        EXPECT_GT(shareWithinAPixel(picture.depths_m, castDepths(mars, pose, view.exaggeration)),
+                  0.99)
+            << view.camera.target.longitude.degrees() << "° E";
+    }
+}
+
+// On a fine local map too, in the projections of such maps.
+TEST_F(BodyPicture, ProjectedMapsLieWhereTheirCoordinatesSay)
+{
+    const std::vector<BodyPictureMap> maps{
+        {"EPSG:32611", 200, 150, {390045, 30, 0, 3797505, 0, -30}, 500.0},
+        {"+proj=stere +lat_0=-90 +lon_0=0 +R=1737400 +units=m",
+         161,
+         150,
+         {-155000, 2000, 0, 150000, 0, -2000},
+         4000.0},
+        {"+proj=sinu +lon_0=137 +R=3396190 +units=m",
+         180,
+         200,
+         {-150000, 1000, 0, 1200000, 0, -1000},
+         3000.0}};
+    for (const BodyPictureMap& map : maps) {
+        for (const double tilt_deg : {0.0, 60.0}) {
+            BodyCamera camera = homeCamera(map.limits(2.0), kViewport);
+            camera.tilt = Angle::degrees(tilt_deg);
+            camera.distance_m *= tilt_deg > 0.0 ? 0.4 : 1.0;
+            const CameraPose pose = poseOf(camera, map.grid->ellipsoid());
+            const OffscreenPicture picture = drawFrom(map, camera, 2.0);
+            EXPECT_GT(shareWithinAPixel(picture.depths_m, castDepths(map, pose, 2.0)), 0.99)
+                << map.georeference.crs()->name() << ", tilt " << tilt_deg;
+        }
+    }
+}
+
+// Sky through the ground is a crack: between nodes, at the seam and at the poles.
+TEST_F(BodyPicture, HasNoGapsAtTheSeamOrAtThePolesOrBetweenNodes)
+{
+    const std::vector<BodyPictureMap> maps{
+        wholeMars(),
+        {"IAU_2015:49900", 361, 181, {-0.5, 1, 0, 90.5, 0, -1}, 8000.0}, // its own poles and seam
+        {"IAU_2015:49900", 321, 150, {-180, 360.0 / 321, 0, 90, 0, -1.2}, 8000.0}};
+    Random random(18);
+    for (const BodyPictureMap& map : maps) {
+        std::size_t sky = 0;
+        for (int i = 0; i < 40; ++i) {
+            const double latitude_deg = i % 4 == 0   ? 90.0 - std::pow(10.0, random.uniform(-3, 1))
+                                        : i % 4 == 1 ? -90.0 + std::pow(10.0, random.uniform(-3, 1))
+                                                     : random.uniform(-80.0, 80.0);
+            const double longitude_deg =
+                i % 2 == 0 ? random.uniform(-180.0, 180.0) : random.uniform(-1.0, 1.0);
+            BodyCamera camera =
+                over(longitude_deg, latitude_deg, std::pow(10.0, random.uniform(5.0, 6.5)),
+                     random.uniform(0.0, 20.0));
+            camera.height_m = 2e4; // so that no pixel sees past the limb
+            camera.distance_m = std::min(camera.distance_m, 1.5e6);
+            sky += skyPixels(
+                drawFrom(map, camera, 1.5, {.error_px = random.uniform(0.7, 4.0)}).colors);
+        }
+        EXPECT_EQ(sky, 0U) << map.drawn.field->columns() << " columns";
+    }
+}
+
+// Slopes of a sphere's map are compressed near the poles: light must not show that.
+TEST_F(BodyPicture, LightAtAPlaceDependsOnItsSlopeAndNotOnTheMapsProjection)
+{
+    // The same tilted plane near 60° N, in degrees and in a local projection.
+    const double step = 0.02;
+    const auto plane = [&](const Georeference& georeference) {
+        return floatTerrain(
+            georeference.columns(), georeference.rows(), [&](std::size_t c, std::size_t r) {
+                const auto place = georeference.toGeographic(
+                    GridPoint{static_cast<double>(c), static_cast<double>(r)});
+                const double east_m = 3396190.0 * std::cos(60.0 * std::numbers::pi / 180.0) *
+                                      (place->longitude.radians());
+                const double north_m =
+                    3396190.0 * (place->latitude.radians() - std::numbers::pi / 3.0);
+                return 0.3 * east_m + 0.1 * north_m;
+            });
+    };
+    const auto color_of = [&](const char* crs, const GeoTransform::Terms& terms) {
+        const Georeference georeference(97, 97, *GeoTransform::fromTerms(terms),
+                                        *Crs::fromText(crs));
+        const DrawnMap map(plane(georeference), georeference.sceneFrame());
+        JobMonitor monitor;
+        TerrainLayer layer = map.layer();
+        layer.body = BodyGrid::make(georeference, monitor).value();
+        renderer_->setLayers({layer});
+        DrawStyle style;
+        style.look.mode = ShadingMode::Hillshade;
+        style.sky_top = kSkyColor;
+        style.sky_bottom = kSkyColor;
+        DrawRequest request{.viewport = {64, 64}};
+        request.body_pose = poseOf(over(0.0, 60.0, 1e5), layer.body->ellipsoid());
+        const OffscreenPicture picture =
+            drawOffscreen(*renderer_, request, style, DepthUse::No).value();
+        return picture.colors.rgb[3 * (32 * 64 + 32)];
+    };
+    const double m = step * 3396190.0 * std::numbers::pi / 180.0;
+    const int degrees =
+        color_of("+proj=longlat +R=3396190", {-48.5 * step, step, 0, 60.0 + 48.5 * step, 0, -step});
+    const int local = color_of("+proj=ortho +lat_0=60 +lon_0=0 +R=3396190 +units=m",
+                               {-48.5 * m, m, 0, 48.5 * m, 0, -m});
+    EXPECT_NEAR(degrees, local, 2);
+    EXPECT_GT(degrees, 20);
+    EXPECT_LT(degrees, 235);
+}
+
+} // namespace
+} // namespace marsview::test

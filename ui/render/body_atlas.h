@@ -1,0 +1,80 @@
+// The vertices of the nodes that are drawn on a body, at the driver's.
+#pragma once
+
+#include "core/body/body_grid.h"
+#include "core/geo/scene_frame.h"
+#include "core/terrain/drawn_surface.h"
+#include "ui/render/gl_objects.h"
+#include "ui/render/node_slots.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace marsview {
+
+/// Positions as floats that resolve a hundredth of a millimeter per 300 km of the body's radius:
+/// cubes of a lattice, counted, and a position within one.
+struct BodyLattice {
+    double side_m = 1.0; // a power of two
+
+    /// For points as far from the body's center.
+    static BodyLattice reaching(double distance_m);
+
+    struct Split {
+        std::array<double, 3> cube;   // whole numbers
+        std::array<double, 3> within; // meters
+    };
+    Split split(const Vec3& point) const noexcept;
+};
+
+/// A map as it is drawn on its body.
+struct BodySubject {
+    const DrawnSurface* surface = nullptr;
+    const BodyGrid* grid = nullptr;
+    SceneFrame frame; // that relief is made in
+    BodyLattice lattice;
+    double exaggeration = 1.0;
+    std::array<float, 2> pole_heights_m{}; // over the base: at the first and the last row
+};
+
+/// The mean heights over the base of a map's first and last row, from some of their samples that
+/// are always in memory.
+std::array<float, 2> poleHeights(const DrawnSurface& surface, std::size_t top_level);
+
+/// Textures of squares of 33 × 33 vertices. Filled on demand, in some 100 µs a node.
+class BodyAtlas {
+public:
+    BodyAtlas(std::size_t slot_columns, std::size_t slot_rows);
+
+    void beginRound() { slots_.beginRound(); }
+    /// As HeightAtlas::place().
+    std::optional<NodeSlots::Place> place(const LayerNode& node,
+                                          const BodySubject& subject,
+                                          std::uint64_t generation,
+                                          std::vector<TileId>& missing);
+
+    /// Textures by unit from `first`: positions within a cube and heights over the base; cubes; and
+    /// what a step to the relief's east and north is on the body.
+    static constexpr unsigned kTextures = 4;
+    void bind(GLenum first) const;
+
+private:
+    NodeState
+    fill(const DetailNode& node, const BodySubject& subject, std::vector<TileId>& missing);
+    void send(const NodeSlots::Place& place) const;
+
+    static constexpr std::size_t kVertices = kNodeSide * kNodeSide;
+
+    NodeSlots slots_;
+    std::array<GlTexture, kTextures> textures_;
+    std::array<float, kVertices> heights_{};
+    std::array<float, 4 * kVertices> within_{};
+    std::array<std::int16_t, 4 * kVertices> cubes_{};
+    std::array<float, 3 * kVertices> east_{};
+    std::array<float, 3 * kVertices> north_{};
+};
+
+} // namespace marsview
