@@ -36,6 +36,10 @@ const char* nameIn(const Names& names, Value value)
         ->name;
 }
 
+/// The shortest decimal number of degrees that gives the angle, if there is one: 15.3, where the
+/// division gives 15.300000000000001.
+double degreesOf(Angle angle);
+
 /// Reads the members of one object and notes the first fault. Members that are absent leave their
 /// variable as it is. The object outlives it.
 class Members {

@@ -3,6 +3,7 @@
 #include "core/base/durable_file.h"
 #include "core/files/raster_path.h"
 #include "core/session/json_members.h"
+#include "core/session/project_views.h"
 
 #include <algorithm>
 #include <array>
@@ -30,6 +31,7 @@ constexpr const char* kFormat = "MarsView project";
 constexpr std::uintmax_t kBytesMax = std::uintmax_t{64} << 20;
 constexpr std::size_t kLayersMax = 100000;
 constexpr std::size_t kMeasurementsMax = 1000000;
+constexpr std::size_t kViewsMax = 100000;
 constexpr std::size_t kPointsMax = 10000000; // of a measurement
 constexpr int kIndent = 2;
 
@@ -53,27 +55,6 @@ constexpr std::array kMeasurements{
     Named<MeasurementKind>{MeasurementKind::Crater, "crater"},
     Named<MeasurementKind>{MeasurementKind::Slope, "point"},
 };
-
-// The shortest decimal number of degrees that gives the angle, if there is one: 15.3, where the
-// division gives 15.300000000000001.
-double degreesOf(Angle angle)
-{
-    const double quotient = angle.degrees();
-    std::array<double, 3> candidates{quotient,
-                                     std::nextafter(quotient, -std::numeric_limits<double>::max()),
-                                     std::nextafter(quotient, std::numeric_limits<double>::max())};
-    for (const int digits : {15, 16}) {
-        const double rounded =
-            std::strtod(fmt::format("{:.{}g}", quotient, digits).c_str(), nullptr);
-        if (Angle::degrees(rounded) == angle) {
-            return rounded;
-        }
-    }
-    const auto* const exact =
-        std::find_if(candidates.begin(), candidates.end(),
-                     [angle](double degrees) { return Angle::degrees(degrees) == angle; });
-    return exact != candidates.end() ? *exact : quotient;
-}
 
 // JSON has no names for these values.
 Json numberJson(double value)
@@ -504,8 +485,8 @@ VectorOverlay overlayFrom(Members& members, const ProjectFolders& folders)
     return overlay;
 }
 
-constexpr std::array kKnownMembers{"format", "version", "active",   "look",
-                                   "camera", "layers",  "overlays", "measurements"};
+constexpr std::array kKnownMembers{"format", "version",  "active", "look",        "camera",
+                                   "layers", "overlays", "views",  "measurements"};
 
 } // namespace
 
@@ -539,6 +520,7 @@ Project projectOf(const Session& session)
         project.layers.push_back(missing->record);
     }
     project.overlays = session.overlays;
+    project.views = projectViews(session.views, projectOrder(session));
     project.look = session.look;
     return project;
 }
@@ -567,6 +549,13 @@ Result<std::string> projectText(const Project& project, const ProjectFolders& fo
         }
         json["overlays"] = std::move(overlays);
     }
+    if (!project.views.empty()) {
+        Json views = Json::array();
+        for (const ProjectView& view : project.views) {
+            views.push_back(viewJson(view));
+        }
+        json["views"] = std::move(views);
+    }
     if (!project.measurements.empty()) {
         Json measurements = Json::array();
         for (const ProjectMeasurement& measurement : project.measurements) {
@@ -580,8 +569,9 @@ Result<std::string> projectText(const Project& project, const ProjectFolders& fo
     try {
         return json.dump(kIndent) + "\n";
     } catch (const Json::type_error&) {
-        return Error{ErrorCode::Invalid,
-                     "a layer or a measurement has a name or path that is not UTF-8; rename it"};
+        return Error{
+            ErrorCode::Invalid,
+            "a layer, a view or a measurement has a name or path that is not UTF-8; rename it"};
     }
 }
 
@@ -633,6 +623,11 @@ projectFrom(std::string_view text, const ProjectFolders& folders, const std::str
                  [&](const Json& element, const std::string& place) {
                      Members overlay(element, place, fault);
                      project.overlays.push_back(overlayFrom(overlay, folders));
+                 });
+    members.list("views", kViewsMax, "a list of views",
+                 [&](const Json& element, const std::string& place) {
+                     Members view(element, place, fault);
+                     project.views.push_back(viewFrom(view, project.layers.size()));
                  });
     members.list("measurements", kMeasurementsMax, "a list of measurements",
                  [&](const Json& element, const std::string& place) {

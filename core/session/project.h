@@ -9,6 +9,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -51,6 +52,17 @@ struct ProjectMeasurement {
     bool operator==(const ProjectMeasurement&) const = default;
 };
 
+/// A saved view; see SavedView.
+struct ProjectView {
+    std::string name{};
+    ViewCamera camera{};
+    double exaggeration = 1.0;
+    std::optional<std::size_t> layer{}; // an index of Project::layers; empty: it was removed
+    std::string body{};
+
+    bool operator==(const ProjectView&) const = default;
+};
+
 /// What a project file states.
 struct Project {
     std::vector<LayerRecord> layers;       // top first
@@ -58,6 +70,7 @@ struct Project {
     std::vector<VectorOverlay> overlays{}; // in the order of Session::overlays
     TerrainLook look{};
     std::optional<ProjectCamera> camera{};
+    std::vector<ProjectView> views{};
     std::vector<ProjectMeasurement> measurements{};
     /// Members that this version does not define, as JSON. They are kept when the project is saved.
     std::map<std::string, std::string> others{};
@@ -74,9 +87,17 @@ struct ProjectFolders {
 /// The layers of a session, with the missing ones in their places, from the top.
 std::vector<LayerId> projectOrder(const Session& session);
 
-/// The project of a session: its layers in projectOrder(), its overlays and its look. Without
-/// camera and measurements.
+/// The project of a session: its layers in projectOrder(), its overlays, its views and its look.
+/// Without camera and measurements.
 Project projectOf(const Session& session);
+
+/// Views by the places of their layers in `layers`, and back. The ids that they get are counted
+/// from `first_id`.
+std::vector<ProjectView> projectViews(const std::vector<SavedView>& views,
+                                      const std::vector<LayerId>& layers);
+std::vector<SavedView> savedViews(const std::vector<ProjectView>& views,
+                                  const std::vector<LayerId>& layers,
+                                  std::uint32_t first_id);
 
 /// The JSON text: members in a fixed order, one value a line, every number exact; only an angle
 /// that no decimal number of degrees gives may be off by one unit in its last place. Files below

@@ -264,6 +264,48 @@ Session withoutOverlay(Session session, const std::string& path)
     return session;
 }
 
+const SavedView* viewOf(const Session& session, ViewId id)
+{
+    const auto hit = std::find_if(session.views.begin(), session.views.end(),
+                                  [id](const SavedView& view) { return view.id == id; });
+    return hit != session.views.end() ? &*hit : nullptr;
+}
+
+Session withView(Session session, SavedView view)
+{
+    if (view.id == ViewId::None) {
+        view.id = ViewId{session.next_view_id};
+    }
+    session.next_view_id = std::max(session.next_view_id, static_cast<std::uint32_t>(view.id) + 1);
+    const auto known = std::find_if(session.views.begin(), session.views.end(),
+                                    [&](const SavedView& other) { return other.id == view.id; });
+    if (known != session.views.end()) {
+        *known = std::move(view);
+    } else {
+        session.views.push_back(std::move(view));
+    }
+    return session;
+}
+
+Session withoutView(Session session, ViewId id)
+{
+    std::erase_if(session.views, [id](const SavedView& view) { return view.id == id; });
+    return session;
+}
+
+Session movedView(Session session, ViewId id, std::size_t index)
+{
+    const SavedView* found = viewOf(session, id);
+    if (found == nullptr) {
+        return session;
+    }
+    SavedView view = *found;
+    session = withoutView(std::move(session), id);
+    const std::size_t to = std::min(index, session.views.size());
+    session.views.insert(session.views.begin() + static_cast<std::ptrdiff_t>(to), std::move(view));
+    return session;
+}
+
 std::vector<LayerState> placement(const Session& session)
 {
     std::vector<LayerState> states;

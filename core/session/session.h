@@ -5,6 +5,7 @@
 #pragma once
 
 #include "core/session/map.h"
+#include "core/session/saved_view.h"
 #include "core/view/color_ramp.h"
 #include "core/view/color_stretch.h"
 #include "core/view/slope_range.h"
@@ -77,10 +78,12 @@ struct Session {
     std::vector<Layer> layers;             // top first
     std::vector<MissingLayer> missing{};   // by index, ascending
     std::vector<VectorOverlay> overlays{}; // in the order in which they were opened
+    std::vector<SavedView> views{};        // in the user's order
     /// The layer that panels and the status bar describe; None only without layers.
     LayerId active = LayerId::None;
     TerrainLook look;
     std::uint32_t next_id = 1;
+    std::uint32_t next_view_id = 1;
 
     bool operator==(const Session&) const = default;
 };
@@ -133,6 +136,16 @@ Session withLook(Session session, const TerrainLook& look);
 /// Adds an overlay, or replaces the one of that path.
 Session withOverlay(Session session, VectorOverlay overlay);
 Session withoutOverlay(Session session, const std::string& path);
+
+/// Null if the view does not exist.
+const SavedView* viewOf(const Session& session, ViewId id);
+/// Replaces the view of that id, or adds it at the end. ViewId::None gets a new id.
+Session withView(Session session, SavedView view);
+/// Unchanged if the view does not exist.
+Session withoutView(Session session, ViewId id);
+/// To `index` in the resulting order; values beyond the end mean the end. Unchanged if the view
+/// does not exist.
+Session movedView(Session session, ViewId id, std::size_t index);
 
 /// Whether a layer is in the picture, and if not, the reason.
 enum class LayerState {

@@ -170,6 +170,29 @@ ProjectMeasurement randomMeasurement(Random& random, std::size_t layer_count)
     return measurement;
 }
 
+ProjectView randomView(Random& random, std::size_t layer_count)
+{
+    ProjectView view;
+    view.name = randomText(random);
+    if (layer_count > 0 && random.chance(0.9)) {
+        view.layer = random.below(layer_count);
+    }
+    if (random.chance(0.7)) {
+        view.body = randomText(random);
+        view.camera.target = GeographicPoint{.longitude = randomAngle(random, -400.0, 400.0),
+                                             .latitude = randomAngle(random, -90.0, 90.0)};
+    } else {
+        view.camera.target = MapPoint{randomNumber(random), randomNumber(random)};
+    }
+    view.camera.elevation_m = randomNumber(random);
+    view.camera.distance_m = random.uniform(1e-3, 1e9);
+    view.camera.azimuth = randomAngle(random, -180.0, 180.0);
+    view.camera.tilt = randomAngle(random, 0.0, 89.0);
+    view.camera.field_of_view = randomAngle(random, 10.0, 80.0);
+    view.exaggeration = random.uniform(1e-3, 1e3);
+    return view;
+}
+
 Project randomProject(Random& random)
 {
     Project project;
@@ -202,10 +225,13 @@ Project randomProject(Random& random)
                                     .crs = random.chance(0.5) ? randomText(random) : ""});
     }
     for (std::size_t left = random.below(5); left > 0; --left) {
+        project.views.push_back(randomView(random, project.layers.size()));
+    }
+    for (std::size_t left = random.below(5); left > 0; --left) {
         project.measurements.push_back(randomMeasurement(random, project.layers.size()));
     }
     if (random.chance(0.3)) {
-        project.others["views"] = R"([{"name":"Tharsis"},3.25])";
+        project.others["future"] = R"([{"name":"Tharsis"},3.25])";
     }
     return project;
 }
@@ -234,6 +260,7 @@ TEST(Project, ThousandRandomSessionsSavedAndOpenedAreEqual)
     const TempFolder folder;
     int layer_count = 0;
     int measurement_count = 0;
+    int view_count = 0;
     for (int i = 0; i < 1000; ++i) {
         const Project project = randomProject(random);
         layer_count += static_cast<int>(project.layers.size());
@@ -241,6 +268,7 @@ TEST(Project, ThousandRandomSessionsSavedAndOpenedAreEqual)
         ASSERT_TRUE(again) << again.error().message;
         ASSERT_EQ(*again, project) << text(project) << "\n" << text(*again);
         measurement_count += static_cast<int>(project.measurements.size());
+        view_count += static_cast<int>(project.views.size());
         const fs::path file = folder.path() / "a.mvproj";
         ASSERT_TRUE(writeProject(project, file, kFolders.bundled));
         const auto read = readProject(file, kFolders.bundled);
@@ -249,6 +277,7 @@ TEST(Project, ThousandRandomSessionsSavedAndOpenedAreEqual)
     }
     EXPECT_GT(layer_count, 2000);
     EXPECT_GT(measurement_count, 1500);
+    EXPECT_GT(view_count, 1500);
 }
 
 TEST(Project, AnglesOfAnyRadiansKeepAllButTheLastPlace)
@@ -395,6 +424,12 @@ TEST(Project, FaultsAreNamed)
          "layers[0].overrides.geotransform is not a list of six numbers"},
         {R"("version":1,"layers":[],"measurements":[{"layer":0}])",
          "measurements[0].layer is not the index of a layer"},
+        {R"("version":1,"layers":[],"views":[{"distance_m":-1}])",
+         "views[0].distance_m is not a length above 0"},
+        {R"("version":1,"layers":[],"views":[{"latitude_deg":91}])",
+         "views[0].latitude_deg is not an angle from -90 to 90"},
+        {R"("version":1,"layers":[],"views":[{"layer":0}])",
+         "views[0].layer is not the index of a layer"},
         {R"("version":1,"layers":[],"overlays":[{"file":"a","color":"red"}])",
          "overlays[0].color is not a color such as #ffdd40"},
         {R"("version":1,"layers":[],"overlays":[{"color":"#ffffff"}])",
@@ -546,6 +581,25 @@ TEST(Project, MissingLayersKeepTheirPlaceAndEverythingElse)
     EXPECT_EQ(session.missing.size(), 2U);
     EXPECT_EQ(projectOf(session).layers, records);
     EXPECT_EQ(session.next_id, 7U);
+}
+
+TEST(Project, ViewsKeepTheirLayersThroughIds)
+{
+    Session session;
+    for (std::uint32_t id = 3; id <= 5; ++id) {
+        session = withMissing(std::move(session), {.id = LayerId{id}, .index = id - 3});
+    }
+    session = withView(session, {.name = "upper", .layer = LayerId{4}});
+    session = withView(session, {.name = "of a removed layer", .layer = LayerId{99}});
+    const Project project = projectOf(session);
+    ASSERT_EQ(project.views.size(), 2U);
+    EXPECT_EQ(project.views[0].layer, 1U);
+    EXPECT_FALSE(project.views[1].layer);
+    const auto views = savedViews(project.views, {LayerId{7}, LayerId{8}, LayerId{9}}, 20);
+    EXPECT_EQ(views[0].layer, LayerId{8});
+    EXPECT_EQ(views[1].layer, LayerId::None);
+    EXPECT_EQ(views[1].id, ViewId{21});
+    EXPECT_EQ(views[1].name, "of a removed layer");
 }
 
 TEST(Project, LayersThatArriveInAnyOrderHaveTheOrderOfTheProject)

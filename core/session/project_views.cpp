@@ -1,0 +1,110 @@
+#include "core/session/project_views.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <variant>
+
+namespace marsview {
+
+Json viewJson(const ProjectView& view)
+{
+    Json json = Json::object();
+    json["name"] = view.name;
+    if (view.layer) {
+        json["layer"] = *view.layer;
+    }
+    if (!view.body.empty()) {
+        json["body"] = view.body;
+    }
+    if (const auto* point = std::get_if<GeographicPoint>(&view.camera.target)) {
+        json["longitude_deg"] = degreesOf(point->longitude);
+        json["latitude_deg"] = degreesOf(point->latitude);
+    } else {
+        const auto& target = std::get<MapPoint>(view.camera.target);
+        json["x"] = target.x;
+        json["y"] = target.y;
+    }
+    json["elevation_m"] = view.camera.elevation_m;
+    json["distance_m"] = view.camera.distance_m;
+    json["azimuth_deg"] = degreesOf(view.camera.azimuth);
+    json["tilt_deg"] = degreesOf(view.camera.tilt);
+    json["field_of_view_deg"] = degreesOf(view.camera.field_of_view);
+    json["exaggeration"] = view.exaggeration;
+    return json;
+}
+
+ProjectView viewFrom(Members& members, std::size_t layer_count)
+{
+    ProjectView view;
+    members.text("name", view.name);
+    members.index("layer", view.layer, layer_count);
+    members.text("body", view.body);
+    if (members.has("x") || members.has("y")) {
+        MapPoint target;
+        members.number("x", target.x);
+        members.number("y", target.y);
+        view.camera.target = target;
+    } else {
+        GeographicPoint target;
+        members.angle(
+            "longitude_deg", target.longitude, [](double) { return true; }, "an angle");
+        members.angle(
+            "latitude_deg", target.latitude,
+            [](double degrees) { return std::abs(degrees) <= 90.0; }, "an angle from -90 to 90");
+        view.camera.target = target;
+    }
+    members.number("elevation_m", view.camera.elevation_m);
+    members.number(
+        "distance_m", view.camera.distance_m, [](double distance) { return distance > 0.0; },
+        "a length above 0");
+    members.angle(
+        "azimuth_deg", view.camera.azimuth, [](double) { return true; }, "an angle");
+    members.angle(
+        "tilt_deg", view.camera.tilt,
+        [](double degrees) { return degrees >= 0.0 && degrees <= 90.0; }, "an angle from 0 to 90");
+    members.angle(
+        "field_of_view_deg", view.camera.field_of_view,
+        [](double degrees) { return degrees > 0.0 && degrees < 180.0; },
+        "an angle between 0 and 180");
+    members.number(
+        "exaggeration", view.exaggeration, [](double factor) { return factor > 0.0; },
+        "a factor above 0");
+    return view;
+}
+
+std::vector<ProjectView> projectViews(const std::vector<SavedView>& views,
+                                      const std::vector<LayerId>& layers)
+{
+    std::vector<ProjectView> result;
+    for (const SavedView& view : views) {
+        ProjectView saved{.name = view.name,
+                          .camera = view.camera,
+                          .exaggeration = view.exaggeration,
+                          .body = view.body};
+        if (const auto layer = std::find(layers.begin(), layers.end(), view.layer);
+            layer != layers.end()) {
+            saved.layer = static_cast<std::size_t>(layer - layers.begin());
+        }
+        result.push_back(std::move(saved));
+    }
+    return result;
+}
+
+std::vector<SavedView> savedViews(const std::vector<ProjectView>& views,
+                                  const std::vector<LayerId>& layers,
+                                  std::uint32_t first_id)
+{
+    std::vector<SavedView> result;
+    for (const ProjectView& view : views) {
+        result.push_back({.id = ViewId{first_id++},
+                          .name = view.name,
+                          .camera = view.camera,
+                          .exaggeration = view.exaggeration,
+                          .layer = view.layer ? layers.at(*view.layer) : LayerId::None,
+                          .body = view.body});
+    }
+    return result;
+}
+
+} // namespace marsview
