@@ -5,21 +5,24 @@
 #include "core/session/map_resources.h"
 #include "core/session/sample_map.h"
 #include "ui/commands/window_commands.h"
+#include "ui/controllers/preferences.h"
 #include "ui/graphics_check.h"
 #include "ui/main_window.h"
 #include "ui/picture_taker.h"
 #include "ui/project/project_menu.h"
+#include "ui/text/language.h"
 #include "ui/widgets/line_style.h"
 
 #include <QApplication>
 #include <QFileInfo>
-#include <QLocale>
 #include <QMessageBox>
+#include <QSettings>
 #include <QStandardPaths>
 #include <QStringList>
 #include <QStyleFactory>
 #include <QSurfaceFormat>
 #include <QTimer>
+#include <QTranslator>
 
 #include <algorithm>
 #include <cstdio>
@@ -185,9 +188,10 @@ int main(int argc, char** argv)
         QCoreApplication::setOrganizationName(QStringLiteral("MarsView"));
         QCoreApplication::setApplicationName(QStringLiteral("MarsView"));
         QCoreApplication::setApplicationVersion(QStringLiteral(MARSVIEW_VERSION));
-        if (QLocale().language() == QLocale::C) {
-            QLocale::setDefault(QLocale(QLocale::English)); // with group separators
-        }
+        const QString language =
+            marsview::languageFor(marsview::preferencesFrom(QSettings()).language);
+        marsview::useNumbersOf(language);
+        const auto translators = marsview::translateTo(language);
         QGuiApplication::setDesktopFileName(QStringLiteral("org.marsview.MarsView"));
         return runWindow(*application, *arguments);
     } catch (const std::exception& e) {

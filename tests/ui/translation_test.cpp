@@ -1,6 +1,8 @@
 // Every text that users read must pass through translation: a test translator marks the texts that
 // it receives, and unmarked texts were not passed to it.
 
+#include "tests/support/shared_data.h"
+#include "tests/ui/pseudo_translator.h"
 #include "tests/ui/test_map.h"
 #include "tests/ui/widget_walk.h"
 #include "ui/canvas/terrain_view.h"
@@ -14,17 +16,21 @@
 #include "ui/panels/georeferencing_panel.h"
 #include "ui/panels/layer_model.h"
 #include "ui/panels/layers_panel.h"
+#include "ui/text/language.h"
 #include "ui/widgets/light_popup.h"
 #include "ui/window/keys_dialog.h"
 #include "ui/window/window_actions.h"
 
 #include <QApplication>
+#include <QFile>
 #include <QLabel>
 #include <QLineEdit>
 #include <QMenuBar>
 #include <QRegularExpression>
+#include <QSet>
 #include <QTest>
 #include <QTranslator>
+#include <QXmlStreamReader>
 
 #include <gtest/gtest.h>
 
@@ -195,6 +201,108 @@ TEST_F(TranslationTest, ReachesEveryDialog)
     expectMarked(go_to);
     go_to.findChild<QLineEdit*>(QStringLiteral("coordinate"))->setText(QStringLiteral("-50, 15"));
     expectMarked(go_to);
+}
+
+// The English texts that have another wording in German.
+QSet<QString> translatedTexts()
+{
+    QFile file(QString::fromStdString(
+        (test::sourceRoot() / "resources/translations/marsview_de.ts").string()));
+    EXPECT_TRUE(file.open(QIODevice::ReadOnly));
+    QXmlStreamReader xml(&file);
+    QSet<QString> texts;
+    QString source;
+    while (!xml.atEnd()) {
+        if (xml.readNext() != QXmlStreamReader::StartElement) {
+            continue;
+        }
+        if (xml.name() == QLatin1String("source")) {
+            source = xml.readElementText();
+        } else if (xml.name() == QLatin1String("translation")) {
+            const bool is_finished = !xml.attributes().hasAttribute(QLatin1String("type"));
+            const QString text = xml.readElementText(QXmlStreamReader::IncludeChildElements);
+            if (is_finished && text.trimmed() != source.trimmed()) {
+                texts.insert(source);
+            }
+        }
+    }
+    return texts;
+}
+
+class GermanTest : public testing::Test {
+protected:
+    void SetUp() override
+    {
+        if (languages().size() == 1) {
+            GTEST_SKIP() << "built without Qt's LinguistTools";
+        }
+        translators_ = translateTo(QStringLiteral("de"));
+        english_ = translatedTexts();
+        ASSERT_GT(english_.size(), 500);
+    }
+
+    // A text that is found in English was looked up in a context that has no translation of it.
+    void expectGerman(const QWidget& root) const
+    {
+        for (const FoundText& found : textsOf(root)) {
+            EXPECT_FALSE(english_.contains(found.text))
+                << describe(root).toStdString() << ", " << found.place.toStdString() << ": "
+                << found.text.toStdString();
+        }
+    }
+
+    std::vector<std::unique_ptr<QTranslator>> translators_;
+    QSet<QString> english_;
+};
+
+TEST_F(GermanTest, ReachesTheWindowAndItsDialogs)
+{
+    const TestMaps maps;
+    MainWindow window(testWindowOptions());
+    window.resize(1280, 800);
+    window.show();
+    window.controller().open({maps.hill(), maps.mars()});
+    ASSERT_TRUE(waitUntilSettled(window));
+    EXPECT_EQ(window.menuBar()->actions().front()->text(), QStringLiteral("&Datei"));
+    expectGerman(window);
+    window.georeferencingPanel()->edit();
+    expectGerman(window);
+    expectGerman(AboutDialog(QString(), &window));
+    expectGerman(AddressDialog({}, &window));
+    expectGerman(KeysDialog(*window.menuBar(), &window));
+    expectGerman(PreferencesDialog({}, {}, &window));
+    expectGerman(SavePictureDialog({800, 600}, {}, &window));
+    expectGerman(GoToDialog(window.view()->map(), {}, {}, {}, &window));
+}
+
+// In a language with longer words and in one that is read from right to left.
+TEST(PseudoTranslation, KeepsTheWindowAndItsDialogsOnASmallScreen)
+{
+    PseudoTranslator translator;
+    ASSERT_TRUE(QCoreApplication::installTranslator(&translator));
+    for (const Qt::LayoutDirection direction : {Qt::LeftToRight, Qt::RightToLeft}) {
+        QGuiApplication::setLayoutDirection(direction);
+        const TestMaps maps;
+        MainWindow window(testWindowOptions());
+        window.resize(1280, 800);
+        window.show();
+        window.controller().open({maps.hill(), maps.mars()});
+        ASSERT_TRUE(waitUntilSettled(window));
+        EXPECT_LE(window.width(), 1280);
+        EXPECT_LE(window.height(), 800);
+        const auto expect_small = [](QWidget&& dialog) {
+            dialog.ensurePolished();
+            EXPECT_LE(dialog.sizeHint().width(), 1280) << describe(dialog).toStdString();
+            EXPECT_LE(dialog.sizeHint().height(), 760) << describe(dialog).toStdString();
+        };
+        expect_small(AboutDialog(QString(), &window));
+        expect_small(AddressDialog({}, &window));
+        expect_small(PreferencesDialog({}, {}, &window));
+        expect_small(SavePictureDialog({800, 600}, {}, &window));
+        expect_small(GoToDialog(window.view()->map(), {}, {}, {}, &window));
+    }
+    QGuiApplication::setLayoutDirection(Qt::LeftToRight);
+    QCoreApplication::removeTranslator(&translator);
 }
 
 } // namespace

@@ -36,6 +36,11 @@ QString themeKey()
     return QStringLiteral("preferences/theme");
 }
 
+QString languageKey()
+{
+    return QStringLiteral("preferences/language");
+}
+
 QString unitKey()
 {
     return QStringLiteral("preferences/heightUnit");
@@ -150,6 +155,7 @@ Preferences preferencesFrom(const QSettings& settings)
 {
     const Preferences standard;
     Preferences preferences;
+    preferences.language = settings.value(languageKey()).toString();
     preferences.theme = enumFrom(settings.value(themeKey()), kThemes, standard.theme);
     preferences.height_unit = enumFrom(settings.value(unitKey()), kUnits, standard.height_unit);
     preferences.coordinates = coordinatesFrom(settings);
@@ -190,6 +196,7 @@ std::uint64_t fetchedBytesMax(const Preferences& preferences)
 
 void save(const Preferences& preferences, QSettings& settings)
 {
+    settings.setValue(languageKey(), preferences.language);
     settings.setValue(themeKey(),
                       QLatin1String(kThemes[static_cast<std::size_t>(preferences.theme)]));
     settings.setValue(unitKey(),

@@ -20,6 +20,7 @@ enum class Theme { System, Light, Dark };
 inline constexpr int kTileMemoryMbMin = 128;
 
 struct Preferences {
+    QString language{}; // code as in languages(); empty: the system's
     Theme theme = Theme::System;
     HeightUnit height_unit = HeightUnit::Meters;
     CoordinateFormat coordinates{}; // wherever positions are read or typed

@@ -1,5 +1,6 @@
 #include "ui/dialogs/preferences_dialog.h"
 
+#include "ui/text/language.h"
 #include "ui/text/number_text.h"
 
 #include <QCheckBox>
@@ -13,6 +14,8 @@
 #include <QTabWidget>
 #include <QVBoxLayout>
 
+#include <algorithm>
+
 namespace marsview {
 
 PreferencesDialog::PreferencesDialog(const Preferences& preferences,
@@ -20,6 +23,7 @@ PreferencesDialog::PreferencesDialog(const Preferences& preferences,
                                      QWidget* parent)
     : QDialog(parent)
     , before_(preferences)
+    , language_(new QComboBox(this))
     , theme_(new QComboBox(this))
     , height_unit_(new QComboBox(this))
     , frame_rate_(new QComboBox(this))
@@ -29,6 +33,14 @@ PreferencesDialog::PreferencesDialog(const Preferences& preferences,
     , pages_(new QTabWidget(this))
 {
     setWindowTitle(tr("Preferences"));
+    //: A language: that of the desktop
+    language_->addItem(tr("Follow system", "language"), QString());
+    for (const Language& language : languages()) {
+        language_->addItem(language.name, language.code);
+    }
+    language_->setAccessibleName(tr("Language"));
+    language_->setObjectName(QStringLiteral("language"));
+    language_->setToolTip(tr("Takes effect when MarsView is started again"));
     //: A theme: as light or dark as the desktop
     theme_->addItem(tr("Follow system"), static_cast<int>(Theme::System));
     theme_->addItem(tr("Light"), static_cast<int>(Theme::Light));
@@ -58,6 +70,7 @@ PreferencesDialog::PreferencesDialog(const Preferences& preferences,
     };
     //: A group of the preferences
     QFormLayout* appearance = add_group(tr("Appearance"));
+    appearance->addRow(tr("&Language"), language_);
     appearance->addRow(tr("&Theme"), theme_);
     appearance->addRow(tr("&Elevation unit"), height_unit_);
     //: A group of the preferences: the picture of the terrain
@@ -87,7 +100,7 @@ PreferencesDialog::PreferencesDialog(const Preferences& preferences,
     fill(preferences);
 
     const auto notify = [this] { Q_EMIT preferencesChanged(this->preferences()); };
-    for (QComboBox* box : {theme_, height_unit_, frame_rate_}) {
+    for (QComboBox* box : {language_, theme_, height_unit_, frame_rate_}) {
         connect(box, &QComboBox::currentIndexChanged, this, notify);
     }
     connect(antialiasing_, &QCheckBox::toggled, this, notify);
@@ -103,6 +116,7 @@ PreferencesDialog::PreferencesDialog(const Preferences& preferences,
 
 void PreferencesDialog::fill(const Preferences& preferences)
 {
+    language_->setCurrentIndex(std::max(0, language_->findData(preferences.language)));
     theme_->setCurrentIndex(theme_->findData(static_cast<int>(preferences.theme)));
     height_unit_->setCurrentIndex(
         height_unit_->findData(static_cast<int>(preferences.height_unit)));
@@ -115,6 +129,7 @@ void PreferencesDialog::fill(const Preferences& preferences)
 Preferences PreferencesDialog::preferences() const
 {
     Preferences preferences = before_;
+    preferences.language = language_->currentData().toString();
     preferences.theme = static_cast<Theme>(theme_->currentData().toInt());
     preferences.height_unit = static_cast<HeightUnit>(height_unit_->currentData().toInt());
     preferences.has_antialiasing = antialiasing_->isChecked();

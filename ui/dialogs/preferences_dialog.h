@@ -36,6 +36,7 @@ private:
     void fill(const Preferences& preferences);
 
     Preferences before_;
+    QComboBox* language_ = nullptr;
     QComboBox* theme_ = nullptr;
     QComboBox* height_unit_ = nullptr;
     QComboBox* frame_rate_ = nullptr;
