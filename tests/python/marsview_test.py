@@ -4,6 +4,7 @@ import json
 import math
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -289,6 +290,26 @@ class Documentation(unittest.TestCase):
             if "OpenGL" not in str(error) and "EGL" not in str(error):
                 raise
             self.skipTest(str(error))
+        self.assertTrue(names["touched"]["contact"].all())
+
+    def test_examples_of_the_guide_run(self):
+        guide = (ROOT / "resources/guide/python.md").read_text(encoding="utf-8")
+        python = guide.split("\n## Python\n")[1].split("\n## ")[0]
+        blocks = re.findall(r"(?:^    .*\n|^\n)+", python, re.MULTILINE)
+        code = "".join(block for block in blocks if "apt install" not in block)
+        lines = [line[4:] for line in code.splitlines() if line.startswith("    ")]
+        names = {
+            "lons": numpy.array([10.0, 20.0]),
+            "lats": numpy.array([1.0, 2.0]),
+            "goals": [[226.0, 18.0, 5000.0], [226.1, 18.0, 5000.0]],
+        }
+        ran = 0
+        for line in lines:
+            if ".render(" in line:
+                continue  # needs OpenGL; tested above
+            exec(line.replace('"mars_mola_4ppd.tif"', repr(str(MARS))), names)
+            ran += 1
+        self.assertGreater(ran, 6)
         self.assertTrue(names["touched"]["contact"].all())
 
 
