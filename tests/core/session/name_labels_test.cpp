@@ -107,6 +107,32 @@ TEST_F(NameLabelsTest, NoLabelsOverlapInAThousandRandomViews)
     EXPECT_GT(pictures_with_labels, 300U);
 }
 
+// With many more names than Mars, most of them of small craters.
+TEST(NameLabels, NoneOverlapOnTheMoonEither)
+{
+    MARSVIEW_NEEDS_SHARED_DATA();
+    const auto map = load((sharedData() / "moon_lola/LDEM_4.IMG").string());
+    const SceneSurface ground{std::vector{map}};
+    const auto names = bundledGazetteer(*map->info().body);
+    NameLabels all(names, ground);
+    EXPECT_GT(all.count(), 8900U);
+    Random random;
+    std::size_t labels = 0;
+    for (int i = 0; i < 300; ++i) {
+        const OrbitCamera camera = randomCamera(random, ground, 1.0);
+        const auto shown =
+            all.inPicture(camera, {.viewport = kPicture},
+                          [&](std::size_t name, double) { return sizeOf(*names, name); });
+        labels += shown.size();
+        for (std::size_t a = 0; a < shown.size(); ++a) {
+            for (std::size_t b = 0; b < a; ++b) {
+                ASSERT_FALSE(shown[a].box.overlaps(shown[b].box));
+            }
+        }
+    }
+    EXPECT_GT(labels, 1000U);
+}
+
 TEST_F(NameLabelsTest, LargeFeaturesAreNamedFromAfarAndSmallOnesNearby)
 {
     NameLabels all(names_, ground_);
