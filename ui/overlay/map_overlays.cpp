@@ -5,6 +5,7 @@
 #include "core/view/scale_bar.h"
 #include "ui/canvas/terrain_view.h"
 #include "ui/overlay/compass.h"
+#include "ui/overlay/contour_labels_view.h"
 #include "ui/overlay/crosshair.h"
 #include "ui/overlay/focus_frame.h"
 #include "ui/overlay/force_meter.h"
@@ -44,6 +45,7 @@ constexpr PictureProbes kProbes{.columns = 24, .rows = 16};
 MapOverlays::MapOverlays(TerrainView& view)
     : QObject(&view)
     , view_(view)
+    , contour_labels_(new ContourLabelsView(view))
     , labels_(new MapLabels(view))
     , minimap_(new Minimap(&view))
     , compass_(new Compass(&view))
@@ -84,6 +86,22 @@ MapOverlays::MapOverlays(TerrainView& view)
     place_mark_->lower();
     crosshair_->lower();
     labels_->lower();
+    contour_labels_->lower();
+    contour_labels_->setObstacles([this] {
+        std::vector<QRectF> boxes;
+        for (const QWidget* plate : plates()) {
+            if (plate->isVisible()) {
+                boxes.emplace_back(plate->geometry());
+            }
+        }
+        for (const MapLabels::Label& label : labels_->nameLabels()) {
+            boxes.push_back(label.box);
+        }
+        for (const MapLabels::Label& label : labels_->graticuleLabels()) {
+            boxes.push_back(label.box);
+        }
+        return boxes;
+    });
     const QList<QWidget*> obstacles = plates();
     labels_->setObstacles({obstacles.begin(), obstacles.end()});
     const auto add = [this](const QString& text, const QString& name, bool is_on, auto show) {
@@ -177,6 +195,10 @@ std::vector<PicturePart> MapOverlays::partsFor(const OrbitCamera& camera,
             taken.emplace_back(part.at, part.image.size());
         }
         for (PicturePart& label : labels_->partsFor(camera, picture, taken)) {
+            taken.emplace_back(label.at, label.image.size());
+            made.push_back(std::move(label));
+        }
+        for (PicturePart& label : contour_labels_->partsFor(camera, picture, taken)) {
             made.push_back(std::move(label));
         }
     }
@@ -270,6 +292,7 @@ void MapOverlays::setSession(const Session& session)
 void MapOverlays::setHeightUnit(HeightUnit unit)
 {
     height_unit_ = unit;
+    contour_labels_->setHeightUnit(unit);
     showLegend();
 }
 

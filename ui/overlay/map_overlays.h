@@ -22,6 +22,7 @@ class QMouseEvent;
 namespace marsview {
 
 class Compass;
+class ContourLabelsView;
 class Crosshair;
 class FocusFrame;
 class ForceMeter;
@@ -54,6 +55,7 @@ public:
 
     GestureHint* hint() const noexcept { return hint_; }
     MapLabels* labels() const noexcept { return labels_; }
+    ContourLabelsView* contourLabels() const noexcept { return contour_labels_; }
     /// The overlays in the corners, on translucent plates: text on the map keeps clear of them.
     QList<QWidget*> plates() const;
 
@@ -73,7 +75,7 @@ public:
     struct PictureParts {
         bool has_legend = true;
         bool has_scale = true;  // compass and scale bar
-        bool has_labels = true; // names and values of the graticule
+        bool has_labels = true; // names, values of the graticule, elevations of contours
     };
     /// Overlays for a picture of any size that `camera` has of what the view shows, as they are
     /// now: as large as in the view where it is as high, and at the same distance from their
@@ -115,7 +117,8 @@ private:
     void clearMarkOnClick(const QMouseEvent& event);
 
     TerrainView& view_;
-    MapLabels* labels_ = nullptr; // below all others
+    ContourLabelsView* contour_labels_ = nullptr; // below all others
+    MapLabels* labels_ = nullptr;                 // below those that follow
     Minimap* minimap_ = nullptr;
     Compass* compass_ = nullptr;
     Crosshair* crosshair_ = nullptr; // below those that follow
