@@ -15,6 +15,7 @@
 #include "ui/panels/layers_panel.h"
 #include "ui/panels/measure_panel.h"
 #include "ui/text/number_text.h"
+#include "ui/views/saved_views_panel.h"
 #include "ui/widgets/icons.h"
 #include "ui/widgets/light_popup.h"
 #include "ui/widgets/notice_bar.h"
@@ -94,8 +95,10 @@ MainWindow::MainWindow(const WindowOptions& options, QWidget* parent)
     , measure_(new MeasureController(*view_, controller_->undoStack(), this))
     , measure_marks_(new MeasureMarks(*measure_, view_))
     , measure_panel_(new MeasurePanel(*measure_, this))
+    , views_panel_(new SavedViewsPanel(this))
     , docks_(new WindowDocks(*this,
                              {.datasets = datasets_,
+                              .views = views_panel_,
                               .georeferencing = georeferencing_,
                               .haptics = haptics_panel_,
                               .measurements = measure_panel_}))
@@ -177,6 +180,7 @@ void MainWindow::makeStatusBar()
 void MainWindow::fillViewMenus()
 {
     actions_->panels->addAction(docks_->datasets()->toggleViewAction());
+    actions_->panels->addAction(docks_->views()->toggleViewAction());
     actions_->panels->addAction(docks_->georeferencing()->toggleViewAction());
     actions_->panels->addAction(docks_->haptics()->toggleViewAction());
     actions_->panels->addAction(docks_->measurements()->toggleViewAction());
@@ -209,11 +213,13 @@ void MainWindow::makeCommands()
                             .georeferencing = *georeferencing_,
                             .haptics_panel = *haptics_panel_,
                             .measure_panel = *measure_panel_,
+                            .views_panel = *views_panel_,
                             .tool_bar = *tool_bar_,
                             .light = *light_popup_,
                             .readout = *readout_,
                             .load_status = *load_status_};
     commands_ = std::make_unique<WindowCommands>(parts, options_);
+    commands_->views.menu()->installEventFilter(this);
     connect(&commands_->progress, &WorkProgress::settled, this, &MainWindow::settled);
 }
 

@@ -25,6 +25,7 @@ class MeasurePanel;
 class NoticeBar;
 class NoticeCenter;
 class PictureSaver;
+class SavedViewsPanel;
 class StatusReadout;
 class StretchControl;
 class TerrainView;
@@ -57,6 +58,7 @@ public:
     HapticsPanel* hapticsPanel() const noexcept { return haptics_panel_; }
     MeasureController* measuring() const noexcept { return measure_; }
     MeasurePanel* measurePanel() const noexcept { return measure_panel_; }
+    SavedViewsPanel* savedViewsPanel() const noexcept { return views_panel_; }
     HapticsController& haptics() noexcept { return *haptics_; }
     WindowDocks* docks() const noexcept { return docks_; }
     MapOverlays* overlays() const noexcept { return overlays_; }
@@ -116,6 +118,7 @@ private:
     MeasureController* measure_ = nullptr;
     MeasureMarks* measure_marks_ = nullptr;
     MeasurePanel* measure_panel_ = nullptr;
+    SavedViewsPanel* views_panel_ = nullptr;
     WindowDocks* docks_ = nullptr;
     WindowPlace* place_ = nullptr; // only where the window is remembered
     MainToolBar* tool_bar_ = nullptr;

@@ -13,8 +13,8 @@ namespace marsview {
 class TerrainView;
 
 /// Draws the terrain that a camera has, block by block, in the GUI thread between its events. Look
-/// and exaggeration are those at the start. Where the view gets other layers meanwhile, it begins
-/// again with these. Its end stops it. Must not outlive the view.
+/// and exaggeration are those at the start unless set. Where the view gets other layers meanwhile,
+/// it begins again with these. Its end stops it. Must not outlive the view.
 class PictureDrawing final : public QObject {
     Q_OBJECT
 
@@ -24,6 +24,9 @@ public:
                    const QSize& size,
                    PictureLines lines = PictureLines::Drawn,
                    QObject* parent = nullptr);
+
+    /// In place of the view's; before the first events are handled.
+    void setStyle(const DrawStyle& style) { style_ = style; }
 
 Q_SIGNALS:
     /// The share that is drawn, 0 to 1.

@@ -12,6 +12,7 @@
 #include "ui/window/window_messages.h"
 #include "ui/window/window_options.h"
 
+#include <QMenu>
 #include <QObject>
 
 namespace marsview {
@@ -93,10 +94,25 @@ WindowCommands::WindowCommands(const WindowParts& parts, const WindowOptions& op
               .georeferencing = parts.georeferencing,
               .tool_bar = parts.tool_bar,
               .light = parts.light})
+    , views({.session = parts.session,
+             .view = parts.view,
+             .panel = parts.views_panel,
+             .menu = *parts.actions.view_menu,
+             .before = parts.actions.coordinate_format->menuAction(),
+             .names = [this] { return names.namesOnMap(); },
+             .format = [this] { return preferences.preferences().coordinates; },
+             .reveal_panel = [&docks = parts.docks] { docks.reveal(*docks.views()); }})
+    , fly_through({.window = parts.window,
+                   .session = parts.session,
+                   .view = parts.view,
+                   .overlays = parts.overlays,
+                   .measuring = parts.measuring,
+                   .open = *views.actions().fly_through})
     , progress({.actions = parts.actions,
                 .session = parts.session,
                 .view = parts.view,
                 .pictures = parts.pictures,
+                .recordings = fly_through.recorder(),
                 .status = parts.load_status,
                 .messages = parts.messages})
     , places({.window = parts.window,
@@ -152,6 +168,7 @@ void WindowCommands::showMessages(WindowMessages& messages)
     QObject::connect(&vector_files, &VectorTools::opened, &messages, &WindowMessages::show);
     QObject::connect(&vector_files, &VectorTools::failed, &messages,
                      report_as(tr("Cannot Open Vector File")));
+    QObject::connect(&views, &SavedViews::reported, &messages, &WindowMessages::show);
     QObject::connect(&names, &NameSearch::opened, &messages, &WindowMessages::show);
     QObject::connect(&names, &NameSearch::failed, &messages, report_as(tr("Cannot Open Names")));
     QObject::connect(&spacemouse, &SpaceMouseController::connected, &messages,

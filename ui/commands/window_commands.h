@@ -17,6 +17,8 @@
 #include "ui/controllers/spacemouse_controller.h"
 #include "ui/project/project_controller.h"
 #include "ui/project/project_menu.h"
+#include "ui/views/fly_through_tools.h"
+#include "ui/views/saved_views.h"
 #include "ui/window/window_notices.h"
 
 #include <QCoreApplication>
@@ -46,6 +48,7 @@ struct WindowParts {
     GeoreferencingPanel& georeferencing;
     HapticsPanel& haptics_panel;
     MeasurePanel& measure_panel;
+    SavedViewsPanel& views_panel;
     MainToolBar& tool_bar;
     LightPopup& light;
     StatusReadout& readout;
@@ -69,6 +72,8 @@ public:
     FileOpening files;
     ViewCommands view;
     LayerCommands layers;
+    SavedViews views;
+    FlyThroughTools fly_through;
     WorkProgress progress;
     PlaceCommands places;
     MeasureCommands measuring;

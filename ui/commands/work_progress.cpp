@@ -4,6 +4,7 @@
 #include "ui/commands/picture_saver.h"
 #include "ui/controllers/session_controller.h"
 #include "ui/text/number_text.h"
+#include "ui/views/fly_through_recorder.h"
 #include "ui/window/load_status.h"
 #include "ui/window/window_actions.h"
 #include "ui/window/window_messages.h"
@@ -17,7 +18,12 @@ WorkProgress::WorkProgress(const Parts& parts)
     : parts_(parts)
 {
     connect(parts_.actions.cancel_loading, &QAction::triggered, this, [this] {
-        parts_.session.isBusy() ? parts_.session.cancel() : parts_.pictures.cancel();
+        if (parts_.session.isBusy()) {
+            parts_.session.cancel();
+            return;
+        }
+        parts_.pictures.cancel();
+        parts_.recordings.cancel();
     });
     connect(&parts_.view, &TerrainView::ready, this, &WorkProgress::settleIfIdle,
             Qt::QueuedConnection);
@@ -73,15 +79,21 @@ void WorkProgress::followPreparing()
 
 void WorkProgress::followSaving()
 {
-    PictureSaver& pictures = parts_.pictures;
-    connect(&parts_.status, &LoadStatus::cancelSavingRequested, &pictures, &PictureSaver::cancel);
     connect(parts_.actions.save_picture, &QAction::triggered, this, [this] {
         const Layer* active = activeLayer(parts_.session.session());
         parts_.pictures.start(
             active != nullptr ? QFileInfo(QString::fromStdString(active->name)).completeBaseName()
                               : tr("map"));
     });
-    connect(&pictures, &PictureSaver::progressed, this, [this](const QString& file, double share) {
+    follow(parts_.pictures, tr("Cannot Save Picture"));
+    follow(parts_.recordings, tr("Cannot Record Fly-Through"));
+}
+
+template <typename Saver>
+void WorkProgress::follow(Saver& saver, const QString& failure_title)
+{
+    connect(&parts_.status, &LoadStatus::cancelSavingRequested, &saver, &Saver::cancel);
+    connect(&saver, &Saver::progressed, this, [this](const QString& file, double share) {
         parts_.status.showSaving(file, share);
         showCancel();
     });
@@ -89,27 +101,32 @@ void WorkProgress::followSaving()
         parts_.status.endSaving();
         showCancel();
     };
-    connect(&pictures, &PictureSaver::failed, this, end_saving);
-    connect(&pictures, &PictureSaver::saved, this, end_saving);
-    connect(&pictures, &PictureSaver::canceled, this, end_saving);
-    connect(&pictures, &PictureSaver::canceled, this, [this] {
+    connect(&saver, &Saver::failed, this, end_saving);
+    connect(&saver, &Saver::saved, this, end_saving);
+    connect(&saver, &Saver::canceled, this, end_saving);
+    connect(&saver, &Saver::canceled, this, [this] {
         //: In the status bar, for a few seconds
         parts_.messages.show(tr("Saving canceled"));
     });
-    connect(&pictures, &PictureSaver::saved, &parts_.messages, &WindowMessages::showSaved);
-    connect(&pictures, &PictureSaver::failed, this, [this](const QString& problem) {
-        parts_.messages.report(tr("Cannot Save Picture"), problem);
+    connect(&saver, &Saver::saved, &parts_.messages, &WindowMessages::showSaved);
+    connect(&saver, &Saver::failed, this, [this, failure_title](const QString& problem) {
+        parts_.messages.report(failure_title, problem);
     });
+}
+
+bool WorkProgress::isSaving() const
+{
+    return parts_.pictures.isSaving() || parts_.recordings.isRecording();
 }
 
 void WorkProgress::showCancel()
 {
     const bool is_loading = parts_.session.isBusy();
-    const bool is_saving = parts_.pictures.isSaving();
+    const bool is_saving = isSaving();
     QAction& cancel = *parts_.actions.cancel_loading;
     cancel.setEnabled(is_loading || is_saving);
     cancel.setText(is_saving && !is_loading ? tr("&Cancel Saving") : tr("&Cancel Loading"));
-    parts_.actions.save_picture->setEnabled(!is_saving);
+    parts_.actions.save_picture->setEnabled(!parts_.pictures.isSaving());
 }
 
 void WorkProgress::settleIfIdle()

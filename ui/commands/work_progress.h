@@ -1,10 +1,11 @@
-// What the window is busy with: loading, building overviews, saving a picture.
+// What the window is busy with: loading, building overviews, saving pictures, recordings.
 #pragma once
 
 #include <QObject>
 
 namespace marsview {
 
+class FlyThroughRecorder;
 class LoadStatus;
 class PictureSaver;
 class SessionController;
@@ -22,6 +23,7 @@ public:
         SessionController& session;
         TerrainView& view;
         PictureSaver& pictures;
+        FlyThroughRecorder& recordings;
         LoadStatus& status;
         WindowMessages& messages;
     };
@@ -40,6 +42,9 @@ private:
     void followLoading();
     void followPreparing();
     void followSaving();
+    template <typename Saver>
+    void follow(Saver& saver, const QString& failure_title);
+    bool isSaving() const;
     void showCancel();
 
     Parts parts_;

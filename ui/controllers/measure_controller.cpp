@@ -483,6 +483,29 @@ std::optional<ScenePoint> MeasureController::scenePoint(const MeasuredVertex& ve
     return position ? scenePoint(*position) : std::nullopt;
 }
 
+std::vector<ScenePoint> MeasureController::pathOf(const MeasureItem& item) const
+{
+    constexpr int kStepsOfLeg = 64;
+    std::vector<ScenePoint> path;
+    const auto add = [&](const std::optional<ScenePoint>& point) {
+        if (point) {
+            path.push_back(*point);
+        }
+    };
+    for (std::size_t i = 0; item.isLine() && i + 1 < item.vertices.size(); ++i) {
+        const auto from = positionOf(item.vertices[i]);
+        const auto to = positionOf(item.vertices[i + 1]);
+        if (!from || !to) {
+            return {};
+        }
+        const GroundLine line = geometry_->ground().line(*from, *to);
+        for (int step = path.empty() ? 0 : 1; step <= kStepsOfLeg; ++step) {
+            add(scenePoint(line.at(line.lengthM() * step / kStepsOfLeg)));
+        }
+    }
+    return path;
+}
+
 // The tool ----------------------------------------------------------------------------------------
 
 void MeasureController::addPoint(const Place& place)

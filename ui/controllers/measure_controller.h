@@ -130,6 +130,9 @@ public:
     void setProfileCursor(std::optional<double> distance_m);
     std::optional<QPointF> profileCursorPlace() const;
     const Layer* layerOf(const MeasureItem& item) const;
+    /// Points of the scene along an item that is a line, as it lies on the terrain. Fewer than two
+    /// if it is not on the layers shown.
+    std::vector<ScenePoint> pathOf(const MeasureItem& item) const;
     /// Moves a point to a typed place. Ignored where the item has no such point.
     void movePoint(std::uint32_t id, std::size_t index, const MeasuredVertex& vertex);
 

@@ -44,16 +44,6 @@ GridPoint placeOn(const Map& map, double column_share, double row_share)
             row_share * static_cast<double>(map.heightfield().rows() - 1)};
 }
 
-// With a layer in the picture: on top if it cannot be shown together with the current layers.
-Session shownIn(const Session& session, LayerId id)
-{
-    Session after = withVisibility(session, id, true);
-    const std::vector<LayerState> states = placement(after);
-    return states[indexOf(after, id)] == LayerState::Shown
-               ? after
-               : activated(moved(std::move(after), id, 0), id);
-}
-
 // From where the larger side of a map fills most of a picture that is 40° high.
 double distanceToSee(const Map& map)
 {
@@ -65,6 +55,16 @@ double distanceToSee(const Map& map)
 }
 
 } // namespace
+
+// With a layer in the picture: on top if it cannot be shown together with the current layers.
+Session SessionController::withLayerShown(const Session& session, LayerId id)
+{
+    Session after = withVisibility(session, id, true);
+    const std::vector<LayerState> states = placement(after);
+    return states[indexOf(after, id)] == LayerState::Shown
+               ? after
+               : activated(moved(std::move(after), id, 0), id);
+}
 
 const ColorRamp& rampOf(const Layer& layer)
 {
@@ -196,13 +196,19 @@ void SessionController::openProject(const Project& project)
     session.look = project.look;
     session.overlays = project.overlays;
     session.next_id = session_.next_id;
+    session.next_view_id = session_.next_view_id;
+    std::vector<LayerId> ids;
     for (std::size_t i = 0; i < project.layers.size(); ++i) {
         const LayerId id{session.next_id};
+        ids.push_back(id);
         session =
             withMissing(std::move(session), {.id = id, .record = project.layers[i], .index = i});
         if (project.active == i) {
             project_active_ = id;
         }
+    }
+    for (SavedView& view : savedViews(project.views, ids, session.next_view_id)) {
+        session = withView(std::move(session), std::move(view));
     }
     apply(session);
     for (const MissingLayer& missing : session.missing) {
@@ -454,7 +460,7 @@ void SessionController::setVisible(LayerId id, bool is_visible)
         const QString text = is_visible ? tr("Show %1") : tr("Hide %1");
         const QString name = nameOf(*layer);
         const Session after =
-            is_visible ? shownIn(session_, id) : withVisibility(session_, id, false);
+            is_visible ? withLayerShown(session_, id) : withVisibility(session_, id, false);
         if (is_visible && shownLayers(after).front()->id == id) {
             to_reveal_ = id;
         }
@@ -669,8 +675,10 @@ void SessionController::apply(const Session& session)
 {
     // Steps of undo know of other active layers; ids given since then stay given.
     const std::uint32_t next_id = std::max(session_.next_id, session.next_id);
+    const std::uint32_t next_view_id = std::max(session_.next_view_id, session.next_view_id);
     session_ = session;
     session_.next_id = next_id;
+    session_.next_view_id = next_view_id;
     for (Layer& layer : session_.layers) {
         layer.map = latest(layer.map);
     }
@@ -728,7 +736,7 @@ void SessionController::goTo(LayerId id)
     };
     if (const Layer* hidden = layerOf(session_, id); hidden != nullptr && !is_shown()) {
         //: Continues "Undo …"; %1 is a layer
-        change(tr("Show %1").arg(nameOf(*hidden)), shownIn(session_, id));
+        change(tr("Show %1").arg(nameOf(*hidden)), withLayerShown(session_, id));
     }
     const Layer* layer = layerOf(session_, id);
     const Map* scene = view_.map().get();

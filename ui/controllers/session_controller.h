@@ -146,6 +146,19 @@ public:
     void setOverlay(const VectorOverlay& overlay);
     void removeOverlay(const std::string& path);
 
+    /// Adds a view at the end, under the id that is returned.
+    ViewId addView(SavedView view);
+    // Without effect if the view does not exist or nothing would change.
+    void updateView(const SavedView& view);
+    void renameView(ViewId id, const QString& name);
+    void moveView(ViewId id, std::size_t index);
+    void removeView(ViewId id);
+    /// Whether a layer of the session has the place of that view.
+    bool canShow(const SavedView& view) const;
+    /// Brings the layer and the exaggeration of a view into the picture, in one step of undo, for
+    /// the camera to go there. False if the view does not exist, or canShow() is false.
+    bool prepareView(ViewId id);
+
     /// Flies to where all of a layer is in sight, and shows it first if it is not shown.
     void goTo(LayerId id);
 
@@ -216,6 +229,8 @@ private:
     void forgetEnding(const RasterSpec& spec);
     void lookAfterPreviews();
     bool isCompleting(LayerId id) const;
+    static Session withLayerShown(const Session& session, LayerId id);
+    const Layer* layerForView(const SavedView& view) const;
     void change(const QString& text, const Session& after, SessionRun run = {});
     SessionRun runOf(ChangeKind kind, SessionRun::Kind what) const;
     void apply(const Session& session);

@@ -70,6 +70,7 @@ void setIcons(const WindowDocks& docks)
 {
     for (const auto& [dock, name] : {
              std::pair{docks.datasets(), "layers"},
+             std::pair{docks.views(), "views"},
              std::pair{docks.georeferencing(), "georeferencing"},
              std::pair{docks.haptics(), "haptics"},
              std::pair{docks.measurements(), "measure"},

@@ -52,10 +52,14 @@ WindowDocks::WindowDocks(QMainWindow& window, const DockContents& contents)
     , window_(window)
 {
     makeDock(datasets_, tr("Layers"), QStringLiteral("datasetDock"), contents.datasets);
+    makeDock(views_, tr("Views"), QStringLiteral("viewsDock"), contents.views);
     makeDock(georeferencing_, tr("Georeferencing"), QStringLiteral("georeferencingDock"),
              contents.georeferencing);
     makeDock(haptics_, tr("Haptics"), QStringLiteral("hapticsDock"), contents.haptics);
     window_.addDockWidget(Qt::LeftDockWidgetArea, datasets_.widget);
+    window_.addDockWidget(Qt::LeftDockWidgetArea, views_.widget);
+    window_.tabifyDockWidget(datasets_.widget, views_.widget);
+    views_.widget->hide();
     window_.addDockWidget(Qt::RightDockWidgetArea, georeferencing_.widget);
     window_.addDockWidget(Qt::RightDockWidgetArea, haptics_.widget);
     window_.tabifyDockWidget(georeferencing_.widget, haptics_.widget);
@@ -108,8 +112,8 @@ void WindowDocks::reveal(QDockWidget& widget)
 void WindowDocks::moveFocus(QWidget& map, FocusStep step)
 {
     QList<QWidget*> stops = {&map};
-    for (QDockWidget* dock :
-         {datasets_.widget, georeferencing_.widget, haptics_.widget, measurements_}) {
+    for (QDockWidget* dock : {datasets_.widget, views_.widget, georeferencing_.widget,
+                              haptics_.widget, measurements_}) {
         if (dock->isVisibleTo(&window_)) {
             stops.append(dock);
         }
@@ -153,7 +157,7 @@ void WindowDocks::fit()
         return;
     }
     const QScopedValueRollback fitting(is_fitting_, true);
-    std::array<Dock*, 3> by_turn = all();
+    std::array<Dock*, 4> by_turn = all();
     std::stable_sort(by_turn.begin(), by_turn.end(),
                      [](const Dock* a, const Dock* b) { return a->turn > b->turn; });
     const int width_max = window_.width() / kDockShareOfWidth;

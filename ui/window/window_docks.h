@@ -15,6 +15,7 @@ namespace marsview {
 /// What the docks hold.
 struct DockContents {
     QWidget* datasets = nullptr;
+    QWidget* views = nullptr;
     QWidget* georeferencing = nullptr;
     QWidget* haptics = nullptr;
     QWidget* measurements = nullptr;
@@ -22,10 +23,11 @@ struct DockContents {
 
 enum class FocusStep { Next, Previous };
 
-/// Layers on the left; georeferencing on the right, with haptics as a second tab, closed at first.
-/// Docked panels leave two thirds of the width to the map and never become too narrow to read. In a
-/// narrow window, panels are hidden, the least recently requested first; they return when the
-/// window is wide enough. Measurements are below the map, closed at first.
+/// Layers on the left, with saved views as a second tab, closed at first; georeferencing on the
+/// right, with haptics as a second tab, closed at first. Docked panels leave two thirds of the
+/// width to the map and never become too narrow to read. In a narrow window, panels are hidden, the
+/// least recently requested first; they return when the window is wide enough. Measurements are
+/// below the map, closed at first.
 class WindowDocks final : public QObject {
     Q_OBJECT
 
@@ -34,6 +36,7 @@ public:
     WindowDocks(QMainWindow& window, const DockContents& contents);
 
     QDockWidget* datasets() const noexcept { return datasets_.widget; }
+    QDockWidget* views() const noexcept { return views_.widget; }
     QDockWidget* georeferencing() const noexcept { return georeferencing_.widget; }
     QDockWidget* haptics() const noexcept { return haptics_.widget; }
     QDockWidget* measurements() const noexcept { return measurements_; }
@@ -41,8 +44,8 @@ public:
     /// Shows a panel, whatever has to make way.
     void reveal(QDockWidget& dock);
     /// Moves the keyboard focus among the map and the open panels, in a circle: map, layers,
-    /// georeferencing, haptics, measurements. A panel gets the focus where it was last, and comes
-    /// to the front of its tabs.
+    /// saved views, georeferencing, haptics, measurements. A panel gets the focus where it was
+    /// last, and comes to the front of its tabs.
     void moveFocus(QWidget& map, FocusStep step);
     /// To be called whenever the window has another width.
     void fit();
@@ -59,11 +62,12 @@ private:
 
     void makeDock(Dock& dock, const QString& title, const QString& name, QWidget* content);
     void userToggled(Dock& dock, bool is_visible);
-    std::array<Dock*, 3> all() { return {&datasets_, &georeferencing_, &haptics_}; }
+    std::array<Dock*, 4> all() { return {&datasets_, &views_, &georeferencing_, &haptics_}; }
     void fold(Dock& dock, bool is_folded);
 
     QMainWindow& window_;
     Dock datasets_;
+    Dock views_;
     Dock georeferencing_;
     Dock haptics_;
     QDockWidget* measurements_ = nullptr; // below the map, so that it takes no width

@@ -1,0 +1,65 @@
+#include "ui/views/camera_flight.h"
+
+#include "ui/canvas/terrain_view.h"
+
+#include <QScopedValueRollback>
+
+#include <algorithm>
+#include <utility>
+
+namespace marsview {
+namespace {
+
+constexpr std::chrono::milliseconds kFlightFrame{16};
+
+} // namespace
+
+CameraFlight::CameraFlight(TerrainView& view, QObject* parent)
+    : QObject(parent)
+    , view_(view)
+{
+    timer_.setTimerType(Qt::PreciseTimer);
+    timer_.setInterval(kFlightFrame);
+    connect(&timer_, &QTimer::timeout, this, &CameraFlight::advance);
+    connect(&view_, &TerrainView::sightChanged, this, [this] {
+        // A change of the window's size is one of the sight, too.
+        if (isPlaying() && !is_moving_ && (view_.isMoving() || view_.camera() != set_)) {
+            stop();
+            Q_EMIT interrupted();
+        }
+    });
+}
+
+void CameraFlight::play(CameraPath path, std::chrono::milliseconds duration, double share)
+{
+    path_ = std::move(path);
+    duration_ = duration;
+    begin_ = std::clamp(share, 0.0, 1.0);
+    clock_.start();
+    timer_.start();
+    advance();
+}
+
+void CameraFlight::stop()
+{
+    timer_.stop();
+}
+
+void CameraFlight::advance()
+{
+    const double share = std::min(begin_ + static_cast<double>(clock_.elapsed()) /
+                                               static_cast<double>(duration_.count()),
+                                  1.0);
+    {
+        const QScopedValueRollback moving(is_moving_, true);
+        view_.setCamera(path_->at(share));
+        set_ = view_.camera();
+    }
+    Q_EMIT moved(share);
+    if (share >= 1.0 && isPlaying()) {
+        stop();
+        Q_EMIT finished();
+    }
+}
+
+} // namespace marsview
