@@ -108,11 +108,23 @@ WindowCommands::WindowCommands(const WindowParts& parts, const WindowOptions& op
                    .overlays = parts.overlays,
                    .measuring = parts.measuring,
                    .open = *views.actions().fly_through})
+    , reports(
+          {.window = parts.window,
+           .menu = *parts.actions.file,
+           .after = parts.actions.save_picture,
+           .view = parts.view,
+           .overlays = parts.overlays,
+           .marks = parts.measure_marks,
+           .measuring = parts.measuring,
+           .session = [&session = parts.session]() -> const Session& { return session.session(); },
+           .unit = [this] { return preferences.preferences().height_unit; },
+           .format = [this] { return preferences.preferences().coordinates; }})
     , progress({.actions = parts.actions,
                 .session = parts.session,
                 .view = parts.view,
                 .pictures = parts.pictures,
                 .recordings = fly_through.recorder(),
+                .reports = reports,
                 .status = parts.load_status,
                 .messages = parts.messages})
     , places({.window = parts.window,

@@ -17,6 +17,7 @@
 #include "ui/controllers/spacemouse_controller.h"
 #include "ui/project/project_controller.h"
 #include "ui/project/project_menu.h"
+#include "ui/report/report_exporter.h"
 #include "ui/views/fly_through_tools.h"
 #include "ui/views/saved_views.h"
 #include "ui/window/window_notices.h"
@@ -74,6 +75,7 @@ public:
     LayerCommands layers;
     SavedViews views;
     FlyThroughTools fly_through;
+    ReportExporter reports;
     WorkProgress progress;
     PlaceCommands places;
     MeasureCommands measuring;

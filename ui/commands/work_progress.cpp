@@ -3,6 +3,7 @@
 #include "ui/canvas/terrain_view.h"
 #include "ui/commands/picture_saver.h"
 #include "ui/controllers/session_controller.h"
+#include "ui/report/report_exporter.h"
 #include "ui/text/number_text.h"
 #include "ui/views/fly_through_recorder.h"
 #include "ui/window/load_status.h"
@@ -24,6 +25,7 @@ WorkProgress::WorkProgress(const Parts& parts)
         }
         parts_.pictures.cancel();
         parts_.recordings.cancel();
+        parts_.reports.cancel();
     });
     connect(&parts_.view, &TerrainView::ready, this, &WorkProgress::settleIfIdle,
             Qt::QueuedConnection);
@@ -87,6 +89,7 @@ void WorkProgress::followSaving()
     });
     follow(parts_.pictures, tr("Cannot Save Picture"));
     follow(parts_.recordings, tr("Cannot Record Fly-Through"));
+    follow(parts_.reports, tr("Cannot Export Report"));
 }
 
 template <typename Saver>
@@ -116,7 +119,8 @@ void WorkProgress::follow(Saver& saver, const QString& failure_title)
 
 bool WorkProgress::isSaving() const
 {
-    return parts_.pictures.isSaving() || parts_.recordings.isRecording();
+    return parts_.pictures.isSaving() || parts_.recordings.isRecording() ||
+           parts_.reports.isExporting();
 }
 
 void WorkProgress::showCancel()

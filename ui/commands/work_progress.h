@@ -1,4 +1,4 @@
-// What the window is busy with: loading, building overviews, saving pictures, recordings.
+// What the window is busy with: loading, building overviews, saving pictures, recordings, reports.
 #pragma once
 
 #include <QObject>
@@ -8,6 +8,7 @@ namespace marsview {
 class FlyThroughRecorder;
 class LoadStatus;
 class PictureSaver;
+class ReportExporter;
 class SessionController;
 class TerrainView;
 class WindowMessages;
@@ -24,6 +25,7 @@ public:
         TerrainView& view;
         PictureSaver& pictures;
         FlyThroughRecorder& recordings;
+        ReportExporter& reports;
         LoadStatus& status;
         WindowMessages& messages;
     };

@@ -1,0 +1,251 @@
+// Reports of a map and its measurements, as web page and PDF.
+#include "tests/support/shared_data.h"
+#include "tests/support/temp_folder.h"
+#include "tests/ui/map_window.h"
+#include "ui/commands/window_commands.h"
+#include "ui/controllers/measure_controller.h"
+#include "ui/report/report_exporter.h"
+#include "ui/report/report_pdf.h"
+#include "ui/text/measure_text.h"
+
+#include <QAction>
+#include <QCheckBox>
+#include <QDialog>
+#include <QFile>
+#include <QFileDialog>
+#include <QImage>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QRegularExpression>
+#include <QSignalSpy>
+#include <QTest>
+#include <QXmlStreamReader>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace marsview {
+namespace {
+
+class ReportTest : public MapWindowTest {
+protected:
+    void openMars()
+    {
+        makeWindow(kWithPanels);
+        ASSERT_TRUE(openAndWait(*window_, QString::fromStdString(test::bundledMars())));
+    }
+    void measure(MeasurementKind kind, const std::vector<GridPoint>& points)
+    {
+        MeasureController& measure = *window_->measuring();
+        measure.begin(kind);
+        for (const GridPoint& point : points) {
+            measure.addPointAt(point);
+        }
+        measure.finish();
+        const std::uint32_t id = measure.state().items.back().id;
+        ASSERT_TRUE(
+            waitFor([&] { return measure.outcome(id).result && !measure.outcome(id).is_running; }));
+    }
+    void measureSome()
+    {
+        measure(MeasurementKind::Profile, {{300.0, 300.0}, {420.0, 340.0}});
+        measure(MeasurementKind::Area, {{300.0, 300.0}, {340.0, 300.0}, {320.0, 340.0}});
+        measure(MeasurementKind::Attitude,
+                {{300.0, 300.0}, {340.0, 300.0}, {320.0, 340.0}, {310.0, 330.0}});
+    }
+    QString path(const char* name) const { return QString::fromStdString(folder_.file(name)); }
+    QByteArray exported(const char* name, const ReportChoice& choice)
+    {
+        QSignalSpy saved(&window_->commands().reports, &ReportExporter::saved);
+        QSignalSpy failed(&window_->commands().reports, &ReportExporter::failed);
+        window_->commands().reports.exportTo(path(name), choice);
+        EXPECT_TRUE(waitFor([&] { return saved.count() + failed.count() == 1; }));
+        EXPECT_EQ(failed.count(), 0);
+        QFile file(path(name));
+        EXPECT_TRUE(file.open(QIODevice::ReadOnly));
+        return file.readAll();
+    }
+
+    test::TempFolder folder_;
+};
+
+// Width in units of the strip, and text of the scale bar.
+struct DrawnBar {
+    double width = 0.0;
+    QString text;
+};
+
+DrawnBar barIn(const QByteArray& svg)
+{
+    DrawnBar bar;
+    QXmlStreamReader reader(svg);
+    QString last_text;
+    while (!reader.atEnd()) {
+        reader.readNext();
+        if (reader.isStartElement() && reader.name() == QLatin1String("line") &&
+            reader.attributes().value(QLatin1String("stroke-width")) == QLatin1String("2")) {
+            const double width = reader.attributes().value(QLatin1String("x2")).toDouble() -
+                                 reader.attributes().value(QLatin1String("x1")).toDouble();
+            if (width > bar.width) {
+                bar.width = width;
+                bar.text = last_text;
+            }
+        }
+        if (reader.isCharacters() && !reader.isWhitespace()) {
+            last_text = reader.text().toString();
+        }
+    }
+    EXPECT_FALSE(reader.hasError()) << reader.errorString().toStdString();
+    return bar;
+}
+
+} // namespace
+
+TEST_F(ReportTest, TheWebPageHoldsEverythingAndNeedsNoOtherFile)
+{
+    openMars();
+    measureSome();
+    window_->measuring()->setNote(window_->measuring()->state().items[0].id,
+                                  QStringLiteral("a < b & c"));
+    const QString page =
+        QString::fromUtf8(exported("report.html", {.title = QStringLiteral("<Tharsis> & more"),
+                                                   .credit = QStringLiteral("MOLA team")}));
+    EXPECT_TRUE(page.contains(QStringLiteral("<h1>&lt;Tharsis&gt; &amp; more</h1>")));
+    EXPECT_TRUE(page.contains(QStringLiteral("MOLA team")));
+    EXPECT_TRUE(page.contains(QStringLiteral("a &lt; b &amp; c")));
+    EXPECT_TRUE(page.contains(QStringLiteral("Mars")));
+    EXPECT_TRUE(
+        page.contains(QString::fromStdString(view().map()->info().crs->name()).toHtmlEscaped()));
+    // Every result that the panel shows is there.
+    for (const MeasureItem& item : window_->measuring()->state().items) {
+        const MeasureOutcome& outcome = window_->measuring()->outcome(item.id);
+        for (const MeasureRow& row : measureRows(*outcome.result, HeightUnit::Meters)) {
+            EXPECT_TRUE(page.contains(row.value.toHtmlEscaped())) << row.value.toStdString();
+        }
+    }
+    // Nothing is loaded from elsewhere: all addresses are data.
+    const QRegularExpression address(QStringLiteral("(?:src|href)=\"([^\"]{0,12})"));
+    int images = 0;
+    for (auto it = address.globalMatch(page); it.hasNext();) {
+        EXPECT_TRUE(it.next().captured(1).startsWith(QLatin1String("data:image/")));
+        ++images;
+    }
+    EXPECT_EQ(images, 3) << "the map, the profile, the stereonet";
+    EXPECT_FALSE(page.contains(QStringLiteral("<script")));
+    const QRegularExpression picture(QStringLiteral("data:image/jpeg;base64,([^\"]+)\""));
+    const QImage map = QImage::fromData(
+        QByteArray::fromBase64(picture.match(page).captured(1).toLatin1()), "JPEG");
+    EXPECT_EQ(map.size(), QSize(2000, 1500));
+}
+
+TEST_F(ReportTest, TheScaleBarIsAsLongAsItSays)
+{
+    openMars();
+    for (const double factor : {1.0, 0.3, 0.05}) {
+        OrbitCamera camera = view().camera();
+        camera.distance_m *= factor;
+        view().setCamera(camera);
+        const QSize size(2000, 1500);
+        const Report report = reportOf(
+            {.view = view(), .session = window_->session(), .measuring = *window_->measuring()},
+            {.title = QStringLiteral("x")}, size);
+        const DrawnBar bar = barIn(mapKeySvg(report.map));
+        const double width_m =
+            size.width() * metersPerPixel(view().camera(), {size.width(), size.height()});
+        QString number = bar.text;
+        number.remove(QLatin1Char(',')).remove(QStringLiteral(" km"));
+        EXPECT_NEAR(bar.width / 1000.0 * width_m / (1000.0 * number.toDouble()), 1.0, 1e-3)
+            << bar.text.toStdString();
+    }
+}
+
+TEST_F(ReportTest, NorthIsWhereTheCameraTurnedIt)
+{
+    openMars();
+    OrbitCamera camera = view().camera();
+    camera.azimuth = Angle::degrees(30.0);
+    view().setCamera(camera);
+    const Report report = reportOf(
+        {.view = view(), .session = window_->session(), .measuring = *window_->measuring()},
+        {.title = QStringLiteral("x")}, {800, 600});
+    EXPECT_NEAR(report.map.north_deg, -30.0, 1e-3);
+}
+
+TEST_F(ReportTest, UnitsAreThoseOfThePreferences)
+{
+    openMars();
+    measure(MeasurementKind::Profile, {{300.0, 300.0}, {420.0, 340.0}});
+    Preferences preferences = window_->preferences();
+    preferences.height_unit = HeightUnit::Feet;
+    window_->setPreferences(preferences);
+    const QString page = QString::fromUtf8(exported("report.html", {.title = QStringLiteral("x")}));
+    const MeasureOutcome& outcome =
+        window_->measuring()->outcome(window_->measuring()->state().items[0].id);
+    for (const MeasureRow& row : measureRows(*outcome.result, HeightUnit::Feet)) {
+        EXPECT_TRUE(page.contains(row.value.toHtmlEscaped())) << row.value.toStdString();
+    }
+    EXPECT_TRUE(page.contains(QStringLiteral("Elevation (ft)")));
+}
+
+TEST_F(ReportTest, LongTablesContinueOnFurtherPagesOfThePdf)
+{
+    openMars();
+    Report report{.title = QStringLiteral("Long"), .subtitle = QStringLiteral("Mars")};
+    report.map.picture = QImage(400, 300, QImage::Format_RGB32);
+    report.map.picture.fill(Qt::darkGray);
+    ReportSection section{.title = QStringLiteral("Table")};
+    section.table = ReportTable{.header = {QStringLiteral("Name"), QStringLiteral("Value")}};
+    for (int i = 0; i < 120; ++i) {
+        section.table->rows.append({QStringLiteral("row %1").arg(i), QString::number(i)});
+    }
+    report.sections.append(section);
+    ASSERT_TRUE(writeReportPdf(report, path("long.pdf"), QPageSize::A4));
+    QFile file(path("long.pdf"));
+    ASSERT_TRUE(file.open(QIODevice::ReadOnly));
+    const QByteArray pdf = file.readAll();
+    EXPECT_TRUE(pdf.startsWith("%PDF"));
+    const QRegularExpression count(QStringLiteral("/Count (\\d+)"));
+    EXPECT_GE(count.match(QString::fromLatin1(pdf)).captured(1).toInt(), 3);
+    EXPECT_FALSE(writeReportPdf(report, path("no/such/folder.pdf"), QPageSize::A4));
+}
+
+TEST_F(ReportTest, TheDialogAsksForTitleAndContentsByKeyboard)
+{
+    makeWindow(kWithPanels);
+    EXPECT_FALSE(window_->commands().reports.action()->isEnabled());
+    ASSERT_TRUE(openAndWait(*window_, maps_.mars()));
+    window_->commands().reports.action()->trigger();
+    QDialog* dialog = window_->commands().reports.dialog();
+    ASSERT_NE(dialog, nullptr);
+    auto* title = dialog->findChild<QLineEdit*>(QStringLiteral("title"));
+    EXPECT_EQ(title->text(), QStringLiteral("mars"));
+    EXPECT_FALSE(dialog->findChild<QCheckBox*>(QStringLiteral("measurements"))->isEnabled());
+    title->selectAll();
+    QTest::keyClicks(title, QStringLiteral("Gale"));
+    QTest::keyClick(title, Qt::Key_Return);
+    auto* files = window_->findChild<QFileDialog*>(QStringLiteral("reportFileDialog"));
+    ASSERT_NE(files, nullptr);
+    QSignalSpy saved(&window_->commands().reports, &ReportExporter::saved);
+    Q_EMIT files->fileSelected(path("gale.pdf"));
+    files->close();
+    ASSERT_TRUE(waitFor([&] { return saved.count() == 1; }));
+    QFile file(path("gale.pdf"));
+    ASSERT_TRUE(file.open(QIODevice::ReadOnly));
+    EXPECT_TRUE(file.readAll().contains("Gale"));
+}
+
+TEST_F(ReportTest, CancelingWritesNothing)
+{
+    openMars();
+    QSignalSpy canceled(&window_->commands().reports, &ReportExporter::canceled);
+    window_->commands().reports.exportTo(path("report.html"), {.title = QStringLiteral("x")});
+    ASSERT_TRUE(window_->commands().reports.isExporting());
+    window_->commands().reports.cancel();
+    EXPECT_EQ(canceled.count(), 1);
+    EXPECT_FALSE(window_->commands().reports.isExporting());
+    QCoreApplication::processEvents();
+    EXPECT_FALSE(QFile::exists(path("report.html")));
+}
+
+} // namespace marsview

@@ -1,0 +1,310 @@
+#include "ui/report/report_contents.h"
+
+#include "core/session/saved_view.h"
+#include "core/view/scale_bar.h"
+#include "ui/canvas/terrain_view.h"
+#include "ui/controllers/measure_controller.h"
+#include "ui/overlay/overlay_text.h"
+#include "ui/plots/profile_plot.h"
+#include "ui/plots/stereonet_plot.h"
+#include "ui/text/coordinate_text.h"
+#include "ui/text/measure_text.h"
+
+#include <QCoreApplication>
+#include <QDateTime>
+#include <QFile>
+#include <QFileInfo>
+#include <QLocale>
+#include <QSvgRenderer>
+#include <QTemporaryDir>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace marsview {
+namespace {
+
+constexpr int kLegendTicksMost = 7;
+constexpr int kLegendColors = 33;
+constexpr double kScaleShareMax = 0.38; // of the picture's width
+
+QString reportTr(const char* text)
+{
+    return QCoreApplication::translate("Report", text);
+}
+
+QString utf8Text(std::string_view text)
+{
+    return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
+}
+
+// A drawing that is written as a file of its own.
+template <typename Plot>
+std::optional<ReportFigure> figureOf(Plot& plot, const QString& caption)
+{
+    const QTemporaryDir folder;
+    const QString path = folder.filePath(QStringLiteral("figure.svg"));
+    if (!folder.isValid() || !plot.savePicture(path)) {
+        return std::nullopt;
+    }
+    QFile file(path);
+    if (!file.open(QIODevice::ReadOnly)) {
+        return std::nullopt;
+    }
+    ReportFigure figure{.svg = file.readAll(), .size = {}, .caption = caption};
+    figure.size = QSvgRenderer(figure.svg).defaultSize();
+    return figure.size.isEmpty() ? std::nullopt : std::optional(std::move(figure));
+}
+
+// Of paper, whatever the theme of the window is.
+QPalette paperPalette()
+{
+    QPalette palette(QColor(240, 240, 240));
+    palette.setColor(QPalette::Base, Qt::white);
+    palette.setColor(QPalette::Text, QColor(29, 29, 31));
+    palette.setColor(QPalette::Highlight, QColor(176, 58, 30));
+    return palette;
+}
+
+std::optional<ReportFigure>
+profileFigure(const MeasureItem& item, const Profile& profile, HeightUnit unit)
+{
+    ProfilePlot plot;
+    plot.setPalette(paperPalette());
+    plot.setHeightUnit(unit);
+    ProfileCurve curve{.name = item.name, .color = QColor(176, 58, 30)};
+    curve.is_approximate = profile.is_approximate;
+    curve.vertices_m = profile.vertices_m;
+    for (const ProfilePoint& point : profile.points) {
+        curve.distance_m.push_back(point.distance_m);
+        curve.elevation_m.push_back(point.elevation_m);
+    }
+    plot.resize(1200, 500);
+    plot.setCurves({std::move(curve)});
+    plot.showEverything();
+    //: Below a diagram; %1 is a number: elevations are drawn so many times larger than distances
+    return figureOf(plot, reportTr(QT_TRANSLATE_NOOP("Report", "Vertical exaggeration %1"))
+                              .arg(shortNumberText(plot.drawnExaggeration(), 2)));
+}
+
+std::optional<ReportLegend> legendOf(const LegendContent& content)
+{
+    ReportLegend legend;
+    if (content.contour_interval_m > 0.0) {
+        //: %1 is the elevation from one contour line to the next
+        legend.contours = reportTr(QT_TRANSLATE_NOOP("Report", "Contours every %1"))
+                              .arg(lengthText(content.contour_interval_m));
+    }
+    const bool is_slope = content.mode == ShadingMode::Slope;
+    double low =
+        is_slope ? content.slopes.minimum.degrees() : inUnit(content.range.minimum_m, content.unit);
+    double high =
+        is_slope ? content.slopes.maximum.degrees() : inUnit(content.range.maximum_m, content.unit);
+    if (content.ramp == nullptr || content.mode == ShadingMode::Hillshade || !(high > low)) {
+        return legend.contours.isEmpty() ? std::nullopt : std::optional(legend);
+    }
+    RoundTicks ticks = roundTicks(low, high, kLegendTicksMost);
+    const bool is_long = !is_slope && content.unit == HeightUnit::Meters && ticks.step >= 1000.0;
+    const double kilo = is_long ? 1000.0 : 1.0;
+    for (const double value : ticks.values) {
+        legend.ticks.append({.share = (value - low) / (high - low),
+                             .text = numberText(value / kilo, ticks.step / kilo)});
+    }
+    const auto colors = sampledRamp(*content.ramp);
+    for (int i = 0; i < kLegendColors; ++i) {
+        const Rgb8& color = colors[static_cast<std::size_t>(i) * (colors.size() - 1) /
+                                   static_cast<std::size_t>(kLegendColors - 1)];
+        legend.colors.append(QColor(color.red, color.green, color.blue));
+    }
+    legend.title = is_slope ? reportTr(QT_TRANSLATE_NOOP("Report", "Slope (°)"))
+                            //: %1 is a unit
+                            : reportTr(QT_TRANSLATE_NOOP("Report", "Elevation (%1)"))
+                                  .arg(is_long ? QStringLiteral("km") : unitSymbol(content.unit));
+    if (!is_slope && !content.datum.isEmpty()) {
+        legend.title += QStringLiteral(", ") + content.datum;
+    }
+    return legend;
+}
+
+QString bodyAndCrs(const Map& map)
+{
+    const RasterInfo& info = map.info();
+    QStringList parts;
+    if (info.body != nullptr) {
+        parts.append(utf8Text(info.body->name));
+    }
+    if (info.crs) {
+        parts.append(QString::fromStdString(info.crs->name()));
+    }
+    return parts.join(QStringLiteral(" · "));
+}
+
+ReportMap mapOf(const ReportSource& source, const QSize& picture)
+{
+    const TerrainView& view = source.view;
+    const Map& map = *view.map();
+    const OrbitCamera& camera = view.camera();
+    ReportMap made;
+    made.legend = legendOf(source.legend);
+    const Viewport viewport{.width = picture.width(), .height = picture.height()};
+    if (const auto bar =
+            scaleBar(metersPerPixel(camera, viewport), kScaleShareMax * picture.width())) {
+        made.scale = ReportScale{.text = lengthText(bar->length_m),
+                                 .share = bar->width_px / picture.width()};
+    }
+    const auto place = viewCamera(map.georeference(), camera, view.exaggeration());
+    made.north_deg = -(place ? place->azimuth : camera.azimuth).degrees();
+    //: Below a map; %1 is the position in its middle, %2 a body and a CRS, %3 a factor
+    made.caption = reportTr(QT_TRANSLATE_NOOP("Report", "%1. %2. Vertical exaggeration ×%3"))
+                       .arg(positionText(source.format, map,
+                                         map.georeference().sceneFrame().toGrid(camera.target),
+                                         metersPerPixel(camera, viewport)),
+                            bodyAndCrs(map), shortNumberText(view.exaggeration(), 3));
+    return made;
+}
+
+ReportSection layersSection(const ReportSource& source)
+{
+    ReportSection section{.title = reportTr(QT_TRANSLATE_NOOP("Report", "Layers"))};
+    ReportTable table{.header = {reportTr(QT_TRANSLATE_NOOP("Report", "Layer")),
+                                 reportTr(QT_TRANSLATE_NOOP("Report", "Body and CRS")),
+                                 reportTr(QT_TRANSLATE_NOOP("Report", "Samples")),
+                                 reportTr(QT_TRANSLATE_NOOP("Report", "Pixel")),
+                                 reportTr(QT_TRANSLATE_NOOP("Report", "Elevations"))}};
+    for (const Layer* layer : shownLayers(source.session)) {
+        const Map& map = *layer->map;
+        const RasterInfo& info = map.info();
+        const Georeference georeference = georeferenceOf(info); // a preview's pixels are larger
+        QString elevations;
+        if (const auto range = map.heightfield().range()) {
+            elevations = heightRangeText(*range, source.unit);
+        }
+        if (!info.vertical_datum.empty()) {
+            elevations += QStringLiteral(" (%1)").arg(QString::fromStdString(info.vertical_datum));
+        }
+        table.rows.append(
+            {QString::fromStdString(layer->name), bodyAndCrs(map),
+             QStringLiteral("%1 × %2").arg(countText(info.columns), countText(info.rows)),
+             QStringLiteral("%1 × %2 m")
+                 .arg(shortNumberText(georeference.pixelWidthMeters(), 4),
+                      shortNumberText(georeference.pixelHeightMeters(), 4)),
+             elevations});
+    }
+    section.table = std::move(table);
+    return section;
+}
+
+QString layerName(const ReportSource& source, const MeasureItem& item)
+{
+    const Layer* layer = layerOf(source.session, item.layer);
+    return layer != nullptr ? QString::fromStdString(layer->name) : QString();
+}
+
+// A line of a table for each, in the order in which they were made.
+ReportSection overviewSection(const ReportSource& source)
+{
+    ReportSection section{.title = reportTr(QT_TRANSLATE_NOOP("Report", "Measurements"))};
+    ReportTable table{.header = {reportTr(QT_TRANSLATE_NOOP("Report", "Name")),
+                                 reportTr(QT_TRANSLATE_NOOP("Report", "Kind")),
+                                 reportTr(QT_TRANSLATE_NOOP("Report", "Result")),
+                                 reportTr(QT_TRANSLATE_NOOP("Report", "Layer")),
+                                 reportTr(QT_TRANSLATE_NOOP("Report", "Note"))}};
+    for (const MeasureItem& item : source.measuring.state().items) {
+        const MeasureOutcome& outcome = source.measuring.outcome(item.id);
+        if (outcome.result) {
+            table.rows.append({item.name, measurementName(item.kind),
+                               outcome.result->values
+                                   ? measureSummary(*outcome.result, source.unit)
+                                   : QString::fromStdString(outcome.result->values.error().message),
+                               layerName(source, item), item.note});
+        }
+    }
+    section.table = std::move(table);
+    return section;
+}
+
+ReportSection
+measurementSection(const ReportSource& source, const MeasureItem& item, bool has_plots)
+{
+    const MeasureOutcome& outcome = source.measuring.outcome(item.id);
+    //: Heading: %1 is a measurement, %2 its kind
+    ReportSection section{.title = reportTr(QT_TRANSLATE_NOOP("Report", "%1 (%2)"))
+                                       .arg(item.name, measurementName(item.kind)),
+                          .note = item.note};
+    for (const MeasureRow& row : measureRows(*outcome.result, source.unit)) {
+        section.facts.append({.label = row.label, .value = row.value});
+    }
+    if (const auto* profile = outcome.as<Profile>(); profile != nullptr && has_plots) {
+        if (auto figure = profileFigure(item, *profile, source.unit)) {
+            section.figures.append(std::move(*figure));
+        }
+    }
+    return section;
+}
+
+std::optional<ReportSection> attitudesSection(const ReportSource& source)
+{
+    std::vector<NetPlane> planes;
+    for (const MeasureItem& item : source.measuring.state().items) {
+        if (const auto* attitude = source.measuring.outcome(item.id).as<Attitude>()) {
+            planes.push_back({.id = item.id,
+                              .name = item.name,
+                              .plane = orientationOf(*attitude),
+                              .ellipse = poleEllipse(*attitude)});
+        }
+    }
+    if (planes.empty()) {
+        return std::nullopt;
+    }
+    StereonetPlot plot;
+    plot.setPlanes(std::move(planes), 0);
+    auto figure =
+        figureOf(plot, reportTr(QT_TRANSLATE_NOOP(
+                           "Report",
+                           "Equal-area net of the lower hemisphere: planes, poles, and their 95 % "
+                           "confidence")));
+    if (!figure) {
+        return std::nullopt;
+    }
+    ReportSection section{.title = reportTr(QT_TRANSLATE_NOOP("Report", "Attitudes"))};
+    section.figures.append(std::move(*figure));
+    return section;
+}
+
+} // namespace
+
+Report reportOf(const ReportSource& source, const ReportChoice& choice, const QSize& picture)
+{
+    const QDateTime now = QDateTime::currentDateTime();
+    Report report{
+        .title = choice.title, .subtitle = bodyAndCrs(*source.view.map()), .credit = choice.credit};
+    //: At the foot of a report; %1 is a version, %2 a date
+    report.made_by = reportTr(QT_TRANSLATE_NOOP("Report", "Made with MarsView %1, %2"))
+                         .arg(QCoreApplication::applicationVersion(),
+                              QLocale().toString(now.date(), QLocale::LongFormat));
+    report.map = mapOf(source, picture);
+    report.sections.append(layersSection(source));
+    if (!choice.has_measurements) {
+        return report;
+    }
+    ReportSection overview = overviewSection(source);
+    if (overview.table->rows.isEmpty()) {
+        return report;
+    }
+    report.sections.append(std::move(overview));
+    for (const MeasureItem& item : source.measuring.state().items) {
+        const MeasureOutcome& outcome = source.measuring.outcome(item.id);
+        if (outcome.result && outcome.result->values) {
+            report.sections.append(measurementSection(source, item, choice.has_plots));
+        }
+    }
+    if (choice.has_plots) {
+        if (auto attitudes = attitudesSection(source)) {
+            report.sections.append(std::move(*attitudes));
+        }
+    }
+    return report;
+}
+
+} // namespace marsview

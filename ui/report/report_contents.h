@@ -1,0 +1,37 @@
+// What a report says about a map and its measurements.
+#pragma once
+
+#include "core/geo/coordinate_format.h"
+#include "core/session/session.h"
+#include "ui/overlay/legend.h"
+#include "ui/report/report.h"
+#include "ui/text/number_text.h"
+
+#include <QSize>
+#include <QString>
+
+namespace marsview {
+
+class MeasureController;
+class TerrainView;
+
+struct ReportChoice {
+    QString title;
+    QString credit{};             // of the data, as the user states it
+    bool has_measurements = true; // tables
+    bool has_plots = true;        // profiles, and the stereonet of attitudes
+};
+
+struct ReportSource {
+    const TerrainView& view; // with a map
+    const Session& session;
+    const MeasureController& measuring;
+    LegendContent legend{};
+    HeightUnit unit = HeightUnit::Meters;
+    CoordinateFormat format{};
+};
+
+/// Everything but the picture of the map, for a picture of that size. GUI thread.
+Report reportOf(const ReportSource& source, const ReportChoice& choice, const QSize& picture);
+
+} // namespace marsview
