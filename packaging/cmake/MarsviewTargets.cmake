@@ -62,6 +62,20 @@ macro(marsview_compile_together)
   endif()
 endmacro()
 
+# marsview_compile_by_folder(TARGET): compiles the files of each folder of such a target together: a
+# new file changes one group, and local names need to differ within a folder only.
+function(marsview_compile_by_folder target)
+  get_target_property(sources ${target} SOURCES)
+  foreach(source IN LISTS sources)
+    get_filename_component(folder "${source}" DIRECTORY)
+    if(source MATCHES "\\.cpp$" AND NOT folder STREQUAL "")
+      string(REPLACE "/" "_" group "${folder}")
+      set_source_files_properties("${source}" PROPERTIES UNITY_GROUP "${group}")
+    endif()
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
+endfunction()
+
 # `format` and `tidy` work on the project's own sources. clang-tidy needs a database written for
 # clang: build the target in the "clang" preset.
 file(GLOB_RECURSE MARSVIEW_OWN_SOURCES CONFIGURE_DEPENDS

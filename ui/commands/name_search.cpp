@@ -3,6 +3,7 @@
 #include "core/view/feature_view.h"
 #include "ui/canvas/terrain_view.h"
 #include "ui/overlay/map_overlays.h"
+#include "ui/text/core_text.h"
 #include "ui/text/number_text.h"
 #include "ui/text/place_name_text.h"
 
@@ -83,7 +84,7 @@ void NameSearch::remember(const QString& file, const Gazetteer& names)
     }
     const std::string_view body = names.body() != nullptr ? names.body()->name : "";
     files.append(file);
-    bodies.append(QString::fromUtf8(body.data(), static_cast<qsizetype>(body.size())));
+    bodies.append(textFrom(body));
     settings.setValue(filesKey(), files);
     settings.setValue(bodiesKey(), bodies);
 }

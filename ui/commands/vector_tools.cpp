@@ -5,6 +5,7 @@
 #include "ui/controllers/vector_overlays.h"
 #include "ui/text/number_text.h"
 #include "ui/text/sentence.h"
+#include "ui/widgets/icons.h"
 #include "ui/widgets/notice_center.h"
 
 #include <QAction>
@@ -24,18 +25,11 @@
 namespace marsview {
 namespace {
 
-// Told apart on every ramp, with the dark border of lines.
+// Distinct on every ramp, with the dark border of lines.
 constexpr std::array<Rgb8, 6> kColors{Rgb8{255, 221, 64},  Rgb8{64, 220, 255}, Rgb8{255, 120, 200},
                                       Rgb8{150, 255, 100}, Rgb8{255, 150, 60}, Rgb8{200, 170, 255}};
-constexpr double kDistanceShare = 1.6; // of the extent, for all of it to be in sight
 constexpr int kSwatchSide = 14;
-
-QIcon swatch(const Rgb8& color)
-{
-    QPixmap pixmap(kSwatchSide, kSwatchSide);
-    pixmap.fill(QColor(color.red, color.green, color.blue));
-    return pixmap;
-}
+constexpr double kDistanceShare = 1.6; // of the extent, for all of it to be in sight
 
 } // namespace
 
@@ -163,10 +157,11 @@ void VectorTools::fillMenu()
     parts_.files.clear();
     for (const VectorOverlay& overlay : shown_) {
         const std::string path = overlay.path;
-        QMenu* menu = parts_.files.addMenu(swatch(overlay.color),
-                                           QFileInfo(QString::fromStdString(path))
-                                               .fileName()
-                                               .replace(QLatin1Char('&'), QStringLiteral("&&")));
+        QMenu* menu = parts_.files.addMenu(
+            swatch(QColor(overlay.color.red, overlay.color.green, overlay.color.blue), kSwatchSide),
+            QFileInfo(QString::fromStdString(path))
+                .fileName()
+                .replace(QLatin1Char('&'), QStringLiteral("&&")));
         QAction* show = menu->addAction(tr("&Show"));
         show->setCheckable(true);
         show->setChecked(overlay.is_visible);

@@ -9,7 +9,7 @@
 namespace marsview {
 namespace {
 
-constexpr std::chrono::milliseconds kProgressInterval{100};
+constexpr std::chrono::milliseconds kReportInterval{100};
 
 // Seconds against the minutes that overviews take.
 DecimationLimits betterPreview()
@@ -46,7 +46,7 @@ MapPreparer::MapPreparer(QObject* parent)
     // One at a time: a map that is restarted right after it was stopped waits until the stopped
     // attempt has closed its files.
     pool_.setMaxThreadCount(1);
-    progress_timer_.setInterval(kProgressInterval);
+    progress_timer_.setInterval(kReportInterval);
     connect(&progress_timer_, &QTimer::timeout, this, &MapPreparer::reportProgress);
 }
 

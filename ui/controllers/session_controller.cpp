@@ -19,7 +19,7 @@ namespace {
 constexpr int kUndoStepsMax = 100;
 
 // Places at which a layer is looked for on screen, along each side.
-constexpr int kProbesPerSide = 5;
+constexpr int kMiddleProbes = 5;
 
 QString nameOf(const Layer& layer)
 {
@@ -715,11 +715,11 @@ void SessionController::revealWhatCame()
         return;
     }
     to_reveal_ = LayerId::None;
-    for (int row = 0; row < kProbesPerSide; ++row) {
-        for (int column = 0; column < kProbesPerSide; ++column) {
+    for (int row = 0; row < kMiddleProbes; ++row) {
+        for (int column = 0; column < kMiddleProbes; ++column) {
             const auto position =
-                view_.positionOf(placeOn(*scene, static_cast<double>(column) / (kProbesPerSide - 1),
-                                         static_cast<double>(row) / (kProbesPerSide - 1)));
+                view_.positionOf(placeOn(*scene, static_cast<double>(column) / (kMiddleProbes - 1),
+                                         static_cast<double>(row) / (kMiddleProbes - 1)));
             if (position && QRectF(view_.rect()).contains(*position)) {
                 return;
             }

@@ -20,8 +20,8 @@ constexpr double kPiecePoints = 6.0; // a part of a line that is drawn straight
 // Of all overlays, in a picture at rest and in one that moves.
 constexpr std::size_t kPointsMax = 120000;
 constexpr std::size_t kMovingPointsMax = 8000;
-constexpr std::size_t kPiecesMax = 400;   // of one edge
-constexpr double kResolutionPoints = 1.0; // the smallest detail that is drawn
+constexpr std::size_t kEdgePiecesMax = 400; // of one edge
+constexpr double kResolutionPoints = 1.0;   // the smallest detail that is drawn
 constexpr qint64 kRestShare = 9; // at most a tenth of the time goes into lines while moving
 constexpr std::size_t kAttributesMax = 8;
 
@@ -303,7 +303,7 @@ void VectorOverlays::addLines(const VectorOverlay& overlay,
                                                    (kPiecePoints * pixel_m / kResolutionPoints)
                                              : 1.0;
             const auto pieces = static_cast<std::size_t>(
-                std::clamp(std::ceil(pieces_wanted), 1.0, static_cast<double>(kPiecesMax)));
+                std::clamp(std::ceil(pieces_wanted), 1.0, static_cast<double>(kEdgePiecesMax)));
             for (std::size_t k = 1; k <= pieces; ++k) {
                 const double share = static_cast<double>(k) / static_cast<double>(pieces);
                 add(a.x + (b.x - a.x) * share, a.y + (b.y - a.y) * share);

@@ -1,6 +1,7 @@
 #include "ui/dialogs/coordinates_page.h"
 
 #include "ui/text/coordinate_text.h"
+#include "ui/text/core_text.h"
 #include "ui/widgets/coordinate_menu.h"
 
 #include <QComboBox>
@@ -55,7 +56,7 @@ QString notationText(Notation notation)
 
 QString bodyText(const Body& body)
 {
-    return QString::fromUtf8(body.name.data(), static_cast<qsizetype>(body.name.size()));
+    return textFrom(body.name);
 }
 
 } // namespace

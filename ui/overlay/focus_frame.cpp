@@ -11,7 +11,7 @@
 namespace marsview {
 namespace {
 
-constexpr int kWidth = 4; // of the frame with its dark rim
+constexpr int kFrameWidth = 4; // of the frame with its dark rim
 
 bool isByKey(Qt::FocusReason reason)
 {
@@ -78,7 +78,8 @@ void FocusFrame::paintEvent(QPaintEvent* /*event*/)
 // The picture within is not painted again with the frame.
 void FocusFrame::resizeEvent(QResizeEvent* /*event*/)
 {
-    setMask(QRegion(rect()) - rect().adjusted(kWidth, kWidth, -kWidth, -kWidth));
+    setMask(QRegion(rect()) -
+            rect().adjusted(kFrameWidth, kFrameWidth, -kFrameWidth, -kFrameWidth));
 }
 
 } // namespace marsview

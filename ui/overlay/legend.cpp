@@ -14,9 +14,9 @@
 namespace marsview {
 namespace {
 
-constexpr int kBarWidth = 12;
+constexpr int kRampWidth = 12;
 constexpr int kTickLength = 4;
-constexpr int kGap = 4;
+constexpr int kLineGap = 4;
 constexpr int kTicksMost = 7;
 constexpr double kLinesOfText = 6.5; // as high as the ramp is
 constexpr int kArrowHeight = 6;
@@ -234,17 +234,17 @@ QSize Legend::sizeHint() const
         for (const double value : ticks_.values) {
             labels = std::max(labels, metrics.horizontalAdvance(label(value)));
         }
-        width = kBarWidth + kTickLength + kGap + labels;
+        width = kRampWidth + kTickLength + kLineGap + labels;
         for (const QString& line : headings()) {
             width = std::max(width, metrics.horizontalAdvance(line));
         }
-        height = static_cast<int>(headings().size()) * metrics.height() + kGap +
-                 static_cast<int>(metrics.height() * kLinesOfText) + metrics.height() / 2 + kGap +
-                 2 * kArrowHeight;
+        height = static_cast<int>(headings().size()) * metrics.height() + kLineGap +
+                 static_cast<int>(metrics.height() * kLinesOfText) + metrics.height() / 2 +
+                 kLineGap + 2 * kArrowHeight;
     }
     if (!contours.isEmpty()) {
         width = std::max(width, metrics.horizontalAdvance(contours));
-        height += metrics.height() + (hasRamp() ? kGap : 0);
+        height += metrics.height() + (hasRamp() ? kLineGap : 0);
     }
     return height > 0 ? QSize(width + 2 * kPlatePadding, height + 2 * kPlatePadding - 4)
                       : QSize(0, 0);
@@ -270,9 +270,9 @@ void Legend::paintEvent(QPaintEvent* /*event*/)
                      line);
             top += metrics.height();
         }
-        top += kGap + metrics.height() / 4 + kArrowHeight;
+        top += kLineGap + metrics.height() / 4 + kArrowHeight;
         const QRect bar = placed(
-            {inside.left(), top, kBarWidth, static_cast<int>(metrics.height() * kLinesOfText)});
+            {inside.left(), top, kRampWidth, static_cast<int>(metrics.height() * kLinesOfText)});
         painter.setRenderHint(QPainter::SmoothPixmapTransform);
         painter.drawImage(bar, colors_);
         painter.setRenderHint(QPainter::Antialiasing);
@@ -288,14 +288,14 @@ void Legend::paintEvent(QPaintEvent* /*event*/)
         for (const double value : ticks_.values) {
             const double y = bar.bottom() + 1 - (value - low_) / (high_ - low_) * bar.height();
             const int line = static_cast<int>(std::lround(y));
-            const QRect mark = placed({inside.left() + kBarWidth, line, kTickLength, 1});
+            const QRect mark = placed({inside.left() + kRampWidth, line, kTickLength, 1});
             painter.fillRect(mark, overlayTextColor());
             drawText(painter,
-                     placed({inside.left() + kBarWidth + kTickLength + kGap,
+                     placed({inside.left() + kRampWidth + kTickLength + kLineGap,
                              line - metrics.height() / 2, inside.width(), metrics.height()}),
                      leading, label(value));
         }
-        top = bar.bottom() + 1 + metrics.height() / 4 + 2 * kGap + kArrowHeight;
+        top = bar.bottom() + 1 + metrics.height() / 4 + 2 * kLineGap + kArrowHeight;
     }
     const QString contours = contourText();
     if (!contours.isEmpty()) {

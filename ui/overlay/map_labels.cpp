@@ -17,7 +17,7 @@
 namespace marsview {
 namespace {
 
-constexpr double kRim = 3.0; // points around letters, half of it visible
+constexpr double kHaloWidth = 3.0; // points around letters, half of it visible
 constexpr double kLargeFont = 1.25;
 constexpr double kLargeShare = 0.25; // of the picture's height, across what has a large label
 constexpr double kDotRadius = 2.5;
@@ -45,7 +45,7 @@ void drawDot(QPainter& painter, QPointF place)
     QPainterPath dot;
     dot.addEllipse(place, kDotRadius, kDotRadius);
     painter.setRenderHint(QPainter::Antialiasing);
-    painter.strokePath(dot, QPen(kRimColor, kRim));
+    painter.strokePath(dot, QPen(kRimColor, kHaloWidth));
     painter.fillPath(dot, Qt::white);
 }
 
@@ -263,7 +263,7 @@ std::vector<PicturePart> MapLabels::partsFor(const OrbitCamera& camera,
     std::vector<PicturePart> parts;
     for (const Mark& mark : marksOf(sight, names.get(), std::move(taken))) {
         if (mark.point) {
-            const QPointF margin(kDotRadius + kRim, kDotRadius + kRim);
+            const QPointF margin(kDotRadius + kHaloWidth, kDotRadius + kHaloWidth);
             QImage dot((QSizeF(2.0 * margin.x(), 2.0 * margin.y()) * sight.scale).toSize(),
                        QImage::Format_ARGB32_Premultiplied);
             dot.fill(Qt::transparent);
@@ -384,8 +384,8 @@ QFont MapLabels::fontOf(Size size) const
 QSizeF MapLabels::sizeOf(const QString& text, Size size) const
 {
     const QFontMetricsF metrics(fontOf(size));
-    return {std::ceil(metrics.horizontalAdvance(text) + 2.0 * kRim),
-            std::ceil(metrics.height() + kRim)};
+    return {std::ceil(metrics.horizontalAdvance(text) + 2.0 * kHaloWidth),
+            std::ceil(metrics.height() + kHaloWidth)};
 }
 
 QImage MapLabels::drawn(const QString& text, Size size, double scale) const
@@ -394,11 +394,12 @@ QImage MapLabels::drawn(const QString& text, Size size, double scale) const
     image.fill(Qt::transparent);
     const QFont letters = fontOf(size);
     QPainterPath path;
-    path.addText(kRim, 0.5 * kRim + QFontMetricsF(letters).ascent(), letters, text);
+    path.addText(kHaloWidth, 0.5 * kHaloWidth + QFontMetricsF(letters).ascent(), letters, text);
     QPainter painter(&image);
     painter.setRenderHint(QPainter::Antialiasing);
     painter.scale(scale, scale);
-    painter.strokePath(path, QPen(kRimColor, kRim, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+    painter.strokePath(path,
+                       QPen(kRimColor, kHaloWidth, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
     painter.fillPath(path, Qt::white);
     return image;
 }

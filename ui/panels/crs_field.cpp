@@ -1,5 +1,7 @@
 #include "ui/panels/crs_field.h"
 
+#include "ui/text/core_text.h"
+
 #include <QAbstractItemView>
 #include <QCompleter>
 #include <QFocusEvent>
@@ -18,11 +20,6 @@ namespace {
 constexpr std::chrono::milliseconds kTypingPause{150};
 constexpr std::size_t kMatchesMax = 30;
 constexpr int kPopupWidthMax = 620; // pixels
-
-QString textFrom(std::string_view text)
-{
-    return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
-}
 
 } // namespace
 

@@ -4,6 +4,7 @@
 #include "core/session/map.h"
 #include "ui/panels/override_form.h"
 #include "ui/text/coordinate_text.h"
+#include "ui/text/core_text.h"
 #include "ui/text/sentence.h"
 #include "ui/widgets/caption.h"
 #include "ui/widgets/elided_label.h"
@@ -29,11 +30,6 @@ namespace {
 QString number(double value)
 {
     return shortNumberText(value, 9);
-}
-
-QString fromStd(std::string_view text)
-{
-    return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
 }
 
 QLabel* makeFact(QWidget* parent)
@@ -263,7 +259,7 @@ void GeoreferencingPanel::addPlaceFacts(const Map& map)
     const Georeference georeference = georeferenceOf(info); // a preview's pixels are larger
     const QString unknown = tr("unknown");
     addLongFact(tr("File"), QString::fromStdString(map.spec().path));
-    addFact(tr("Body"), info.body != nullptr ? fromStd(info.body->name) : unknown);
+    addFact(tr("Body"), info.body != nullptr ? textFrom(info.body->name) : unknown);
     if (info.crs && info.crs->ellipsoid()) {
         const Ellipsoid& e = *info.crs->ellipsoid();
         //: Radii of an ellipsoid
@@ -336,7 +332,7 @@ void GeoreferencingPanel::addSampleFacts(const Map& map)
     //: %1 columns and %2 rows of samples, of type %3
     addFact(tr("Samples"), tr("%1 × %2, %3")
                                .arg(countText(info.columns), countText(info.rows),
-                                    fromStd(sampleTypeName(info.type))));
+                                    textFrom(sampleTypeName(info.type))));
     if (const auto& range = map.heightfield().range()) {
         addFact(tr("Elevations"), heightRangeText(*range, unit_of_heights_));
     }

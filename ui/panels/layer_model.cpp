@@ -1,6 +1,7 @@
 #include "ui/panels/layer_model.h"
 
 #include "ui/controllers/session_controller.h"
+#include "ui/text/core_text.h"
 
 #include <QMimeData>
 
@@ -16,7 +17,7 @@ QString mimeType()
 
 QString bodyName(const Body& body)
 {
-    return QString::fromUtf8(body.name.data(), static_cast<qsizetype>(body.name.size()));
+    return textFrom(body.name);
 }
 
 // As it reads in a sentence.

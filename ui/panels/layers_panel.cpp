@@ -2,6 +2,7 @@
 
 #include "ui/panels/layer_delegate.h"
 #include "ui/panels/layer_model.h"
+#include "ui/text/core_text.h"
 #include "ui/text/ramp_text.h"
 
 #include <QAction>
@@ -72,9 +73,7 @@ LayersPanel::LayersPanel(const LayerActions& actions, QWidget* parent)
     //: A color ramp: the one that suits the map's body
     ramps_->addItem(tr("Automatic"), QString());
     for (const ColorRamp& ramp : colorRamps()) {
-        ramps_->addItem(
-            rampIcon(ramp), rampName(ramp),
-            QString::fromUtf8(ramp.name.data(), static_cast<qsizetype>(ramp.name.size())));
+        ramps_->addItem(rampIcon(ramp), rampName(ramp), textFrom(ramp.name));
     }
     auto* ramp_row = new QHBoxLayout;
     ramp_row->setSpacing(8);

@@ -2,6 +2,7 @@
 
 #include "ui/controllers/measure_controller.h"
 #include "ui/text/measure_text.h"
+#include "ui/widgets/icons.h"
 
 #include <QColorDialog>
 #include <QContextMenuEvent>
@@ -19,10 +20,11 @@
 namespace marsview {
 namespace {
 
+constexpr int kSwatchSide = 10;
+
 constexpr int kIdRole = Qt::UserRole;
 constexpr int kFigureRole = Qt::UserRole + 1;
 constexpr int kKindRole = Qt::UserRole + 2;
-constexpr int kSwatchSide = 10;
 
 // Results sort by what they measure, then by size.
 class Row final : public QTreeWidgetItem {
@@ -42,13 +44,6 @@ public:
         return key(*this) < key(other);
     }
 };
-
-QIcon swatch(const Rgb8& color)
-{
-    QPixmap pixmap(kSwatchSide, kSwatchSide);
-    pixmap.fill(QColor(color.red, color.green, color.blue));
-    return pixmap;
-}
 
 } // namespace
 
@@ -133,7 +128,10 @@ void MeasureList::fill(QTreeWidgetItem& row, std::size_t index)
     const Layer* layer = controller_.layerOf(item);
     row.setData(NameColumn, kIdRole, item.id);
     row.setText(NameColumn, item.name);
-    row.setIcon(NameColumn, item.color ? swatch(*item.color) : QIcon());
+    row.setIcon(NameColumn,
+                item.color ? swatch(QColor(item.color->red, item.color->green, item.color->blue),
+                                    kSwatchSide)
+                           : QIcon());
     row.setToolTip(NameColumn, measurementName(item.kind) + QLatin1Char('\n') +
                                    locale().toString(item.time, QLocale::ShortFormat));
     row.setText(ResultColumn, outcome.result ? measureSummary(*outcome.result, unit_) : QString());

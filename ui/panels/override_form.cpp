@@ -2,6 +2,7 @@
 
 #include "core/session/map.h"
 #include "ui/panels/crs_field.h"
+#include "ui/text/core_text.h"
 #include "ui/text/number_text.h"
 #include "ui/text/sentence.h"
 #include "ui/widgets/form_field.h"
@@ -23,7 +24,7 @@
 namespace marsview {
 namespace {
 
-constexpr std::chrono::milliseconds kTypingPause{400};
+constexpr std::chrono::milliseconds kCheckPause{400};
 
 // Digits enough to read the same double back, always with a point.
 QString exactNumber(double value)
@@ -42,11 +43,6 @@ std::optional<double> numberFrom(QString text)
     }
     const double local = QLocale().toDouble(text, &is_number);
     return is_number ? std::optional(local) : std::nullopt;
-}
-
-QString textFrom(std::string_view text)
-{
-    return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
 }
 
 // The sentence for a field: without the path and the option before it.
@@ -129,7 +125,7 @@ OverrideForm::OverrideForm(QWidget* parent)
         numbers_.append(term);
     }
     typing_timer_.setSingleShot(true);
-    typing_timer_.setInterval(kTypingPause);
+    typing_timer_.setInterval(kCheckPause);
     connect(&typing_timer_, &QTimer::timeout, this, &OverrideForm::checkNumbers);
     for (QLineEdit* number : std::as_const(numbers_)) {
         connect(number, &QLineEdit::textEdited, this, [this, number](const QString& text) {

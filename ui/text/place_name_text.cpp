@@ -1,5 +1,6 @@
 #include "ui/text/place_name_text.h"
 
+#include "ui/text/core_text.h"
 #include "ui/text/number_text.h"
 
 #include <QCoreApplication>
@@ -94,7 +95,7 @@ QString bodyInSentence(const Body& body)
         //: A body, in "on the Moon"
         return translated("the Moon");
     }
-    return QString::fromUtf8(body.name.data(), static_cast<qsizetype>(body.name.size()));
+    return textFrom(body.name);
 }
 
 QString outsideMapText(const PlaceName& place)

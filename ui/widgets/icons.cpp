@@ -94,6 +94,13 @@ QIcon lineIcon(const QString& name, const QColor& color)
     return iconOf(name, color);
 }
 
+QIcon swatch(const QColor& color, int side)
+{
+    QPixmap pixmap(side, side);
+    pixmap.fill(color);
+    return pixmap;
+}
+
 QIcon programIcon()
 {
     initIcons();

@@ -14,6 +14,9 @@ QIcon lineIcon(const QString& name);
 /// The same in one color, for what lies over the map.
 QIcon lineIcon(const QString& name, const QColor& color);
 
+/// A square of one color, `side` points wide, for a list or a menu.
+QIcon swatch(const QColor& color, int side);
+
 /// The icon of the program, for windows and the About box.
 QIcon programIcon();
 

@@ -4,6 +4,7 @@
 #include "core/session/measurement.h"
 #include "ui/canvas/terrain_view.h"
 #include "ui/text/contact_model_text.h"
+#include "ui/text/core_text.h"
 #include "ui/text/ramp_text.h"
 #include "ui/widgets/icons.h"
 #include "ui/window/action_icons.h"
@@ -120,11 +121,6 @@ StretchKind shownStretch(const Layer& layer, ShadingMode mode)
         return layer.stretch.kind;
     }
     return layer.slope_range ? StretchKind::Fixed : StretchKind::Automatic;
-}
-
-QString fromStd(std::string_view text)
-{
-    return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
 }
 
 } // namespace
@@ -310,7 +306,7 @@ void WindowActions::makeMapMenu(QMainWindow& window)
     add_ramp(tr("Automatic"), {});
     ramps->addSeparator();
     for (const ColorRamp& ramp : colorRamps()) {
-        add_ramp(rampName(ramp), fromStd(ramp.name))->setIcon(rampIcon(ramp));
+        add_ramp(rampName(ramp), textFrom(ramp.name))->setIcon(rampIcon(ramp));
     }
     makeStretchMenu(window, *menu);
     light = menu->addAction(tr("&Light…"));
