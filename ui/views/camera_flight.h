@@ -1,7 +1,7 @@
 // Moving the view's camera along a path, until the path ends or the user takes the camera.
 #pragma once
 
-#include "core/view/camera_path.h"
+#include "core/flight/camera_path.h"
 
 #include <QElapsedTimer>
 #include <QObject>

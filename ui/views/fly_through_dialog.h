@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/session/session.h"
-#include "core/view/camera_path.h"
+#include "core/flight/camera_path.h"
 #include "ui/views/camera_flight.h"
 #include "ui/views/fly_through_recorder.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/job_monitor.h"
-#include "core/view/camera_path.h"
+#include "core/flight/camera_path.h"
 #include "ui/canvas/terrain_canvas.h"
 #include "ui/controllers/detached_jobs.h"
 #include "ui/render/terrain_renderer.h"

@@ -1,6 +1,6 @@
 #include "ui/views/saved_views.h"
 
-#include "core/view/camera_path.h"
+#include "core/flight/camera_path.h"
 #include "ui/canvas/terrain_view.h"
 #include "ui/controllers/session_controller.h"
 #include "ui/text/coordinate_text.h"

@@ -1,4 +1,4 @@
-#include "core/view/camera_path.h"
+#include "core/flight/camera_path.h"
 
 #include "core/base/check.h"
 
