@@ -20,13 +20,13 @@ struct ReportFact {
 
 struct ReportTable {
     QStringList header;
-    QList<QStringList> rows; // as long as the header
+    QList<QStringList> rows{}; // as long as the header
 };
 
 /// A drawing as SVG.
 struct ReportFigure {
-    QByteArray svg;
-    QSize size; // of its view box
+    QByteArray svg{};
+    QSize size{}; // of its view box
     QString caption{};
 };
 
@@ -36,9 +36,9 @@ struct ReportLegend {
         double share = 0.0; // of the ramp
         QString text;
     };
-    QString title; // "Elevation (km), areoid"
-    QList<QColor> colors;
-    QList<Tick> ticks;
+    QString title{}; // "Elevation (km), areoid"
+    QList<QColor> colors{};
+    QList<Tick> ticks{};
     QString contours{}; // "Contours 500 m"; empty without
 };
 
@@ -48,7 +48,7 @@ struct ReportScale {
 };
 
 struct ReportMap {
-    QImage picture;
+    QImage picture{};
     std::optional<ReportLegend> legend{};
     std::optional<ReportScale> scale{};
     double north_deg = 0.0; // where north is, clockwise from up
