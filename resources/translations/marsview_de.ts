@@ -189,7 +189,7 @@
         <translation>Geländeoberfläche</translation>
     </message>
     <message>
-        <source>Volume above the border's plane</source>
+        <source>Volume above the border&apos;s plane</source>
         <translation>Volumen über der Randebene</translation>
     </message>
     <message>
@@ -449,7 +449,7 @@
     <name>RecentFiles</name>
     <message>
         <source>%1 — %2/</source>
-        <extracomment>In a list of files: %1 is a file's name, %2 the end of its folder's path</extracomment>
+        <extracomment>In a list of files: %1 is a file&apos;s name, %2 the end of its folder&apos;s path</extracomment>
         <translation>%1 — %2/</translation>
     </message>
 </context>
@@ -505,7 +505,9 @@
         <source>%n min left</source>
         <extracomment>How long something still takes</extracomment>
         <translation>
-            <numerusform>noch %n min</numerusform><numerusform>noch %n min</numerusform></translation>
+            <numerusform>noch %n min</numerusform>
+            <numerusform>noch %n min</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -638,7 +640,7 @@
         <translation>&amp;Stetiger Gang (genau)</translation>
     </message>
     <message>
-        <source>Takes every point of the hand's way in turn, so that even fast strokes end where slow ones would; each costs a little more time</source>
+        <source>Takes every point of the hand&apos;s way in turn, so that even fast strokes end where slow ones would; each costs a little more time</source>
         <extracomment>Status tip of a contact model: its behavior and its cost</extracomment>
         <translation>Nimmt jeden Punkt des Wegs der Hand der Reihe nach, sodass auch schnelle Striche enden, wo langsame es täten; jeder kostet etwas mehr Zeit</translation>
     </message>
@@ -834,15 +836,15 @@
 <context>
     <name>marsview</name>
     <message>
-        <source>the Qt platform "%1" cannot show OpenGL windows; start with a display, for example under xvfb-run</source>
+        <source>the Qt platform &quot;%1&quot; cannot show OpenGL windows; start with a display, for example under xvfb-run</source>
         <translation>Die Qt-Plattform „%1“ kann keine OpenGL-Fenster zeigen; starten Sie mit einer Anzeige, zum Beispiel unter xvfb-run</translation>
     </message>
     <message>
-        <source>no OpenGL context can be created; install the graphics driver, or Mesa's software one (libgl1-mesa-dri)</source>
+        <source>no OpenGL context can be created; install the graphics driver, or Mesa&apos;s software one (libgl1-mesa-dri)</source>
         <translation>Es kann kein OpenGL-Kontext erzeugt werden; installieren Sie den Grafiktreiber oder den Softwaretreiber von Mesa (libgl1-mesa-dri)</translation>
     </message>
     <message>
-        <source>OpenGL 3.3 is required, but the graphics driver offers %1.%2; install a newer driver or Mesa's software one</source>
+        <source>OpenGL 3.3 is required, but the graphics driver offers %1.%2; install a newer driver or Mesa&apos;s software one</source>
         <translation>OpenGL 3.3 ist nötig, aber der Grafiktreiber bietet %1.%2; installieren Sie einen neueren Treiber oder den Softwaretreiber von Mesa</translation>
     </message>
     <message>
@@ -1018,12 +1020,12 @@
     </message>
     <message>
         <source>Real-time scheduling granted, locked memory not granted (%1). Touch works without it.</source>
-        <extracomment>%1 is the system's reason</extracomment>
+        <extracomment>%1 is the system&apos;s reason</extracomment>
         <translation>Echtzeitplanung gewährt, gesperrter Speicher nicht (%1). Das Tasten funktioniert auch so.</translation>
     </message>
     <message>
         <source>Real-time scheduling not granted (%1). Touch works, less steadily while the computer is busy.</source>
-        <extracomment>%1 is the system's reason</extracomment>
+        <extracomment>%1 is the system&apos;s reason</extracomment>
         <translation>Echtzeitplanung nicht gewährt (%1). Das Tasten funktioniert, aber weniger gleichmäßig, wenn der Rechner ausgelastet ist.</translation>
     </message>
     <message>
@@ -1081,7 +1083,7 @@
     <message>
         <source>sphere of radius %1</source>
         <extracomment>A vertical datum: %1 is a radius in meters</extracomment>
-        <translation type="unfinished" />
+        <translation>Kugel mit Radius %1</translation>
     </message>
 </context>
 <context>
@@ -1211,8 +1213,8 @@
         <translation>Mittlerer Pol: Azimut %1, Abtauchen %2</translation>
     </message>
     <message>
-        <source>Fisher's κ: %1</source>
-        <extracomment>Fisher's concentration of poles</extracomment>
+        <source>Fisher&apos;s κ: %1</source>
+        <extracomment>Fisher&apos;s concentration of poles</extracomment>
         <translation>Fisher-κ: %1</translation>
     </message>
     <message>
@@ -1241,7 +1243,7 @@
     </message>
     <message>
         <source>Looking toward %1</source>
-        <extracomment>%1 is a heading, for example "332° (north-north-west)"</extracomment>
+        <extracomment>%1 is a heading, for example &quot;332° (north-north-west)&quot;</extracomment>
         <translation>Blick nach %1</translation>
     </message>
     <message>
@@ -1473,7 +1475,7 @@
     <name>marsview::FocusFrame</name>
     <message>
         <source>Keyboard focus</source>
-        <translation type="unfinished" />
+        <translation>Tastaturfokus</translation>
     </message>
 </context>
 <context>
@@ -1493,7 +1495,7 @@
     </message>
     <message>
         <source>Force %1</source>
-        <extracomment>%1 is a force, for example "1.2 N", coarse enough not to change all the time</extracomment>
+        <extracomment>%1 is a force, for example &quot;1.2 N&quot;, coarse enough not to change all the time</extracomment>
         <translation>Kraft %1</translation>
     </message>
 </context>
@@ -1866,7 +1868,9 @@ y %2</translation>
         <source>%Ln match(es)</source>
         <extracomment>How often the text that is searched for stands in the guide</extracomment>
         <translation>
-            <numerusform>%Ln Treffer</numerusform><numerusform>%Ln Treffer</numerusform></translation>
+            <numerusform>%Ln Treffer</numerusform>
+            <numerusform>%Ln Treffer</numerusform>
+        </translation>
     </message>
     <message>
         <source>Not found</source>
@@ -2063,7 +2067,7 @@ y %2</translation>
     </message>
     <message>
         <source>%1 when recorded</source>
-        <extracomment>%1 is a force, like "0.45 N"</extracomment>
+        <extracomment>%1 is a force, like &quot;0.45 N&quot;</extracomment>
         <translation>%1 bei der Aufzeichnung</translation>
     </message>
     <message>
@@ -2072,7 +2076,7 @@ y %2</translation>
     </message>
     <message>
         <source>Force off: %1</source>
-        <extracomment>%1 is the device's error</extracomment>
+        <extracomment>%1 is the device&apos;s error</extracomment>
         <translation>Kraft aus: %1</translation>
     </message>
     <message>
@@ -2151,20 +2155,20 @@ y %2</translation>
     <message>
         <source>%1, not available: %2</source>
         <extracomment>A device that cannot be used, read aloud; %2 says why</extracomment>
-        <translation type="unfinished" />
+        <translation>%1, nicht verfügbar: %2</translation>
     </message>
     <message>
         <source>Details: %1</source>
         <extracomment>%1 is what the system reported</extracomment>
-        <translation type="unfinished" />
+        <translation>Einzelheiten: %1</translation>
     </message>
     <message>
         <source>Limited to %1</source>
-        <translation type="unfinished" />
+        <translation>Begrenzt auf %1</translation>
     </message>
     <message>
         <source>Device limit: %1</source>
-        <translation type="unfinished" />
+        <translation>Grenze des Geräts: %1</translation>
     </message>
 </context>
 <context>
@@ -2172,7 +2176,7 @@ y %2</translation>
     <message>
         <source> m</source>
         <extracomment>Meters, after a number</extracomment>
-        <translation type="unfinished" />
+        <translation> m</translation>
     </message>
     <message>
         <source>Automatic</source>
@@ -2181,15 +2185,15 @@ y %2</translation>
     </message>
     <message>
         <source>Enter 0 for an interval that follows the view</source>
-        <translation type="unfinished" />
+        <translation>Geben Sie 0 ein, damit sich die Äquidistanz nach der Ansicht richtet</translation>
     </message>
     <message>
         <source>&amp;Interval between contour lines</source>
-        <translation type="unfinished" />
+        <translation>&amp;Abstand zwischen Höhenlinien</translation>
     </message>
     <message>
         <source>Interval between contour lines</source>
-        <translation type="unfinished" />
+        <translation>Abstand zwischen Höhenlinien</translation>
     </message>
 </context>
 <context>
@@ -2371,7 +2375,9 @@ In place of the number 0: a usual bound; %1 is a size</extracomment>
     <message numerus="yes">
         <source>%n maps, %1</source>
         <translation>
-            <numerusform>%n Karte, %1</numerusform><numerusform>%n Karten, %1</numerusform></translation>
+            <numerusform>%n Karte, %1</numerusform>
+            <numerusform>%n Karten, %1</numerusform>
+        </translation>
     </message>
     <message>
         <source>Remove All Prepared Maps</source>
@@ -2400,7 +2406,9 @@ In place of the number 0: a usual bound; %1 is a size</extracomment>
     <message numerus="yes">
         <source>%n tiles, %1</source>
         <translation>
-            <numerusform>%n Kachel, %1</numerusform><numerusform>%n Kacheln, %1</numerusform></translation>
+            <numerusform>%n Kachel, %1</numerusform>
+            <numerusform>%n Kacheln, %1</numerusform>
+        </translation>
     </message>
     <message>
         <source>Remove Tiles from Servers</source>
@@ -2431,12 +2439,12 @@ In place of the number 0: a usual bound; %1 is a size</extracomment>
     <name>marsview::LayerModel</name>
     <message>
         <source>the Earth</source>
-        <extracomment>A body, in "on the Earth" and "the view shows the Earth"</extracomment>
+        <extracomment>A body, in &quot;on the Earth&quot; and &quot;the view shows the Earth&quot;</extracomment>
         <translation>die Erde</translation>
     </message>
     <message>
         <source>the Moon</source>
-        <extracomment>A body, in "on the Moon" and "the view shows the Moon"</extracomment>
+        <extracomment>A body, in &quot;on the Moon&quot; and &quot;the view shows the Moon&quot;</extracomment>
         <translation>der Mond</translation>
     </message>
     <message>
@@ -2519,7 +2527,7 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
     </message>
     <message>
         <source>Automatic</source>
-        <extracomment>A color ramp: the one that suits the map's body</extracomment>
+        <extracomment>A color ramp: the one that suits the map&apos;s body</extracomment>
         <translation>Automatisch</translation>
     </message>
     <message>
@@ -2549,7 +2557,7 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
     </message>
     <message>
         <source>Contours %1</source>
-        <extracomment>%1 is the difference in height from one contour line to the next, for example "200 m"</extracomment>
+        <extracomment>%1 is the difference in height from one contour line to the next, for example &quot;200 m&quot;</extracomment>
         <translation>Höhenlinien %1</translation>
     </message>
     <message>
@@ -2568,7 +2576,7 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
     </message>
     <message>
         <source>%1 (%2)</source>
-        <extracomment>%1 describes a legend, %2 is what its elevations refer to, such as "areoid"</extracomment>
+        <extracomment>%1 describes a legend, %2 is what its elevations refer to, such as &quot;areoid&quot;</extracomment>
         <translation>%1 (%2)</translation>
     </message>
     <message>
@@ -2678,7 +2686,7 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
     </message>
     <message>
         <source>%1, %2</source>
-        <extracomment>The share that is done and the time left: "37 %, 4 min left"</extracomment>
+        <extracomment>The share that is done and the time left: &quot;37 %, 4 min left&quot;</extracomment>
         <translation>%1, %2</translation>
     </message>
     <message>
@@ -2692,8 +2700,10 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
         <extracomment>Tool tip: %1 is a file, %n the number of maps whose turn is after it</extracomment>
         <translation>
             <numerusform>%1
-%n weitere wartet</numerusform><numerusform>%1
-%n weitere warten</numerusform></translation>
+%n weitere wartet</numerusform>
+            <numerusform>%1
+%n weitere warten</numerusform>
+        </translation>
     </message>
     <message>
         <source>Cancel loading (Esc)</source>
@@ -3133,7 +3143,7 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
     </message>
     <message>
         <source>The view is at %1% of the way from west to east and %2% from south to north; %3% of the map is in sight. Arrow keys move it.</source>
-        <extracomment>For screen readers: %1 and %2 are percentages of the map's width and height, %3 of its area</extracomment>
+        <extracomment>For screen readers: %1 and %2 are percentages of the map&apos;s width and height, %3 of its area</extracomment>
         <translation>Die Ansicht liegt bei %1 % des Wegs von West nach Ost und %2 % von Süd nach Nord; %3 % der Karte sind zu sehen. Die Pfeiltasten bewegen sie.</translation>
     </message>
 </context>
@@ -3217,7 +3227,7 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
         <translation>„%1“ ist keine Zahl. Geben Sie eine ein wie −1737,4 oder 1e-3.</translation>
     </message>
     <message>
-        <source>Leave blank to keep the file's value. The file itself is never changed.</source>
+        <source>Leave blank to keep the file&apos;s value. The file itself is never changed.</source>
         <translation>Leer lassen, um den Wert der Datei zu behalten. Die Datei selbst wird nie geändert.</translation>
     </message>
     <message>
@@ -3310,7 +3320,7 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
     </message>
     <message>
         <source>As in the file</source>
-        <extracomment>The first entry of a list: the file's own value, and which it is</extracomment>
+        <extracomment>The first entry of a list: the file&apos;s own value, and which it is</extracomment>
         <translation>Wie in der Datei</translation>
     </message>
     <message>
@@ -3451,7 +3461,9 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
         <source>%n fps</source>
         <extracomment>Frames per second</extracomment>
         <translation>
-            <numerusform>%n Bild/s</numerusform><numerusform>%n Bilder/s</numerusform></translation>
+            <numerusform>%n Bild/s</numerusform>
+            <numerusform>%n Bilder/s</numerusform>
+        </translation>
     </message>
     <message>
         <source>Frame rate while moving</source>
@@ -3617,7 +3629,7 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
         <translation>Die Änderungen an %1 speichern?</translation>
     </message>
     <message>
-        <source>&amp;Don't Save</source>
+        <source>&amp;Don&apos;t Save</source>
         <translation>&amp;Nicht speichern</translation>
     </message>
     <message>
@@ -3780,11 +3792,11 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
     <message>
         <source>As in the window (%1)</source>
         <extracomment>Size of a picture; %1 are its pixels, such as 1,280 × 800</extracomment>
-        <translation type="unfinished" />
+        <translation>Wie im Fenster (%1)</translation>
     </message>
     <message>
         <source>%2 times the window (%1)</source>
-        <translation type="unfinished" />
+        <translation>%2-mal das Fenster (%1)</translation>
     </message>
 </context>
 <context>
@@ -3799,7 +3811,7 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
     </message>
     <message>
         <source>Scale %1</source>
-        <extracomment>%1 is the length of the scale bar, for example "500 km"</extracomment>
+        <extracomment>%1 is the length of the scale bar, for example &quot;500 km&quot;</extracomment>
         <translation>Maßstab %1</translation>
     </message>
 </context>
@@ -3807,22 +3819,22 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
     <name>marsview::SessionController</name>
     <message>
         <source>Remove %1</source>
-        <extracomment>Continues "Undo …"; %1 is a layer</extracomment>
+        <extracomment>Continues &quot;Undo …&quot;; %1 is a layer</extracomment>
         <translation>%1 entfernen</translation>
     </message>
     <message>
         <source>Locate %1</source>
-        <extracomment>Continues "Undo …"; %1 is a layer</extracomment>
+        <extracomment>Continues &quot;Undo …&quot;; %1 is a layer</extracomment>
         <translation>%1 suchen</translation>
     </message>
     <message>
         <source>Open %1</source>
-        <extracomment>Continues "Undo …"; %1 is a layer</extracomment>
+        <extracomment>Continues &quot;Undo …&quot;; %1 is a layer</extracomment>
         <translation>%1 öffnen</translation>
     </message>
     <message>
         <source>Keep %1</source>
-        <extracomment>Continues "Undo …"; %1 is a layer</extracomment>
+        <extracomment>Continues &quot;Undo …&quot;; %1 is a layer</extracomment>
         <translation>%1 behalten</translation>
     </message>
     <message>
@@ -3832,17 +3844,17 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
     </message>
     <message>
         <source>Georeferencing of %1</source>
-        <extracomment>Continues "Undo …"; %1 is a layer</extracomment>
+        <extracomment>Continues &quot;Undo …&quot;; %1 is a layer</extracomment>
         <translation>Georeferenzierung von %1</translation>
     </message>
     <message>
         <source>Move %1</source>
-        <extracomment>Continues "Undo …"; %1 is a layer</extracomment>
+        <extracomment>Continues &quot;Undo …&quot;; %1 is a layer</extracomment>
         <translation>%1 verschieben</translation>
     </message>
     <message>
         <source>Show %1</source>
-        <extracomment>Continues "Undo …"; %1 is a layer</extracomment>
+        <extracomment>Continues &quot;Undo …&quot;; %1 is a layer</extracomment>
         <translation>%1 zeigen</translation>
     </message>
     <message>
@@ -3851,62 +3863,62 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
     </message>
     <message>
         <source>Color Ramp of %1</source>
-        <extracomment>Continues "Undo …"; %1 is a layer</extracomment>
+        <extracomment>Continues &quot;Undo …&quot;; %1 is a layer</extracomment>
         <translation>Farbskala von %1</translation>
     </message>
     <message>
         <source>Rename %1</source>
-        <extracomment>Continues "Undo …"; %1 is a layer</extracomment>
+        <extracomment>Continues &quot;Undo …&quot;; %1 is a layer</extracomment>
         <translation>%1 umbenennen</translation>
     </message>
     <message>
         <source>Shading</source>
-        <extracomment>Continues "Undo …"</extracomment>
+        <extracomment>Continues &quot;Undo …&quot;</extracomment>
         <translation>Schattierung</translation>
     </message>
     <message>
         <source>Contours</source>
-        <extracomment>Continues "Undo …"</extracomment>
+        <extracomment>Continues &quot;Undo …&quot;</extracomment>
         <translation>Höhenlinien</translation>
     </message>
     <message>
         <source>Change %1</source>
-        <extracomment>Continues "Undo …"; %1 is a file</extracomment>
+        <extracomment>Continues &quot;Undo …&quot;; %1 is a file</extracomment>
         <translation>%1 ändern</translation>
     </message>
     <message>
         <source>Close %1</source>
-        <extracomment>Continues "Undo …"; %1 is a file</extracomment>
+        <extracomment>Continues &quot;Undo …&quot;; %1 is a file</extracomment>
         <translation>%1 schließen</translation>
     </message>
     <message>
         <source>Contour Interval</source>
-        <extracomment>Continues "Undo …"</extracomment>
+        <extracomment>Continues &quot;Undo …&quot;</extracomment>
         <translation>Äquidistanz</translation>
     </message>
     <message>
         <source>Light</source>
-        <extracomment>Continues "Undo …"</extracomment>
+        <extracomment>Continues &quot;Undo …&quot;</extracomment>
         <translation>Licht</translation>
     </message>
     <message>
         <source>Color Stretch of %1</source>
-        <extracomment>Continues "Undo …"; %1 is a layer</extracomment>
+        <extracomment>Continues &quot;Undo …&quot;; %1 is a layer</extracomment>
         <translation>Farbspreizung von %1</translation>
     </message>
     <message>
         <source>Slope Colors of %1</source>
-        <extracomment>Continues "Undo …"; %1 is a layer</extracomment>
+        <extracomment>Continues &quot;Undo …&quot;; %1 is a layer</extracomment>
         <translation>Neigungsfarben von %1</translation>
     </message>
     <message>
         <source>Stretch of %1 to Current View</source>
-        <extracomment>Continues "Undo …"; %1 is a layer</extracomment>
+        <extracomment>Continues &quot;Undo …&quot;; %1 is a layer</extracomment>
         <translation>Spreizung von %1 auf die aktuelle Ansicht</translation>
     </message>
     <message>
         <source>Exaggeration ×%1</source>
-        <extracomment>Continues "Undo …"; %1 is a factor</extracomment>
+        <extracomment>Continues &quot;Undo …&quot;; %1 is a factor</extracomment>
         <translation>Überhöhung ×%1</translation>
     </message>
     <message>
@@ -4107,7 +4119,7 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
         <translation>Größte Neigung</translation>
     </message>
     <message>
-        <source>Slopes averaged over the map's overview; single samples may be steeper.</source>
+        <source>Slopes averaged over the map&apos;s overview; single samples may be steeper.</source>
         <translation>Neigungen, gemittelt über die Übersicht der Karte; einzelne Stellen können steiler sein.</translation>
     </message>
     <message>
@@ -4155,7 +4167,7 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
         <translation>Legen Sie hier ein Geländemodell ab, oder drücken Sie Strg+O</translation>
     </message>
     <message>
-        <source>no OpenGL context can be created; install the graphics driver, or Mesa's software one (libgl1-mesa-dri)</source>
+        <source>no OpenGL context can be created; install the graphics driver, or Mesa&apos;s software one (libgl1-mesa-dri)</source>
         <translation>Es kann kein OpenGL-Kontext erzeugt werden; installieren Sie den Grafiktreiber oder den Softwaretreiber von Mesa (libgl1-mesa-dri)</translation>
     </message>
 </context>
@@ -4440,7 +4452,7 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
     </message>
     <message>
         <source>Automatic</source>
-        <extracomment>A color ramp: the one that suits the map's body</extracomment>
+        <extracomment>A color ramp: the one that suits the map&apos;s body</extracomment>
         <translation>Automatisch</translation>
     </message>
     <message>
@@ -4568,7 +4580,7 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
         <translation>Berührung auf&amp;zeichnen …</translation>
     </message>
     <message>
-        <source>Record the motion of the device's stylus in a file</source>
+        <source>Record the motion of the device&apos;s stylus in a file</source>
         <translation>Die Bewegung des Stifts in einer Datei aufzeichnen</translation>
     </message>
     <message>
@@ -4608,7 +4620,7 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
         <translation>&amp;Tasten und Maus</translation>
     </message>
     <message>
-        <source>&amp;What's This?</source>
+        <source>&amp;What&apos;s This?</source>
         <translation>&amp;Was ist das?</translation>
     </message>
     <message>
@@ -4693,7 +4705,7 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
     </message>
     <message>
         <source>Not available: the selected layer is not in the picture. Show it first</source>
-        <translation type="unfinished" />
+        <translation>Nicht verfügbar: Der ausgewählte Layer ist nicht im Bild. Zeigen Sie ihn zuerst</translation>
     </message>
 </context>
 <context>
@@ -4777,7 +4789,7 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
     </message>
     <message>
         <source>Looks like longitude and latitude, but the file has no CRS (%1)</source>
-        <extracomment>%1 is a reason, such as "its extent is 0° – 360°, 90° S – 90° N"</extracomment>
+        <extracomment>%1 is a reason, such as &quot;its extent is 0° – 360°, 90° S – 90° N&quot;</extracomment>
         <translation>Sieht nach Länge und Breite aus, aber die Datei hat kein KBS (%1)</translation>
     </message>
     <message>
@@ -4816,12 +4828,12 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
     <message>
         <source>Samples of %1 are shown as nodata, although the file declares no nodata value</source>
         <extracomment>%1 is a number</extracomment>
-        <translation type="unfinished" />
+        <translation>Abtastwerte von %1 werden als Nodata gezeigt, obwohl die Datei keinen Nodata-Wert nennt</translation>
     </message>
     <message>
         <source>Show as Elevations</source>
         <extracomment>On a button: show samples that were taken for nodata as elevations</extracomment>
-        <translation type="unfinished" />
+        <translation>Als Höhen zeigen</translation>
     </message>
 </context>
 <context>

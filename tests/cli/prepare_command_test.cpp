@@ -3,6 +3,7 @@
 #include "tests/support/make_raster.h"
 #include "tests/support/random.h"
 #include "tests/support/run_program.h"
+#include "tests/support/shared_data.h"
 #include "tests/support/temp_folder.h"
 
 #include <gmock/gmock.h>
@@ -310,6 +311,71 @@ TEST(PrepareCommand, PreparedMapsOpenFromAReadOnlyFolder)
         GTEST_SKIP() << "cannot make a folder read-only on this machine: " << output.err;
     }
     EXPECT_EQ(output.exit_status, 0) << output.err;
+}
+
+// By GDAL's own script, with a mask and without.
+TEST(PrepareCommand, WritesValidCloudOptimizedGeoTiffs)
+{
+    const TempFolder folder;
+    const auto validated = [](const std::string& path) {
+        return runProgram({"/usr/bin/python3", "-m",
+                           "osgeo_utils.samples.validate_cloud_optimized_geotiff", path});
+    };
+    std::vector<std::int16_t> samples(std::size_t{1300} * 1500);
+    std::vector<std::uint8_t> mask(samples.size(), 255);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        samples[i] = static_cast<std::int16_t>(i * 7919 % 251);
+        mask[i] = i % 1300 < 100 ? 0 : 255;
+    }
+    RasterRecipe masked = recipeFor(1300, samples);
+    writeVrt(folder, "mask", recipeFor(1300, mask));
+    masked.extra_xml =
+        "<MaskBand><VRTRasterBand dataType=\"Byte\"><SimpleSource>"
+        "<SourceFilename relativeToVRT=\"1\">mask.vrt</SourceFilename>"
+        "<SourceBand>1</SourceBand></SimpleSource></VRTRasterBand></MaskBand>";
+    for (const std::string& source : {writeVrt(folder, "plain", recipeFor(1300, samples)),
+                                      writeVrt(folder, "masked", masked)}) {
+        const std::string out = folder.file("map.tif");
+        const ProgramOutput usual = runCli({"prepare", source, "-o", out});
+        ASSERT_EQ(usual.exit_status, 0) << usual.err;
+        const ProgramOutput before = validated(out);
+        if (before.err.find("No module named") != std::string::npos) {
+            GTEST_SKIP() << "GDAL's Python modules are not installed";
+        }
+        EXPECT_THAT(before.out, HasSubstr("is NOT a valid cloud optimized GeoTIFF"));
+        const nlohmann::json checksums = checksumsOf(out);
+        // An existing file is put in order; a new one is written so.
+        for (int i = 0; i < 2; ++i) {
+            const ProgramOutput ordered = runCli({"prepare", source, "-o", out, "--cog"});
+            ASSERT_EQ(ordered.exit_status, 0) << ordered.err;
+            EXPECT_THAT(validated(out).out, HasSubstr("is a valid cloud optimized GeoTIFF"));
+            EXPECT_EQ(checksumsOf(out), checksums);
+            fs::remove(out);
+            fs::remove(out + ".marsview");
+        }
+    }
+}
+
+TEST(PrepareCommand, RefusesPartsThatMakeNoSense)
+{
+    const TempFolder folder;
+    const std::string out = folder.file("map.tif");
+    const std::string dem = (sourceRoot() / "resources/samples/mars_mola_4ppd.tif").string();
+    const auto refused = [&](const std::vector<std::string>& options, const std::string& why) {
+        std::vector<std::string> arguments{"prepare", dem};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        const ProgramOutput output = runCli(arguments);
+        EXPECT_EQ(output.exit_status, 2);
+        EXPECT_THAT(output.err, HasSubstr(why));
+    };
+    refused({"-o", out, "--parts", "4"}, "needs either --part or --join");
+    refused({"-o", out, "--parts", "4", "--part", "1", "--join"}, "needs either --part or --join");
+    refused({"-o", out, "--parts", "4", "--part", "5"}, "5 is greater than --parts 4");
+    refused({"-o", out, "--parts", "4", "--part", "0"}, "--part");
+    refused({"-o", out, "--join"}, "--parts");
+    refused({"--parts", "4", "--part", "1"}, "--output");
+    refused({"-o", "s3://maps/map.tif", "--parts", "4", "--join"}, "--parts-folder");
+    EXPECT_EQ(runCli({"prepare", dem, "-o", out, "--parts", "3", "--join"}).exit_status, 1);
 }
 
 TEST(PrepareCommand, FailsInOneLine)

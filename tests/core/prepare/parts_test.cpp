@@ -184,9 +184,9 @@ TEST_F(Parts, BecomeTheSameBytesForEverySampleTypeAndKindOfVoid)
 
     test::RasterRecipe masked = test::recipeFor(900, gaps);
     masked.extra_xml =
-        "<MaskBand><VRTRasterBand dataType=\"Byte\"><ComplexSource>"
+        "<MaskBand><VRTRasterBand dataType=\"Byte\"><SimpleSource>"
         "<SourceFilename relativeToVRT=\"1\">mask.vrt</SourceFilename>"
-        "<SourceBand>1</SourceBand></ComplexSource></VRTRasterBand></MaskBand>";
+        "<SourceBand>1</SourceBand></SimpleSource></VRTRasterBand></MaskBand>";
     std::vector<std::uint8_t> mask(gaps.size());
     std::transform(gaps.begin(), gaps.end(), mask.begin(), [](std::int16_t sample) {
         return sample == -9 ? std::uint8_t{0} : std::uint8_t{255};
