@@ -144,6 +144,19 @@ bool isCylindrical(const OGRSpatialReference& srs)
 
 } // namespace
 
+bool GeographicArea::contains(GeographicPoint point) const noexcept
+{
+    if (point.latitude < south || point.latitude > north) {
+        return false;
+    }
+    constexpr double kTurn = 2.0 * std::numbers::pi;
+    const auto eastOfWest = [this](Angle longitude) {
+        const double turn = std::remainder(longitude.radians() - west.radians(), kTurn);
+        return turn < 0.0 ? turn + kTurn : turn;
+    };
+    return eastOfWest(point.longitude) <= eastOfWest(east);
+}
+
 struct Crs::Impl {
     OGRSpatialReference srs;
     OGRSpatialReference base; // the underlying geographic system, x = longitude, y = latitude
@@ -159,6 +172,8 @@ struct Crs::Impl {
     std::optional<double> turn;
     double south_pole_y = -std::numeric_limits<double>::infinity(); // if x is periodic
     double north_pole_y = std::numeric_limits<double>::infinity();
+    std::optional<GeographicArea> area_of_use;
+    MapPoint false_origin{};
     std::optional<VerticalUnit> vertical_unit;
     std::string vertical_datum_name;
     std::vector<std::string> notices;
@@ -220,6 +235,7 @@ struct Crs::Impl {
 
     void readBase();
     void readVertical();
+    void readAreaOfUse();
     Status readHorizontal();
 };
 
@@ -339,6 +355,25 @@ void Crs::Impl::readVertical()
     }
 }
 
+// The registry has degrees, whatever the unit of the system.
+void Crs::Impl::readAreaOfUse()
+{
+    double west = 0.0;
+    double south = 0.0;
+    double east = 0.0;
+    double north = 0.0;
+    constexpr double kUnknown = -1000.0; // of each bound, as PROJ has it
+    const bool is_known = srs.GetAreaOfUse(&west, &south, &east, &north, nullptr) &&
+                          west != kUnknown && south != kUnknown;
+    constexpr double kTurn = 360.0;
+    if (is_known && east - west < kTurn) {
+        area_of_use = GeographicArea{.west = Angle::degrees(west),
+                                     .south = Angle::degrees(south),
+                                     .east = Angle::degrees(east),
+                                     .north = Angle::degrees(north)};
+    }
+}
+
 Status Crs::Impl::readHorizontal()
 {
     axes = layoutOf(srs);
@@ -399,6 +434,8 @@ Status Crs::Impl::readHorizontal()
         }
         base = *geographic;
         readBase();
+        false_origin = {srs.GetProjParm(SRS_PP_FALSE_EASTING, 0.0),
+                        srs.GetProjParm(SRS_PP_FALSE_NORTHING, 0.0)};
         const QuietErrors quiet;
         to_base.reset(OGRCreateCoordinateTransformation(&srs, &base));
         from_base.reset(OGRCreateCoordinateTransformation(&base, &srs));
@@ -432,6 +469,12 @@ Result<Crs> Crs::fromText(const std::string& text)
             fmt::format("unknown CRS \"{}\"; enter an EPSG or IAU code, a PROJ string or WKT",
                         text)};
     }
+    if (srs.IsVertical() != 0 && srs.IsCompound() == 0) {
+        return Error{ErrorCode::Unsupported,
+                     fmt::format("CRS \"{}\" is vertical: it has heights, but no positions; a map "
+                                 "needs a geographic or projected one",
+                                 nameOf(srs))};
+    }
     return fromSpatialReference(srs);
 }
 
@@ -442,6 +485,7 @@ Result<Crs> Crs::fromSpatialReference(const OGRSpatialReference& reference)
     impl->name = nameOf(reference);
     impl->wkt = exportWkt(reference);
     impl->readVertical();
+    impl->readAreaOfUse();
     impl->srs.DemoteTo2D(nullptr);
     if (impl->srs.IsCompound() != 0) {
         impl->srs.StripVertical();
@@ -561,6 +605,14 @@ double Crs::northSign() const
 const std::optional<double>& Crs::turn() const
 {
     return impl_->turn;
+}
+const std::optional<GeographicArea>& Crs::areaOfUse() const
+{
+    return impl_->area_of_use;
+}
+MapPoint Crs::falseOrigin() const
+{
+    return impl_->false_origin;
 }
 const std::optional<VerticalUnit>& Crs::verticalUnit() const
 {

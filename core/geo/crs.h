@@ -31,14 +31,22 @@ enum class CrsKind {
     Local,      // lengths, without a body
 };
 
+/// A range of longitude and latitude. West is greater than east if it crosses the antimeridian.
+struct GeographicArea {
+    Angle west, south, east, north;
+    bool contains(GeographicPoint point) const noexcept;
+};
+
 /// An immutable coordinate reference system; copies share the state. Conversions may be called from
 /// any thread. Calls for one CRS block each other, so the servo thread must not use them.
 class Crs {
 public:
     /// Any text that OGR accepts: "EPSG:32610", "IAU_2015:49910", a PROJ string, WKT, PROJJSON.
+    /// Refuses vertical systems.
     static Result<Crs> fromText(const std::string& text);
 
-    /// The CRS of a raster. Refuses geocentric systems and systems that PROJ cannot invert.
+    /// The CRS of a raster. Refuses geocentric systems and systems that PROJ cannot invert. A
+    /// vertical one, which a file may have alone, is Local.
     static Result<Crs> fromSpatialReference(const OGRSpatialReference& reference);
 
     /// Longitude and latitude in degrees on `ellipsoid`, with the body's usual kind of latitude.
@@ -67,6 +75,11 @@ public:
     /// The length in map x of a full turn of longitude, for systems in which x is periodic:
     /// geographic ones and cylindrical projections.
     const std::optional<double>& turn() const;
+    /// Where the registry says that the CRS may be used, in the latitudes of the registry
+    /// (planetographic). Empty if it does not say, or for all longitudes.
+    const std::optional<GeographicArea>& areaOfUse() const;
+    /// The map coordinates that a projected system gives its origin: false easting and northing.
+    MapPoint falseOrigin() const;
     /// The unit and the name of the vertical part of a compound system, if any.
     const std::optional<VerticalUnit>& verticalUnit() const;
     const std::string& verticalDatumName() const;

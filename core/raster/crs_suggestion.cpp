@@ -17,6 +17,7 @@ constexpr double kPole = 90.0;
 struct Extent {
     double west, east, south, north; // map units
     double width() const { return east - west; }
+    MapPoint center() const { return {0.5 * (west + east), 0.5 * (south + north)}; }
 };
 
 // Of the positions from half a sample before the first to half a sample behind the last, or of
@@ -68,25 +69,29 @@ bool isWhole(double value)
     return value > 0.5 && std::abs(value - std::round(value)) < kTolerance * value;
 }
 
-// Grids in degrees have a whole number of samples per degree, such as 1200 or 12, or of arc seconds
-// per sample. Such small grids in meters begin at 0 or are centered on it.
-bool looksLikeDegrees(const RasterInfo& info)
+// Small grids in meters begin at 0 or are centered on it.
+bool isLocal(const RasterInfo& info)
 {
     const Extent extent = extentOf(info);
     const double pixel = std::min(info.transform->pixelWidth(), info.transform->pixelHeight());
-    constexpr double kSecondsADegree = 3600.0;
-    const bool is_usual = isWhole(1.0 / pixel) || isWhole(pixel * kSecondsADegree);
-    const bool is_small = pixel < 1.0 && (is_usual || hasTinyPixels(info));
     const auto beginsAtZero = [pixel](double low, double high) {
         return std::min(std::abs(low), std::abs(high)) <= pixel;
     };
     const auto isAroundZero = [pixel](double low, double high) {
         return std::abs(low + high) <= 2.0 * pixel;
     };
-    const bool is_local =
-        (beginsAtZero(extent.west, extent.east) || isAroundZero(extent.west, extent.east)) &&
-        (beginsAtZero(extent.south, extent.north) || isAroundZero(extent.south, extent.north));
-    return is_small && !is_local;
+    return (beginsAtZero(extent.west, extent.east) || isAroundZero(extent.west, extent.east)) &&
+           (beginsAtZero(extent.south, extent.north) || isAroundZero(extent.south, extent.north));
+}
+
+// Grids in degrees have a whole number of samples per degree, such as 1200 or 12, or of arc seconds
+// per sample.
+bool looksLikeDegrees(const RasterInfo& info)
+{
+    const double pixel = std::min(info.transform->pixelWidth(), info.transform->pixelHeight());
+    constexpr double kSecondsADegree = 3600.0;
+    const bool is_usual = isWhole(1.0 / pixel) || isWhole(pixel * kSecondsADegree);
+    return pixel < 1.0 && (is_usual || hasTinyPixels(info)) && !isLocal(info);
 }
 
 std::string longitudeRange(const Extent& extent)
@@ -138,6 +143,34 @@ std::string joined(const std::vector<std::string>& words)
         text += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
     }
     return text;
+}
+
+RasterInfo withoutCrs(RasterInfo info)
+{
+    info.crs.reset();
+    return info;
+}
+
+// Whether a position of small numbers may be one of a projected CRS. Without a registered area of
+// use, one near the origin of the projection may be.
+bool canBeInArea(const Crs& crs, MapPoint position)
+{
+    if (!crs.areaOfUse()) {
+        constexpr double kFarM = 1e5;
+        const MapPoint origin = crs.falseOrigin();
+        return std::hypot(origin.x, origin.y) * crs.unit() < kFarM;
+    }
+    const std::optional<GeographicPoint> place = crs.toGeographic(position);
+    return place && crs.areaOfUse()->contains(*place);
+}
+
+std::string misfitOfDegrees(const Crs& crs, const RasterInfo& degrees)
+{
+    const Extent extent = extentOf(degrees);
+    return fmt::format(
+        "\"{}\" (unit {}) cannot place a grid in degrees ({}, {}); choose a CRS of "
+        "longitude and latitude, or set a geotransform in its unit",
+        crs.name(), crs.unitName(), longitudeRange(extent), latitudeRange(extent));
 }
 
 constexpr const char* kUntilThen = "until then, map units are read as meters";
@@ -221,6 +254,27 @@ std::string angularMisfit(const RasterInfo& info)
         extent.north);
 }
 
+std::string projectedMisfit(const RasterInfo& info)
+{
+    if (!info.crs || info.crs->kind() != CrsKind::Projected || !info.transform) {
+        return {};
+    }
+    const std::optional<CrsSuggestion> suggestion = suggestCrs(withoutCrs(info));
+    if (suggestion && (suggestion->is_certain || hasTinyPixels(info))) {
+        return misfitOfDegrees(*info.crs, info);
+    }
+    if (!canBeAngles(info) || canBeInArea(*info.crs, extentOf(info).center())) {
+        return {};
+    }
+    const Extent extent = extentOf(info);
+    return fmt::format(
+        "\"{}\" (unit {}) cannot place a grid that covers x {} to {} and y {} to {}: that is far "
+        "from the area that it is made for, and can be degrees; choose a CRS of longitude and "
+        "latitude, or set a geotransform in its unit",
+        info.crs->name(), info.crs->unitName(), extent.west, extent.east, extent.south,
+        extent.north);
+}
+
 std::string projectedMisfit(const RasterInfo& info, const RasterInfo& as_read)
 {
     if (!info.crs || info.crs->kind() == CrsKind::Geographic) {
@@ -231,14 +285,36 @@ std::string projectedMisfit(const RasterInfo& info, const RasterInfo& as_read)
                           canBeAngles(as_read, *as_read.crs->turn())
                     : as_read.crs_suggestion &&
                           (as_read.crs_suggestion->is_certain || hasTinyPixels(as_read));
-    if (!is_in_degrees) {
+    return is_in_degrees ? misfitOfDegrees(*info.crs, as_read) : std::string();
+}
+
+std::string doubtAboutExtent(const RasterInfo& info)
+{
+    if (!info.crs || info.crs->kind() != CrsKind::Projected || !info.transform ||
+        !canBeAngles(info) || isLocal(info)) {
         return {};
     }
-    const Extent extent = extentOf(as_read);
+    const Extent extent = extentOf(info);
     return fmt::format(
-        "\"{}\" (unit {}) cannot place a grid in degrees ({}, {}); choose a CRS of "
-        "longitude and latitude, or set a geotransform in its unit",
-        info.crs->name(), info.crs->unitName(), longitudeRange(extent), latitudeRange(extent));
+        "the grid looks like longitude and latitude in degrees (its extent is {}, "
+        "{}); check that the CRS \"{}\" is meant",
+        longitudeRange(extent), latitudeRange(extent), info.crs->name());
+}
+
+std::string doubtAboutPixels(const RasterInfo& info)
+{
+    if (!info.crs || info.crs->kind() != CrsKind::Projected || !info.transform) {
+        return {};
+    }
+    // An arc second is 0.00028 degrees, and three are 0.00083.
+    constexpr double kMillimeter = 1e-3;
+    const double pixel = std::min(info.transform->pixelWidth(), info.transform->pixelHeight());
+    return pixel * info.crs->unit() < kMillimeter
+               ? fmt::format(
+                     "its pixels have a size of {} {}, as if it were in degrees; check the "
+                     "geotransform and the CRS \"{}\"",
+                     pixel, info.crs->unitName(), info.crs->name())
+               : std::string();
 }
 
 } // namespace marsview

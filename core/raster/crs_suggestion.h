@@ -53,8 +53,17 @@ bool canBeAngles(const RasterInfo& info, double turn = 360.0);
 /// Why the geographic CRS of `info` does not fit its grid. Empty if it fits.
 std::string angularMisfit(const RasterInfo& info);
 
-/// Why the projected CRS of `info` does not fit its grid: `as_read`, the raster as its file
-/// describes it, has the grid in degrees. Empty if it fits.
+/// Why the projected CRS of `info` does not fit its grid: its numbers must be degrees, or they can
+/// be, and as lengths lie outside the CRS's area of use. Empty if it fits.
+std::string projectedMisfit(const RasterInfo& info);
+/// The same for a CRS in place of that of `as_read`, the raster as its file describes it, which may
+/// say that the grid is in degrees.
 std::string projectedMisfit(const RasterInfo& info, const RasterInfo& as_read);
+
+/// A sentence if the extent of a grid with a projected CRS could be in degrees. Empty otherwise.
+std::string doubtAboutExtent(const RasterInfo& info);
+/// A sentence if the pixels of a grid with a projected CRS are so small that their sizes could be
+/// in degrees. Empty otherwise.
+std::string doubtAboutPixels(const RasterInfo& info);
 
 } // namespace marsview

@@ -51,9 +51,10 @@ void readVertical(GDALDataset& dataset,
     const double offset = band.GetOffset(&has_offset);
     if (has_scale != 0 && std::isfinite(scale) && scale != 0.0) {
         info.scale = scale;
-    } else if (has_scale != 0 && !(label && label->scale)) {
-        info.notices.push_back(
-            fmt::format("the scale {} is invalid for elevations; 1 is used instead", scale));
+    } else if (has_scale != 0 && !(label && label->hasScale())) {
+        info.addNotice(
+            fmt::format("the scale {} is invalid for elevations; 1 is used instead", scale),
+            {OverrideField::Scale});
     }
     if (has_offset != 0 && std::isfinite(offset)) {
         info.offset = offset;
@@ -66,13 +67,14 @@ void readVertical(GDALDataset& dataset,
     if (label) {
         applyLabel(info, *label);
         if (auto notice = noticeOfUnusedScale(dataset, info)) {
-            info.notices.push_back(*std::move(notice));
+            info.addNotice(*std::move(notice), {OverrideField::Scale, OverrideField::Offset});
         }
         unit = unit.empty() ? label->unit : unit;
     }
     if (!info.is_unit_declared && !unit.empty()) {
-        info.notices.push_back(
-            fmt::format("the unit \"{}\" is not a known unit of length; meters are assumed", unit));
+        info.addNotice(
+            fmt::format("the unit \"{}\" is not a known unit of length; meters are assumed", unit),
+            {OverrideField::VerticalUnit});
     } else if (!info.is_unit_declared && info.crs && info.crs->verticalUnit()) {
         info.unit = *info.crs->verticalUnit();
         info.is_unit_declared = true;
@@ -151,26 +153,27 @@ void readPlacement(GDALDataset& dataset, const nlohmann::json& pds3, RasterInfo&
             info.crs = std::move(crs).value();
             info.body = info.crs->body();
             for (const std::string& notice : info.crs->notices()) {
-                info.notices.push_back(notice);
+                info.addNotice(notice, {OverrideField::Crs});
             }
         } else {
-            info.notices.push_back(
-                fmt::format("{}; the map is placed without a CRS", crs.error().message));
+            info.addNotice(fmt::format("{}; the map is placed without a CRS", crs.error().message),
+                           {OverrideField::Crs});
         }
     }
     GeoTransform::Terms terms{};
     if (dataset.GetGeoTransform(terms.data()) != CE_None) {
-        info.notices.emplace_back(
+        info.addNotice(
             "no georeferencing in the file: each pixel is placed as one unit "
-            "square; give a geotransform to place it");
+            "square; give a geotransform to place it",
+            {OverrideField::Transform});
         return;
     }
     Result<GeoTransform> transform = GeoTransform::fromTerms(terms);
     if (!transform) {
-        info.notices.push_back(
-            fmt::format("{}: each pixel is placed as one unit square; give "
-                        "another to place it",
-                        transform.error().message));
+        info.addNotice(fmt::format("{}: each pixel is placed as one unit square; give "
+                                   "another to place it",
+                                   transform.error().message),
+                       {OverrideField::Transform});
         return;
     }
     info.transform = *transform;
@@ -178,10 +181,10 @@ void readPlacement(GDALDataset& dataset, const nlohmann::json& pds3, RasterInfo&
         const PixelShift shift = pds3PlacementShift(pds3, *info.transform, *info.crs);
         if (!shift.isNone()) {
             info.transform = shifted(*info.transform, shift);
-            info.notices.push_back(fmt::format(
-                "shifted by {} column and {} row to match the latitude and longitude limits in the "
-                "label",
-                shift.columns, shift.rows));
+            info.addNotice(fmt::format("shifted by {} column and {} row to match the latitude and "
+                                       "longitude limits in the label",
+                                       shift.columns, shift.rows),
+                           {OverrideField::Transform});
         }
     }
 }
@@ -266,7 +269,8 @@ void describe(GDALDataset& dataset,
     readPlacement(placed, pds3, info);
     if (info.driver == "PDS" && label_placement) {
         if (std::string notice = noticeOfRadii(dataset, placed, label_path); !notice.empty()) {
-            info.notices.push_back(std::move(notice));
+            info.addNotice(std::move(notice),
+                           {OverrideField::Crs, OverrideField::Body, OverrideField::Radii});
         }
     }
     if (!info.crs) {

@@ -101,6 +101,30 @@ std::optional<double> numberIn(const OdlStatement& group, std::string_view name,
     return item ? numberFrom(*item) : std::nullopt;
 }
 
+// Labels say in these words that they have no value.
+bool isNone(std::string_view text)
+{
+    constexpr std::array<std::string_view, 6> kNone{"", "N/A", "NULL", "UNK", "NONE", "UNKNOWN"};
+    return std::any_of(kNone.begin(), kNone.end(), [text](std::string_view none) {
+        return text.size() == none.size() && EQUALN(text.data(), none.data(), none.size());
+    });
+}
+
+// The number of a statement that should have one.
+std::optional<double> numberIn(const OdlStatement& group,
+                               std::string_view name,
+                               int band,
+                               OverrideField field,
+                               std::vector<UnreadNumber>& unread)
+{
+    const std::optional<std::string> item = itemIn(group, name, band);
+    const std::optional<double> number = item ? numberFrom(*item) : std::nullopt;
+    if (item && !number && !isNone(*item)) {
+        unread.push_back({field, std::string(name), *item});
+    }
+    return number;
+}
+
 struct Names {
     std::string_view scale, offset, unit;
     std::span<const std::string_view> nodata; // the first one present is the nodata value
@@ -139,7 +163,8 @@ constantsIn(const OdlStatement& group, const OdlStatement& statement, int band)
 std::vector<double> nodataIn(const OdlStatement& group,
                              std::span<const std::string_view> names,
                              int band,
-                             SampleType type)
+                             SampleType type,
+                             std::vector<UnreadNumber>& unread)
 {
     std::vector<double> values;
     for (const std::string_view name : names) {
@@ -150,6 +175,9 @@ std::vector<double> nodataIn(const OdlStatement& group,
             for (const std::string& item : constantsIn(group, statement, band)) {
                 std::optional<double> value = basedNumber(item, type);
                 value = value ? value : numberFrom(item);
+                if (!value && !isNone(item)) {
+                    unread.push_back({OverrideField::Nodata, std::string(name), item});
+                }
                 if (value && std::find(values.begin(), values.end(), *value) == values.end()) {
                     values.push_back(*value);
                 }
@@ -162,11 +190,13 @@ std::vector<double> nodataIn(const OdlStatement& group,
 LabelElevation elevationIn(const OdlStatement& group, const Names& names, int band, SampleType type)
 {
     LabelElevation label;
-    label.scale = numberIn(group, names.scale, band);
-    label.offset = numberIn(group, names.offset, band);
+    label.scale = numberIn(group, names.scale, band, OverrideField::Scale, label.unread);
+    label.offset = numberIn(group, names.offset, band, OverrideField::Offset, label.unread);
     const std::string unit = itemIn(group, names.unit, band).value_or("");
-    label.unit = unit == "N/A" || unit == "NULL" || unit == "UNK" ? "" : unit;
-    label.nodata = nodataIn(group, names.nodata, band, type);
+    label.unit = isNone(unit) ? "" : unit;
+    label.nodata = nodataIn(group, names.nodata, band, type, label.unread);
+    label.columns = numberIn(group, "LINE_SAMPLES", 1);
+    label.rows = numberIn(group, "LINES", 1);
     const std::string samples = itemIn(group, "SAMPLE_TYPE", band).value_or("");
     if (samples.find("INTEGER") != std::string::npos) {
         label.is_signed = samples.find("UNSIGNED") == std::string::npos;
@@ -250,19 +280,24 @@ std::optional<LabelElevation> pds4Elevation(const std::string& text)
         const char* value = CPLGetXMLValue(array, path, nullptr);
         return value != nullptr ? std::optional<std::string>(value) : std::nullopt;
     };
-    const auto numberAt = [&textAt](const char* path) {
-        const std::optional<std::string> value = textAt(path);
-        return value ? numberFrom(*value) : std::nullopt;
-    };
     LabelElevation label;
-    label.scale = numberAt("Element_Array.scaling_factor");
-    label.offset = numberAt("Element_Array.value_offset");
+    const auto numberAt = [&textAt, &label](const char* path, OverrideField field) {
+        const std::optional<std::string> value = textAt(path);
+        const std::optional<double> number = value ? numberFrom(*value) : std::nullopt;
+        if (value && !number && !isNone(*value)) {
+            label.unread.push_back({field, CPLGetExtension(path), *value});
+        }
+        return number;
+    };
+    label.scale = numberAt("Element_Array.scaling_factor", OverrideField::Scale);
+    label.offset = numberAt("Element_Array.value_offset", OverrideField::Offset);
     label.unit = textAt("Element_Array.unit").value_or("");
     for (const char* name : {"missing_constant", "invalid_constant", "unknown_constant",
                              "not_applicable_constant", "error_constant", "saturated_constant",
                              "high_instrument_saturation", "high_representation_saturation",
                              "low_instrument_saturation", "low_representation_saturation"}) {
-        const auto value = numberAt((std::string("Special_Constants.") + name).c_str());
+        const auto value =
+            numberAt((std::string("Special_Constants.") + name).c_str(), OverrideField::Nodata);
         if (value &&
             std::find(label.nodata.begin(), label.nodata.end(), *value) == label.nodata.end()) {
             label.nodata.push_back(*value);
@@ -435,6 +470,29 @@ const OdlStatement* pointerIn(const OdlStatement& group)
     return other;
 }
 
+// Values that cannot be read, and what is used in their place.
+void noteUnreadNumbers(RasterInfo& info, const LabelElevation& label)
+{
+    const char* const name = CPLGetFilename(label.path.c_str());
+    for (const UnreadNumber& number : label.unread) {
+        const std::string gives =
+            fmt::format("the label {} gives {} as \"{}\", which is not a number", name, number.name,
+                        number.text);
+        if (number.field == OverrideField::Nodata) {
+            info.addNotice(gives + "; set the nodata value if its samples are not void (--nodata)",
+                           {number.field});
+            continue;
+        }
+        const bool is_scale = number.field == OverrideField::Scale;
+        info.addNotice(fmt::format("{}; {} is used instead; set the {} that the product's "
+                                   "documentation gives ({})",
+                                   gives, is_scale ? info.scale : info.offset,
+                                   is_scale ? "scale" : "offset",
+                                   is_scale ? "--scale" : "--offset"),
+                       {number.field});
+    }
+}
+
 bool isSigned(SampleType type)
 {
     return dispatchSampleType(type, [](auto zero) { return std::is_signed_v<decltype(zero)>; });
@@ -488,45 +546,57 @@ labelElevationOf(GDALDataset& dataset, const RasterInfo& info, const std::string
     return label;
 }
 
+bool LabelElevation::hasScale() const
+{
+    return scale || std::any_of(unread.begin(), unread.end(), [](const UnreadNumber& number) {
+               return number.field == OverrideField::Scale;
+           });
+}
+
 void applyLabel(RasterInfo& info, const LabelElevation& label)
 {
+    const char* const name = CPLGetFilename(label.path.c_str());
     if (!label.is_understood) {
-        info.notices.push_back(
+        info.addNotice(
             fmt::format("the label {} is damaged or describes no samples, so the samples are taken "
                         "as elevations in {}; fetch it again, or set scale and offset",
-                        CPLGetFilename(label.path.c_str()), info.unit.name));
+                        name, info.unit.name),
+            {OverrideField::Scale, OverrideField::Offset});
         return;
     }
-    std::vector<std::string> ours;
-    std::vector<std::string> theirs;
-    const auto note = [&](const char* what, const std::string& label_says,
-                          const std::string& gdal_says) {
-        ours.push_back(fmt::format("{} {}", what, label_says));
-        theirs.push_back(fmt::format("{} {}", what, gdal_says));
+    info.label_name = name;
+    const auto note = [&info](OverrideField field, const char* what, const std::string& label_says,
+                              const std::string& gdal_says) {
+        info.label_corrections.push_back(
+            {field, fmt::format("{} {}", what, label_says), fmt::format("{} {}", what, gdal_says)});
     };
     // Both read the same digits.
     const auto isOther = [](const std::optional<double>& declared, double applied) {
         return declared && std::abs(*declared - applied) > 1e-12 * std::abs(applied);
     };
     if (label.scale == 0.0) {
-        info.scale_notice = fmt::format(
-            "the label {} gives the scale 0, which would make all elevations equal; {} is used "
-            "instead; set the scale that the product's documentation gives (--scale)",
-            CPLGetFilename(label.path.c_str()), info.scale);
-        info.notices.push_back(info.scale_notice);
+        info.addNotice(
+            fmt::format("the label {} gives the scale 0, which would make all elevations equal; {} "
+                        "is used instead; set the scale that the product's documentation gives "
+                        "(--scale)",
+                        name, info.scale),
+            {OverrideField::Scale});
     } else if (isOther(label.scale, info.scale)) {
-        note("scale", fmt::format("{}", *label.scale), fmt::format("{}", info.scale));
+        note(OverrideField::Scale, "scale", fmt::format("{}", *label.scale),
+             fmt::format("{}", info.scale));
         info.scale = *label.scale;
     }
     if (isOther(label.offset, info.offset)) {
-        note("offset", fmt::format("{}", *label.offset), fmt::format("{}", info.offset));
+        note(OverrideField::Offset, "offset", fmt::format("{}", *label.offset),
+             fmt::format("{}", info.offset));
         info.offset = *label.offset;
     }
+    noteUnreadNumbers(info, label);
     if (const auto unit = verticalUnitFrom(label.unit);
         unit && (*unit != info.unit || !info.is_unit_declared)) {
-        const bool is_other = *unit != info.unit;
-        if (is_other) {
-            note("unit", label.unit, info.is_unit_declared ? info.unit.name : "none");
+        if (*unit != info.unit) {
+            note(OverrideField::VerticalUnit, "unit", label.unit,
+                 info.is_unit_declared ? info.unit.name : "none");
         }
         info.unit = *unit;
         info.is_unit_declared = true;
@@ -534,7 +604,7 @@ void applyLabel(RasterInfo& info, const LabelElevation& label)
     const std::optional<double> nodata_before = info.nodata;
     applyNodata(info, label.nodata);
     if (!isSameNodata(info.type, nodata_before, info.nodata) || !info.other_nodata.empty()) {
-        note("nodata", numbersAsText(label.nodata),
+        note(OverrideField::Nodata, "nodata", numbersAsText(label.nodata),
              nodata_before ? fmt::format("{}", *nodata_before) : std::string("none"));
     }
     // The void value that GDAL uses for such samples in an .IMG without a MISSING_CONSTANT.
@@ -545,23 +615,26 @@ void applyLabel(RasterInfo& info, const LabelElevation& label)
     }
     if (label.nodata.empty() && info.driver == "PDS" && info.nodata == 0.0 &&
         !isSigned(info.type)) {
-        note("nodata", "none", "0"); // for every product of unsigned samples
+        note(OverrideField::Nodata, "nodata", "none", "0"); // for every product of unsigned samples
         info.nodata.reset();
     }
-    const auto list = [](const std::vector<std::string>& items) {
-        return fmt::format("{}", fmt::join(items, ", "));
-    };
-    if (!ours.empty()) {
-        info.notices.push_back(fmt::format("from the label {}: {} (GDAL reads {})",
-                                           CPLGetFilename(label.path.c_str()), list(ours),
-                                           list(theirs)));
+    if (std::string notice = info.labelNotice(); !notice.empty()) {
+        info.notices.push_back(std::move(notice));
+    }
+    if (label.columns && label.rows &&
+        (*label.columns != static_cast<double>(info.columns) ||
+         *label.rows != static_cast<double>(info.rows))) {
+        info.notices.push_back(
+            fmt::format("the label {} describes {} × {} samples, but the file holds {} × {}; check "
+                        "that they belong together",
+                        name, *label.columns, *label.rows, info.columns, info.rows));
     }
     const bool is_integer =
         dispatchSampleType(info.type, [](auto zero) { return std::is_integral_v<decltype(zero)>; });
     if (label.is_signed && is_integer && *label.is_signed != isSigned(info.type)) {
         info.notices.push_back(fmt::format(
             "the label {} declares {} samples, but the file holds {} ones; check the elevations",
-            CPLGetFilename(label.path.c_str()), *label.is_signed ? "signed" : "unsigned",
+            name, *label.is_signed ? "signed" : "unsigned",
             *label.is_signed ? "unsigned" : "signed"));
     }
 }

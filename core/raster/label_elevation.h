@@ -16,6 +16,13 @@ class GDALDataset;
 
 namespace marsview {
 
+/// A value of a label that should be a number.
+struct UnreadNumber {
+    OverrideField field; // Scale, Offset or Nodata
+    std::string name;    // "SCALING_FACTOR"
+    std::string text;    // as it is written
+};
+
 /// The label's description of the samples; empty fields if it has none.
 struct LabelElevation {
     std::string path;            // of the label
@@ -24,7 +31,13 @@ struct LabelElevation {
     std::vector<double> nodata; // raw: all special constants
     std::string unit;           // as it is written
     std::optional<bool> is_signed;
+    std::optional<double> columns; // of the samples
+    std::optional<double> rows;
+    std::vector<UnreadNumber> unread;
     bool is_understood = true; // false for a label without a description of samples
+
+    /// Whether it has a scale, be it a number or not.
+    bool hasScale() const;
 };
 
 /// From a PDS3, ISIS 2, ISIS 3 or PDS4 label in `text`, for samples of that type.

@@ -98,7 +98,6 @@ Status applyVertical(RasterInfo& info, const RasterOverrides& overrides)
                            ErrorCode::OutOfRange);
         }
         info.scale = *overrides.scale;
-        std::erase(info.notices, info.scale_notice); // done as it asks
     }
     if (overrides.offset) {
         if (!std::isfinite(*overrides.offset)) {
@@ -135,6 +134,7 @@ Status applyTransform(RasterInfo& info, const RasterOverrides& overrides)
         return refusal(OverrideField::Transform, transform.error().message, transform.error().code);
     }
     info.transform = *transform;
+    info.axis_hints.degree_axes.clear(); // those of the file's own placement
     return Done{};
 }
 
@@ -210,6 +210,56 @@ Status applyBody(RasterInfo& info, const RasterOverrides& overrides)
     return Done{};
 }
 
+bool isOverridden(const RasterOverrides& overrides, OverrideField field)
+{
+    switch (field) {
+    case OverrideField::Crs:
+        return overrides.crs.has_value();
+    case OverrideField::Body:
+        return overrides.body.has_value();
+    case OverrideField::Radii:
+        return overrides.ellipsoid.has_value();
+    case OverrideField::Transform:
+        return overrides.transform.has_value();
+    case OverrideField::VerticalUnit:
+        return overrides.vertical_unit.has_value();
+    case OverrideField::Scale:
+        return overrides.scale.has_value();
+    case OverrideField::Offset:
+        return overrides.offset.has_value();
+    case OverrideField::VerticalDatum:
+        return overrides.vertical_datum.has_value();
+    case OverrideField::Nodata:
+        return overrides.nodata.has_value();
+    }
+    return false;
+}
+
+// Notices about values of the file that are not used, or that are set as they ask.
+void dropSettledNotices(RasterInfo& info, const RasterOverrides& overrides)
+{
+    const auto is_overridden = [&overrides](OverrideField field) {
+        return isOverridden(overrides, field);
+    };
+    std::erase_if(info.field_notices, [&](const FieldNotice& notice) {
+        const bool is_settled =
+            std::any_of(notice.settled_by.begin(), notice.settled_by.end(), is_overridden);
+        if (is_settled) {
+            std::erase(info.notices, notice.text);
+        }
+        return is_settled;
+    });
+    const auto label_notice =
+        std::find(info.notices.begin(), info.notices.end(), info.labelNotice());
+    std::erase_if(info.label_corrections, [&](const LabelCorrection& correction) {
+        return is_overridden(correction.field);
+    });
+    if (label_notice != info.notices.end()) {
+        *label_notice = info.labelNotice();
+        std::erase(info.notices, std::string());
+    }
+}
+
 // A value that programs write where they have no elevation.
 std::optional<double> undeclaredNodata(const RasterInfo& info, const SampleStatistics& statistics)
 {
@@ -235,6 +285,26 @@ std::optional<double> undeclaredNodata(const RasterInfo& info, const SampleStati
 }
 
 } // namespace
+
+void RasterInfo::addNotice(std::string text, std::vector<OverrideField> settled_by)
+{
+    notices.push_back(text);
+    field_notices.push_back({std::move(text), std::move(settled_by)});
+}
+
+std::string RasterInfo::labelNotice() const
+{
+    std::string ours;
+    std::string theirs;
+    for (const LabelCorrection& correction : label_corrections) {
+        const char* const separator = ours.empty() ? "" : ", ";
+        ours += separator + correction.label;
+        theirs += separator + correction.gdal;
+    }
+    return ours.empty()
+               ? std::string()
+               : fmt::format("from the label {}: {} (GDAL reads {})", label_name, ours, theirs);
+}
 
 ElevationScale RasterInfo::elevationScale() const noexcept
 {
@@ -323,8 +393,15 @@ void notePlacement(RasterInfo& info)
         info.notices.emplace_back(
             "no CRS: map units are read as meters; set its CRS or body to "
             "get longitude and latitude");
-    } else if (const std::string misfit = angularMisfit(info); !misfit.empty()) {
-        info.notices.push_back("CRS " + misfit);
+    } else {
+        std::string misfit = angularMisfit(info);
+        misfit = misfit.empty() ? projectedMisfit(info) : misfit;
+        std::string doubt = doubtAboutPixels(info);
+        if (!misfit.empty()) {
+            info.notices.push_back("CRS " + misfit);
+        } else if (!doubt.empty()) {
+            info.notices.push_back(std::move(doubt));
+        }
     }
 }
 
@@ -357,8 +434,10 @@ Result<RasterInfo> withOverrides(RasterInfo info, const RasterOverrides& overrid
             return std::move(applied).error();
         }
     }
+    dropSettledNotices(info, overrides);
     if (overrides.crs || overrides.transform) {
         std::string misfit = angularMisfit(info);
+        misfit = misfit.empty() ? projectedMisfit(info) : misfit;
         if (misfit.empty() && as_read) {
             misfit = projectedMisfit(info, *as_read);
         }
@@ -366,13 +445,9 @@ Result<RasterInfo> withOverrides(RasterInfo info, const RasterOverrides& overrid
             return overrides.crs ? refusal(OverrideField::Crs, misfit)
                                  : refusal(OverrideField::Transform, "CRS " + misfit);
         }
-    }
-    if (overrides.crs && info.crs && info.crs->kind() != CrsKind::Geographic && as_read &&
-        as_read->crs_suggestion && !overrides.transform) {
-        info.notices.push_back(fmt::format(
-            "the grid looks like longitude and latitude in degrees ({}); check that the "
-            "CRS \"{}\" is meant",
-            as_read->crs_suggestion->reason, info.crs->name()));
+        if (std::string doubt = doubtAboutExtent(info); !doubt.empty()) {
+            info.notices.push_back(std::move(doubt));
+        }
     }
     deduceHeightReference(info);
     if (overrides.vertical_datum) {

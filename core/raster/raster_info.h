@@ -25,6 +25,34 @@ struct ElevationScale {
     bool operator==(const ElevationScale&) const = default;
 };
 
+/// What the user can override; see RasterOverrides.
+enum class OverrideField {
+    Crs,
+    Body,
+    Radii,
+    Transform,
+    VerticalUnit,
+    Scale,
+    Offset,
+    VerticalDatum,
+    Nodata,
+};
+
+/// A notice that is untrue or done once the user overrides any of `settled_by`.
+struct FieldNotice {
+    std::string text;
+    std::vector<OverrideField> settled_by;
+    bool operator==(const FieldNotice&) const = default;
+};
+
+/// A value of a product's label that GDAL reads otherwise.
+struct LabelCorrection {
+    OverrideField field;
+    std::string label; // "scale 0.5"
+    std::string gdal;  // "scale 1"
+    bool operator==(const LabelCorrection&) const = default;
+};
+
 /// The description of one band of a raster file.
 struct RasterInfo {
     std::string path; // the opened file; may differ from the requested one (a label for its data)
@@ -46,8 +74,6 @@ struct RasterInfo {
 
     double scale = 1.0; // value = raw × scale + offset, in `unit`
     double offset = 0.0;
-    /// Why the scale of a label is not used; also among the notices. Usually empty.
-    std::string scale_notice;
     VerticalUnit unit;
     bool is_unit_declared = false;     // otherwise meters are assumed
     std::optional<double> typical_raw; // a valid sample, if one was searched for
@@ -69,6 +95,14 @@ struct RasterInfo {
 
     /// Observations, assumptions and corrections, as sentences for the user.
     std::vector<std::string> notices;
+    std::vector<FieldNotice> field_notices; // those of the notices that depend on a field
+    std::string label_name;                 // of the label that has the corrections
+    std::vector<LabelCorrection> label_corrections;
+
+    /// Adds a notice that no longer applies if the user overrides any of these fields.
+    void addNotice(std::string text, std::vector<OverrideField> settled_by);
+    /// The sentence about the label's corrections that is among the notices; empty without any.
+    std::string labelNotice() const;
 
     ElevationScale elevationScale() const noexcept;
     /// Whether the nodata value does not mark all voids.
@@ -98,19 +132,6 @@ struct RasterOverrides {
 
 /// Adds a notice if the CRS is missing or does not fit the placement. Sets the CRS suggestion.
 void notePlacement(RasterInfo& info);
-
-/// One of RasterOverrides, for errors.
-enum class OverrideField {
-    Crs,
-    Body,
-    Radii,
-    Transform,
-    VerticalUnit,
-    Scale,
-    Offset,
-    VerticalDatum,
-    Nodata,
-};
 
 /// The field that an error of withOverrides() concerns, for showing it next to that field. Empty
 /// for other errors. A path before the sentence is skipped.

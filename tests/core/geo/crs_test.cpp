@@ -614,11 +614,31 @@ TEST(Crs, RefusesAGeocentricSystem)
 
 TEST(Crs, RefusesAVerticalSystemAlone)
 {
-    const auto crs = Crs::fromText("EPSG:5773");
-    if (crs) {
-        EXPECT_EQ(crs->kind(), CrsKind::Local);
-        EXPECT_FALSE(crs->toGeographic({1.0, 2.0}));
+    for (const char* text : {"EPSG:5703", "EPSG:5773"}) {
+        const auto crs = Crs::fromText(text);
+        ASSERT_FALSE(crs) << text;
+        EXPECT_NE(crs.error().message.find("is vertical"), std::string::npos);
     }
+    EXPECT_TRUE(Crs::fromText("EPSG:32610+5703"));
+}
+
+TEST(Crs, HasTheAreaOfUseOfItsRegistry)
+{
+    const auto area = Crs::fromText("EPSG:32633")->areaOfUse();
+    ASSERT_TRUE(area);
+    const auto at = [](double longitude, double latitude) {
+        return GeographicPoint{Angle::degrees(longitude), Angle::degrees(latitude)};
+    };
+    EXPECT_TRUE(area->contains(at(15, 50)));
+    EXPECT_TRUE(area->contains(at(15 - 360, 50)));
+    EXPECT_FALSE(area->contains(at(10.5, 50)));
+    EXPECT_FALSE(area->contains(at(15, -1)));
+    const auto new_zealand = Crs::fromText("EPSG:2193")->areaOfUse(); // across 180 degrees
+    ASSERT_TRUE(new_zealand);
+    EXPECT_TRUE(new_zealand->contains(at(-178, -40)));
+    EXPECT_TRUE(new_zealand->contains(at(175, -40)));
+    EXPECT_FALSE(new_zealand->contains(at(0, -40)));
+    EXPECT_FALSE(Crs::fromText("+proj=utm +zone=33 +datum=WGS84")->areaOfUse());
 }
 
 // ---- Another ellipsoid ----------------------------------------------------------------------

@@ -167,7 +167,13 @@ TEST(CrsOverride, IsRefusedIfItsUnitDoesNotFitTheGrid)
         {"another turn", gridAt(200, 10, 1, 360, 20), "EPSG:4326", true},
         {"other degrees", in_degrees, "EPSG:4326", true},
         {"metres near the origin", gridAt(-40, 40, 0.1, 800, 800), "IAU_2015:30135", true},
-        {"metres of some site", gridAt(10, 60, 1, 50, 50), "EPSG:32610", true},
+        {"40 by 50 degrees on UTM", gridAt(10, 60, 1, 40, 50), "EPSG:32633", false},
+        {"degrees on UTM without a registered area", gridAt(5, 60, 0.25, 120, 80),
+         "+proj=utm +zone=32 +R=3396190 +no_defs", false},
+        {"degrees on a national grid", gridAt(6, 48, 1.0 / 120, 480, 240), "EPSG:2056", false},
+        {"metres of some site", gridAt(10, 60, 1, 50, 50), "IAU_2015:49910", true},
+        {"metres of UTM", gridAt(500010, 60, 1, 50, 50), "EPSG:32610", true},
+        {"metres across the antimeridian", gridAt(500010, 60, 1, 50, 50), "EPSG:32601", true},
         {"metres in place of wrong degrees", misplaced, "EPSG:32610", true},
     };
     for (const Placed& one : cases) {
@@ -186,11 +192,47 @@ TEST(CrsOverride, IsRefusedIfItsUnitDoesNotFitTheGrid)
 TEST(CrsOverride, OfAProjectionOnAGridThatOnlyLooksLikeDegreesIsReported)
 {
     RasterOverrides overrides;
-    overrides.crs = "EPSG:32632";
-    const auto info = withOverrides(gridAt(5, 60, 0.25, 120, 80), overrides);
-    ASSERT_TRUE(info) << info.error().message;
-    EXPECT_THAT(info->notices,
-                testing::Contains(testing::HasSubstr("looks like longitude and latitude")));
+    overrides.crs = "EPSG:3857"; // of which these are lengths near its origin
+    for (const RasterInfo& grid : {gridAt(5, 60, 0.25, 120, 80), gridAt(10, 60, 1, 40, 50)}) {
+        const auto info = withOverrides(grid, overrides);
+        ASSERT_TRUE(info) << info.error().message;
+        EXPECT_THAT(info->notices,
+                    testing::Contains(testing::HasSubstr("looks like longitude and latitude")));
+    }
+}
+
+TEST(CrsOverride, OfAProjectionIsRefusedWithAGeotransformInDegrees)
+{
+    RasterInfo lengths = gridAt(499980, 4200000, 30, 40, 50);
+    lengths.crs = *Crs::fromText("EPSG:32633");
+    RasterOverrides overrides;
+    overrides.transform = GeoTransform::Terms{10, 1, 0, 60, 0, -1};
+    const auto alone = withOverrides(lengths, overrides);
+    ASSERT_FALSE(alone);
+    EXPECT_EQ(refusedField(alone.error()), OverrideField::Transform) << alone.error().message;
+    overrides.crs = "EPSG:32633";
+    const auto both = withOverrides(gridAt(0, 1, 1, 40, 50), overrides);
+    ASSERT_FALSE(both);
+    EXPECT_EQ(refusedField(both.error()), OverrideField::Crs) << both.error().message;
+    EXPECT_THAT(both.error().message, HasSubstr("cannot place a grid"));
+}
+
+TEST(CrsNotice, OfAFileWithAProjectionAndAGridInDegrees)
+{
+    RasterInfo grid = gridAt(10, 60, 1, 40, 50);
+    grid.crs = *Crs::fromText("EPSG:32633");
+    EXPECT_THAT(withOverrides(grid, {})->notices,
+                testing::ElementsAre(HasSubstr("cannot place a grid that covers x 10 to 50")));
+    RasterInfo seconds = gridAt(499980, 4200000, 1.0 / 3600.0, 100, 100);
+    seconds.crs = grid.crs;
+    EXPECT_THAT(withOverrides(seconds, {})->notices,
+                testing::ElementsAre(HasSubstr("as if it were in degrees")));
+    RasterInfo lengths = gridAt(499980, 4200000, 30, 100, 100);
+    lengths.crs = grid.crs;
+    EXPECT_THAT(withOverrides(lengths, {})->notices, testing::IsEmpty());
+    RasterInfo fine = gridAt(499980, 4200000, 0.005, 100, 100); // from a drone
+    fine.crs = grid.crs;
+    EXPECT_THAT(withOverrides(fine, {})->notices, testing::IsEmpty());
 }
 
 TEST(CrsOverride, IsAcceptedWithAGeotransformOfItsUnit)

@@ -25,6 +25,7 @@ using test::TempFolder;
 using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr std::size_t kLabelColumns = 40;
 constexpr std::size_t kLabelRows = 20;
@@ -246,6 +247,87 @@ TEST(Pds3InJpeg2000, ReportsADisagreementAboutSigns)
         folder, "u.jp2",
         std::vector<std::uint16_t>(kLabelColumns * kLabelRows, std::uint16_t{40000})));
     EXPECT_THAT(file.info().notices, Contains(HasSubstr("declares signed samples")));
+}
+
+TEST(Pds3InJpeg2000, ReportsNumbersThatItCannotRead)
+{
+    const TempFolder folder;
+    for (const char* text : {"0,5", "abc", "\"0.5 m\""}) {
+        SCOPED_TRACE(text);
+        folder.write("n.lbl",
+                     pds3Label({.pointer = "n.img",
+                                .compressed = "n.jp2",
+                                .image = std::string("  SCALING_FACTOR = ") + text +
+                                         "\n  OFFSET = none\n  MISSING_CONSTANT = nothing\n"}));
+        RasterFile file = openOrThrow(writeJpeg2000(folder, "n.jp2", someSamples()));
+        expectElevations(file, someSamples(), 1.0, 0.0);
+        const RasterInfo& info = file.info();
+        EXPECT_THAT(info.notices, Contains(AllOf(HasSubstr("the label n.lbl gives SCALING_FACTOR"),
+                                                 HasSubstr("1 is used instead"))));
+        EXPECT_THAT(info.notices, Contains(HasSubstr("MISSING_CONSTANT as \"nothing\"")));
+        EXPECT_THAT(info.notices, Not(Contains(HasSubstr("OFFSET")))); // "none" is no value
+        // Set as the notice asks.
+        RasterOverrides overrides;
+        overrides.scale = 0.5;
+        const auto set = withOverrides(info, overrides);
+        ASSERT_TRUE(set);
+        EXPECT_THAT(set->notices, Not(Contains(HasSubstr("SCALING_FACTOR"))));
+        EXPECT_THAT(set->notices, Contains(HasSubstr("MISSING_CONSTANT")));
+    }
+}
+
+TEST(Pds3Label, ReportsAScaleThatItCannotReadOnce)
+{
+    const TempFolder folder;
+    folder.write("raw.img", bytesOf(someSamples()));
+    for (const char* text : {"0,5", "abc"}) {
+        RasterFile file = openOrThrow(folder.write(
+            "raw.lbl", pds3Label({.pointer = "RAW.IMG",
+                                  .image = std::string("  SCALING_FACTOR = ") + text + "\n"})));
+        expectElevations(file, someSamples(), 1.0, 0.0);
+        const std::vector<std::string>& notices = file.info().notices;
+        EXPECT_EQ(std::count_if(notices.begin(), notices.end(),
+                                [](const std::string& notice) {
+                                    return notice.find("1 is used instead") != std::string::npos;
+                                }),
+                  1)
+            << text;
+    }
+}
+
+TEST(Pds3InJpeg2000, ReportsASizeOtherThanTheLabels)
+{
+    const TempFolder folder;
+    std::string label = pds3Label({.pointer = "s.img", .compressed = "s.jp2", .image = kRadii});
+    const std::string lines = "LINES = " + std::to_string(kLabelRows);
+    label.replace(label.find(lines), lines.size(), "LINES = 77");
+    folder.write("s.lbl", label);
+    const RasterFile file = openOrThrow(writeJpeg2000(folder, "s.jp2", someSamples()));
+    EXPECT_THAT(file.info().notices,
+                Contains("the label s.lbl describes 40 × 77 samples, but the file holds 40 × 20; "
+                         "check that they belong together"));
+}
+
+TEST(LabelNotices, AreNotMadeForValuesThatTheUserSets)
+{
+    const TempFolder folder;
+    folder.write("o.lbl", pds3Label({.pointer = "o.img", .compressed = "o.jp2", .image = kRadii}));
+    const RasterFile file = openOrThrow(writeJpeg2000(folder, "o.jp2", someSamples()));
+    RasterOverrides overrides;
+    overrides.scale = 2.0;
+    EXPECT_THAT(withOverrides(file.info(), overrides)->notices,
+                AllOf(Contains("from the label o.lbl: offset 1737400 (GDAL reads offset 0)"),
+                      Not(Contains(HasSubstr("scale")))));
+    overrides.offset = 0.0;
+    EXPECT_THAT(withOverrides(file.info(), overrides)->notices,
+                Not(Contains(HasSubstr("from the label"))));
+    // Nor for a placement: a raster without one, and one that the label moves.
+    const RasterFile bare = openOrThrow(writeJpeg2000(folder, "bare.jp2", someSamples()));
+    EXPECT_THAT(bare.info().notices, Contains(HasSubstr("no georeferencing")));
+    overrides = {};
+    overrides.transform = GeoTransform::Terms{0, 30, 0, 0, 0, -30};
+    EXPECT_THAT(withOverrides(bare.info(), overrides)->notices,
+                Not(Contains(HasSubstr("no georeferencing"))));
 }
 
 TEST(Pds3InJpeg2000, ReportsThatADamagedLabelIsNotApplied)
