@@ -76,6 +76,19 @@ Axes eigen(std::array<std::array<double, 3>, 3> a)
     return axes;
 }
 
+// Variances of the horizontal positions along their longest direction and across it.
+struct PlanExtent {
+    double along_m2 = 0.0;
+    double across_m2 = 0.0;
+};
+
+PlanExtent planExtent(const std::array<std::array<double, 3>, 3>& scatter)
+{
+    const double mean = 0.5 * (scatter[0][0] + scatter[1][1]);
+    const double half = std::hypot(0.5 * (scatter[0][0] - scatter[1][1]), scatter[0][1]);
+    return {.along_m2 = mean + half, .across_m2 = std::max(0.0, mean - half)};
+}
+
 Vec3 sumOf(const std::vector<Vec3>& points)
 {
     return std::accumulate(points.begin(), points.end(), Vec3{});
@@ -205,6 +218,15 @@ Result<Attitude> fitAttitude(const Ground& ground,
                      fmt::format("the points are nearly on a line ({:.3g} m long, {:.3g} m wide), "
                                  "so their plane is not determined; add points away from that line",
                                  std::sqrt(axes.variance[0]), std::sqrt(axes.variance[1]))};
+    }
+    // On a line in plan, the plane through them is vertical, whatever their elevations are.
+    const PlanExtent plan = planExtent(scatter);
+    if (!(plan.across_m2 / plan.along_m2 >= kCollinear)) {
+        return Error{ErrorCode::Invalid,
+                     fmt::format("the points are nearly on a line in plan ({:.3g} m long, {:.3g} m "
+                                 "wide), so that any elevations give a vertical plane; add points "
+                                 "away from that line",
+                                 std::sqrt(plan.along_m2), std::sqrt(plan.across_m2))};
     }
     const Vec3 normal = axes.direction[2].z < 0.0 ? -axes.direction[2] : axes.direction[2];
     attitude.normal = normal;

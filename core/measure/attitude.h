@@ -70,8 +70,8 @@ struct AttitudeOptions {
 };
 
 /// The plane through three or more points. Invalid for fewer, for points that nearly coincide or
-/// lie on a line (the ratio of their variances across and along is below 1e-4), and where the pole
-/// is uncertain by more than 45°.
+/// lie on a line (the ratio of their variances across and along is below 1e-4) in space or in plan,
+/// and where the pole is uncertain by more than 45°.
 Result<Attitude> fitAttitude(const Ground& ground,
                              std::span<const TerrainPoint> points,
                              const AttitudeOptions& options);

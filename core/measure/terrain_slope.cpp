@@ -4,6 +4,7 @@
 #include "core/measure/line_measures.h"
 
 #include <cmath>
+#include <fmt/format.h>
 #include <limits>
 #include <numbers>
 
@@ -51,6 +52,12 @@ Gradient overBaseline(MeasuredTerrain& terrain, GroundPosition position, double 
 
 } // namespace
 
+double longestBaselineM(const Ground& ground)
+{
+    return ground.ellipsoid() ? std::numbers::pi * ground.ellipsoid()->polar_m
+                              : std::numeric_limits<double>::infinity();
+}
+
 Result<std::vector<TerrainSlope>> measureSlopes(MeasuredTerrain& terrain,
                                                 std::span<const GroundPosition> positions,
                                                 std::optional<double> baseline_m,
@@ -58,6 +65,12 @@ Result<std::vector<TerrainSlope>> measureSlopes(MeasuredTerrain& terrain,
 {
     if (Status status = checkPositions(terrain.ground(), positions, 1, "a slope"); !status) {
         return std::move(status).error();
+    }
+    if (baseline_m && *baseline_m > longestBaselineM(terrain.ground())) {
+        return Error{ErrorCode::OutOfRange,
+                     fmt::format("a baseline of {} m reaches more than half way around the body; "
+                                 "use one of at most {:.0f} m",
+                                 *baseline_m, longestBaselineM(terrain.ground()))};
     }
     std::vector<TerrainSlope> slopes;
     for (const GroundPosition& position : positions) {

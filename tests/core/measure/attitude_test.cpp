@@ -319,6 +319,13 @@ TEST(Attitude, RefusesPointsWithoutAPlane)
     EXPECT_NE(refusal({{{0.0, 0.0}, 1.0}, {{500.0, 1.0}, 1.0}, {{1000.0, 0.0}, 1.0}})
                   .find("the points are nearly on a line (408 m long, 0.471 m wide)"),
               std::string::npos);
+    // On a line in plan, though not in space: their plane would be vertical at any elevations.
+    for (const double aside_m : {0.0, 1.0}) {
+        EXPECT_NE(refusal({{{0.0, 0.0}, 100.0}, {{500.0, aside_m}, -300.0}, {{1000.0, 0.0}, 0.0}})
+                      .find("the points are nearly on a line in plan (408 m long, "),
+                  std::string::npos);
+    }
+    EXPECT_EQ(refusal({{{0.0, 0.0}, 100.0}, {{500.0, 50.0}, -300.0}, {{1000.0, 0.0}, 0.0}}), "");
     EXPECT_NE(
         refusal({{{0.0, 0.0}, 0.0}, {{1.0, 0.0}, 0.0}, {{0.0, 1.0}, 0.0}}).find("uncertain by"),
         std::string::npos);

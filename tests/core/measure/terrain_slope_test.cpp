@@ -162,4 +162,23 @@ TEST(GridSteps, AreDerivativesOnTheGround)
     }
 }
 
+TEST(TerrainSlope, RefusesABaselineOfMoreThanHalfTheBody)
+{
+    MapMaker maker;
+    const auto map = maker.make({.columns = 360,
+                                 .rows = 180,
+                                 .transform = {0.0, 1.0, 0.0, 90.0, 0.0, -1.0},
+                                 .srs = "+proj=longlat +R=1000000"},
+                                [](std::size_t, std::size_t) { return 0.0; });
+    MeasuredTerrain terrain(map->georeference(), readSamples(map->heightfield()));
+    JobMonitor monitor;
+    const std::vector<GroundPosition> positions{{10.0, 20.0}};
+    const double half_m = std::numbers::pi * 1e6;
+    EXPECT_NEAR(longestBaselineM(terrain.ground()), half_m, 1e-6);
+    EXPECT_TRUE(measureSlopes(terrain, positions, 0.999 * half_m, monitor));
+    const auto refused = measureSlopes(terrain, positions, 1.001 * half_m, monitor);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::OutOfRange);
+}
+
 } // namespace marsview::test
