@@ -5,6 +5,7 @@
 #include "app/console/text_output.h"
 #include "app/console/usage.h"
 #include "app/documents/write_documents.h"
+#include "core/files/open_probe.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -135,6 +136,7 @@ int run(const std::vector<std::string>& arguments, marsview::ErrorForm form)
     } catch (const CLI::ParseError& error) {
         return refuseUsage(app, arguments, marsview::usageMessage(error), form);
     }
+    marsview::prestartProbes();
     const marsview::Status status = action();
     if (!status) {
         std::fflush(stdout);

@@ -2,6 +2,7 @@
 
 #include "app/gui/end_by_signal.h"
 #include "app/gui/window_arguments.h"
+#include "core/files/open_probe.h"
 #include "core/session/map_resources.h"
 #include "core/session/sample_map.h"
 #include "ui/commands/window_commands.h"
@@ -168,6 +169,7 @@ int main(int argc, char** argv)
             std::fputs(arguments->answer->c_str(), stdout);
             return std::fflush(stdout) == 0 ? EXIT_SUCCESS : kFailed;
         }
+        marsview::prestartProbes();
         // These must outlive the application.
         std::vector<std::string> words{argc > 0 ? argv[0] : "marsview"};
         words.insert(words.end(), arguments->for_qt.begin(), arguments->for_qt.end());

@@ -1,5 +1,7 @@
 #include "core/base/child_program.h"
 
+#include "core/base/fork_server.h"
+
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -7,6 +9,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <optional>
 #include <poll.h>
 #include <spawn.h>
 #include <sys/mman.h>
@@ -109,6 +112,51 @@ public:
     posix_spawnattr_t attributes{};
 };
 
+// A child that has been started.
+class Running {
+public:
+    explicit Running(pid_t number) noexcept
+        : number_(number)
+    {}
+    explicit Running(const ForkedChild& child) noexcept
+        : number_(child.pid)
+        , status_(child.status)
+    {}
+
+    enum class Wait { No, Yes };
+
+    // As from waitpid(), once it has ended.
+    std::optional<int> ended(Wait wait)
+    {
+        int status = 0;
+        if (status_.number() < 0) {
+            const int options = wait == Wait::Yes ? 0 : WNOHANG;
+            return waitpid(number_, &status, options) == number_ ? std::optional(status)
+                                                                 : std::nullopt;
+        }
+        pollfd ready{status_.number(), POLLIN, 0};
+        if (poll(&ready, 1, wait == Wait::Yes ? -1 : 0) <= 0) {
+            return std::nullopt;
+        }
+        const ssize_t bytes = read(status_.number(), &status, sizeof status);
+        if (bytes < 0) {
+            return std::nullopt;
+        }
+        return bytes == sizeof status ? status
+                                      : SIGKILL; // the server was killed, with all children
+    }
+
+    void killAll() const
+    {
+        kill(-number_, SIGKILL);
+        kill(number_, SIGKILL);
+    }
+
+private:
+    pid_t number_;
+    Descriptor status_; // of a forked one
+};
+
 // Reads what is available; closes the descriptor at end of file.
 void drain(Descriptor& from, std::string& to, std::size_t bytes_max)
 {
@@ -121,20 +169,17 @@ void drain(Descriptor& from, std::string& to, std::size_t bytes_max)
     }
 }
 
-} // namespace
-
-Result<ChildOutcome> runChild(const ChildProgram& program)
+Error cannotRun(const ChildProgram& program, int number)
 {
-    const auto failed = [&program](int number) {
-        return Error{ErrorCode::Unreadable, fmt::format("{}: cannot be run ({})", program.path,
-                                                        std::strerror(number))}; // NOLINT
-    };
-    Pipe out = makePipe();
-    Pipe err = makePipe();
-    const Descriptor input = fileOf(program.input);
-    if (out.read.number() < 0 || err.read.number() < 0 || input.number() < 0) {
-        return failed(errno);
-    }
+    return Error{ErrorCode::Unreadable, fmt::format("{}: cannot be run ({})", program.path,
+                                                    std::strerror(number))}; // NOLINT
+}
+
+Result<pid_t> spawn(const ChildProgram& program,
+                    const Descriptor& input,
+                    const Descriptor& out,
+                    const Descriptor& err)
+{
     std::vector<std::string> words{program.path};
     words.insert(words.end(), program.arguments.begin(), program.arguments.end());
     std::vector<char*> argv;
@@ -144,13 +189,40 @@ Result<ChildOutcome> runChild(const ChildProgram& program)
     argv.push_back(nullptr);
     SpawnSettings settings;
     posix_spawn_file_actions_adddup2(&settings.actions, input.number(), STDIN_FILENO);
-    posix_spawn_file_actions_adddup2(&settings.actions, out.write.number(), STDOUT_FILENO);
-    posix_spawn_file_actions_adddup2(&settings.actions, err.write.number(), STDERR_FILENO);
-    pid_t child = 0;
+    posix_spawn_file_actions_adddup2(&settings.actions, out.number(), STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&settings.actions, err.number(), STDERR_FILENO);
+    pid_t child = -1;
     const int failure = posix_spawn(&child, program.path.c_str(), &settings.actions,
                                     &settings.attributes, argv.data(), environ);
     if (failure != 0) {
-        return failed(failure);
+        return cannotRun(program, failure);
+    }
+    return child;
+}
+
+} // namespace
+
+Result<ChildOutcome> runChild(const ChildProgram& program)
+{
+    Pipe out = makePipe();
+    Pipe err = makePipe();
+    const Descriptor input = fileOf(program.input);
+    if (out.read.number() < 0 || err.read.number() < 0 || input.number() < 0) {
+        return cannotRun(program, errno);
+    }
+    std::optional<Running> child;
+    if (program.may_be_forked) {
+        if (const auto forked = forkChild(program.arguments, input.number(), out.write.number(),
+                                          err.write.number())) {
+            child.emplace(*forked);
+        }
+    }
+    if (!child) {
+        const Result<pid_t> spawned = spawn(program, input, out.write, err.write);
+        if (!spawned) {
+            return spawned.error();
+        }
+        child.emplace(*spawned);
     }
     out.write.reset();
     err.write.reset();
@@ -172,21 +244,22 @@ Result<ChildOutcome> runChild(const ChildProgram& program)
             outcome.end = ChildEnd::TimedOut;
         }
         if (outcome.end != ChildEnd::Exited) {
-            kill(-child, SIGKILL);
-            kill(child, SIGKILL);
+            child->killAll();
             break;
         }
     }
     // The child has closed its output: it exits now or, if it hangs on exit, when the time limit
     // ends.
-    int status = 0;
-    while (waitpid(child, &status, outcome.end == ChildEnd::Exited ? WNOHANG : 0) != child) {
+    std::optional<int> ended;
+    while (!(ended = child->ended(outcome.end == ChildEnd::Exited ? Running::Wait::No
+                                                                  : Running::Wait::Yes))) {
         if (outcome.end == ChildEnd::Exited && Clock::now() > end) {
             outcome.end = ChildEnd::TimedOut;
-            kill(child, SIGKILL);
+            child->killAll();
         }
         poll(nullptr, 0, 1);
     }
+    const int status = *ended;
     if (outcome.end == ChildEnd::Exited && WIFSIGNALED(status)) {
         outcome.end = ChildEnd::Killed;
         outcome.signal = WTERMSIG(status);

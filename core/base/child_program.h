@@ -13,6 +13,9 @@ namespace marsview {
 
 struct ChildProgram {
     std::string path;
+    /// Runs the function of the fork server (fork_server.h), if there is one, instead of the
+    /// program at `path`.
+    bool may_be_forked = false;
     std::vector<std::string> arguments; // without the program's name
     std::string input;                  // the child's stdin
     std::chrono::milliseconds time_max{10'000};

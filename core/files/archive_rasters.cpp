@@ -1,13 +1,13 @@
 #include "core/files/archive_rasters.h"
 
-#include "core/files/gdal_drivers.h"
 #include "core/files/gdal_runtime.h"
-#include "core/files/open_guard.h"
+#include "core/files/open_probe.h"
+#include "core/files/opening_job.h"
 #include "core/files/raster_path.h"
+#include "core/files/text_grid_size_check.h"
 
 #include <cpl_string.h>
 #include <cpl_vsi.h>
-#include <gdal_priv.h>
 
 #include <algorithm>
 #include <array>
@@ -24,6 +24,7 @@ namespace marsview {
 namespace {
 
 constexpr std::size_t kEntriesMax = 64;
+constexpr std::size_t kEntriesSizedMax = 2000;
 
 // Files that accompany rasters and are opened only through them.
 bool isCompanion(const std::string& name)
@@ -38,18 +39,6 @@ bool isCompanion(const std::string& name)
                        [&lower](std::string_view extension) { return lower.ends_with(extension); });
 }
 
-// Opening costs a child process for each: only files whose beginning a driver recognizes, and raw
-// data, which has no header.
-bool mayBeRaster(const std::string& name)
-{
-    static constexpr std::array<std::string_view, 8> kRaw{".bil", ".bip", ".bsq", ".flt",
-                                                          ".dem", ".dat", ".img", ".bin"};
-    const std::string lower = lowerCase(name);
-    return std::any_of(kRaw.begin(), kRaw.end(),
-                       [&lower](std::string_view ending) { return lower.ends_with(ending); }) ||
-           recognizingDriverFor(name).has_value();
-}
-
 struct Candidate {
     ArchiveRaster raster;
     bool is_picture = false;
@@ -57,7 +46,16 @@ struct Candidate {
     std::vector<std::string> parts; // other files that it reads
 };
 
-// The largest files that may be rasters: opening thousands takes minutes.
+// The size of the archive; 0 if it is not on a disk.
+std::size_t bytesOf(const std::string& archive)
+{
+    struct stat status {};
+    const std::string file = archive.substr(std::string_view("/vsizip/").size());
+    return stat(file.c_str(), &status) == 0 ? static_cast<std::size_t>(status.st_size) : 0;
+}
+
+// The largest of the first files that may be rasters: opening thousands takes minutes, and GDAL
+// searches for the size of each among all.
 std::vector<std::string> largestFilesIn(const std::string& archive)
 {
     struct File {
@@ -66,7 +64,7 @@ std::vector<std::string> largestFilesIn(const std::string& archive)
     };
     std::vector<File> files;
     const CPLStringList entries(VSIReadDirRecursive(archive.c_str()));
-    for (int i = 0; i < entries.Count(); ++i) {
+    for (int i = 0; i < entries.Count() && files.size() < kEntriesSizedMax; ++i) {
         if (isCompanion(entries[i])) {
             continue;
         }
@@ -90,31 +88,24 @@ std::vector<std::string> largestFilesIn(const std::string& archive)
 
 std::vector<Candidate> candidatesIn(const std::string& archive)
 {
+    const std::vector<std::string> names = largestFilesIn(archive);
+    const auto probed = probeEach(names, bytesOf(archive), OpeningJob::current());
+    if (!probed) {
+        return {};
+    }
     std::vector<Candidate> candidates;
-    const GdalMessages messages;
-    for (const std::string& name : largestFilesIn(archive)) {
-        if (!mayBeRaster(name)) {
-            continue;
+    for (const ProbedRaster& raster : *probed) {
+        if (isTextGrid(raster.driver) &&
+            !checkTextGrid(names[raster.name], raster.columns * raster.rows)) {
+            continue; // cut short
         }
-        const Result<GuardedDataset> guarded = openFirst({name});
-        if (!guarded && guarded.error().code == ErrorCode::Canceled) {
-            return {};
-        }
-        if (!guarded || guarded->dataset->GetRasterCount() == 0) {
-            continue;
-        }
-        GDALDataset* const dataset = guarded->dataset.get();
-        GDALRasterBand& band = *dataset->GetRasterBand(1);
         Candidate candidate;
-        candidate.raster = {name, static_cast<std::size_t>(dataset->GetRasterXSize()),
-                            static_cast<std::size_t>(dataset->GetRasterYSize())};
-        candidate.has_bytes = band.GetRasterDataType() == GDT_Byte;
-        candidate.is_picture = band.GetColorTable() != nullptr ||
-                               (dataset->GetRasterCount() >= 3 && candidate.has_bytes);
-        const CPLStringList files(dataset->GetFileList());
-        for (int f = 0; f < files.Count(); ++f) {
-            if (name != files[f]) {
-                candidate.parts.emplace_back(files[f]);
+        candidate.raster = {names[raster.name], raster.columns, raster.rows};
+        candidate.has_bytes = raster.has_bytes;
+        candidate.is_picture = raster.has_colors;
+        for (const std::string& file : raster.files) {
+            if (file != candidate.raster.name) {
+                candidate.parts.push_back(file);
             }
         }
         candidates.push_back(std::move(candidate));

@@ -21,9 +21,9 @@ std::string archiveNameFor(const std::string& path);
 /// The rasters with elevations in an archive, from archiveNameFor, the one to open first: samples
 /// of more than 8 bits before bytes, which are mostly pictures, masks and counts; then the larger
 /// one; then by name. Files that belong to another raster, such as the data of a label, are
-/// skipped, and so are color pictures unless there is nothing else. Opens the 64 largest files that
-/// GDAL recognizes, each through open_guard.h. Caches the results of the last few archives. Any
-/// thread.
+/// skipped, and so are color pictures unless there is nothing else. Looks at the 64 largest
+/// of the first 2000 files, in a child process (open_probe.h). Caches the results of the last few
+/// archives. Any thread.
 std::vector<ArchiveRaster> rastersInArchive(const std::string& archive);
 
 /// A notice that names the opened raster and the others; empty if there is only one.

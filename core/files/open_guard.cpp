@@ -103,7 +103,7 @@ Status checkTextHolds(GDALDataset& dataset, const std::string& path)
     const std::string_view driver = dataset.GetDriverName();
     const auto columns = static_cast<std::uint64_t>(dataset.GetRasterXSize());
     const auto rows = static_cast<std::uint64_t>(dataset.GetRasterYSize());
-    if (driver == "AAIGrid" || driver == "GRASSASCIIGrid") {
+    if (isTextGrid(driver)) {
         if (!isOnDisk(path) && !isInArchive(path)) {
             return Done{}; // counting would fetch all of it from a server
         }

@@ -2,6 +2,7 @@
 
 #include "core/base/child_program.h"
 #include "core/base/environment.h"
+#include "core/base/fork_server.h"
 #include "core/base/plain_number.h"
 
 #include <algorithm>
@@ -9,13 +10,16 @@
 #include <chrono>
 #include <csignal>
 #include <cstdint>
+#include <cstdlib>
 #include <dlfcn.h>
 #include <filesystem>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <sstream>
 #include <system_error>
+#include <utility>
 
 namespace marsview {
 namespace {
@@ -95,6 +99,12 @@ Report reportIn(const std::string& out)
 
 } // namespace
 
+void prestartProbes()
+{
+    setenv("PROJ_DEBUG", "0", 0); // NOLINT(concurrency-mt-unsafe): there are no other threads
+    startForkServer(&probeMain);
+}
+
 std::size_t probeMemoryBytes()
 {
     return static_cast<std::size_t>(numberFrom("MARSVIEW_OPEN_MB", 1024.0) * 0x1p20);
@@ -108,8 +118,12 @@ double probeSeconds(std::size_t bytes)
                       kSeconds + static_cast<double>(bytes) / kBytesPerSecond);
 }
 
-Result<ProbeAnswer>
-probeNames(const std::vector<std::string>& names, std::size_t bytes, const JobMonitor* job)
+namespace {
+
+enum class Names { FirstThatOpens, Each };
+
+Result<ChildOutcome>
+runProbe(std::span<const std::string> names, double seconds, Names which, const JobMonitor* job)
 {
     static const fs::path program = findProbe();
     if (program.empty()) {
@@ -118,22 +132,83 @@ probeNames(const std::vector<std::string>& names, std::size_t bytes, const JobMo
                                  "again",
                                  kProgram)};
     }
-    const double seconds = probeSeconds(bytes);
     ChildProgram child;
     child.path = program.string();
+    child.may_be_forked = true;
     child.arguments = {fmt::format("{}", probeMemoryBytes()), fmt::format("{:.0f}", seconds)};
+    if (which == Names::Each) {
+        child.arguments.emplace_back("each");
+    }
     for (const std::string& name : names) {
         child.input += name;
         child.input += '\0';
     }
     child.time_max = std::chrono::milliseconds(static_cast<std::int64_t>(seconds * 1e3));
     child.job = job;
-    const Result<ChildOutcome> outcome = runChild(child);
+    Result<ChildOutcome> outcome = runChild(child);
+    if (outcome && outcome->end == ChildEnd::Canceled) {
+        return Error{ErrorCode::Canceled, "opening was canceled"};
+    }
+    return outcome;
+}
+
+// Adds what the child found, with names counted from `first`. Returns the number of the name that
+// it began last.
+std::size_t
+appendRasters(const std::string& out, std::size_t first, std::vector<ProbedRaster>& rasters)
+{
+    std::size_t at = 0;
+    std::istringstream lines(out);
+    for (std::string line; std::getline(lines, line);) {
+        const Json json = Json::parse(line, nullptr, false);
+        if (!json.is_object()) {
+            continue;
+        }
+        at = json.value("name", at);
+        if (json.value("kind", std::string()) == "raster") {
+            rasters.push_back({.name = first + at,
+                               .driver = json.value("driver", std::string()),
+                               .columns = json.value("columns", std::size_t{0}),
+                               .rows = json.value("rows", std::size_t{0}),
+                               .has_bytes = json.value("has_bytes", false),
+                               .has_colors = json.value("has_colors", false),
+                               .files = json.value("files", std::vector<std::string>())});
+        }
+    }
+    return first + at;
+}
+
+} // namespace
+
+Result<std::vector<ProbedRaster>>
+probeEach(const std::vector<std::string>& names, std::size_t bytes, const JobMonitor* job)
+{
+    using Clock = std::chrono::steady_clock;
+    const double seconds = probeSeconds(bytes);
+    const Clock::time_point begin = Clock::now();
+    std::vector<ProbedRaster> rasters;
+    for (std::size_t first = 0; first < names.size();) {
+        const double spent = std::chrono::duration<double>(Clock::now() - begin).count();
+        if (spent >= seconds) {
+            break;
+        }
+        const Result<ChildOutcome> outcome =
+            runProbe(std::span(names).subspan(first), seconds - spent, Names::Each, job);
+        if (!outcome) {
+            return outcome.error();
+        }
+        first = appendRasters(outcome->out, first, rasters) + 1;
+    }
+    return rasters;
+}
+
+Result<ProbeAnswer>
+probeNames(const std::vector<std::string>& names, std::size_t bytes, const JobMonitor* job)
+{
+    const Result<ChildOutcome> outcome =
+        runProbe(names, probeSeconds(bytes), Names::FirstThatOpens, job);
     if (!outcome) {
         return outcome.error();
-    }
-    if (outcome->end == ChildEnd::Canceled) {
-        return Error{ErrorCode::Canceled, "opening was canceled"};
     }
     Report report = reportIn(outcome->out);
     ProbeAnswer answer;

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cstdlib>
 #include <fcntl.h>
 #include <linux/landlock.h>
 #include <malloc.h>
@@ -18,8 +19,14 @@
 #include <optional>
 #include <string_view>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/syscall.h>
 #include <unistd.h>
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+// Sanitizers reserve shadow memory, which would count toward a limit.
+#define MARSVIEW_UNLIMITED_MEMORY 1 // NOLINT(cppcoreguidelines-macro-usage)
+#endif
 
 namespace marsview {
 namespace {
@@ -37,6 +44,12 @@ constexpr std::chrono::milliseconds kLongReadingTime{2000};
 constexpr double kBlockBytesMax = 256e6;
 
 int answers = -1; // the original stdout, before it was redirected away from libraries
+
+void limit(__rlimit_resource_t resource, rlim_t most)
+{
+    const rlimit bounds{most, most};
+    setrlimit(resource, &bounds);
+}
 
 void send(const Json& line)
 {
@@ -128,22 +141,45 @@ Attempt open(const std::string& name, std::size_t index)
     return attempt;
 }
 
-void readSamples(GDALRasterBand& band, Clock::time_point end)
+// The samples of a block, as far as they are read at once.
+struct BlockSize {
+    int columns = 0;
+    int rows = 0;
+    double samples() const { return 1.0 * columns * rows; }
+};
+
+// Empty if the blocks are too large.
+std::optional<BlockSize> blockToRead(GDALRasterBand& band)
 {
-    int block_columns = 0;
-    int block_rows = 0;
-    band.GetBlockSize(&block_columns, &block_rows);
+    int columns = 0;
+    int rows = 0;
+    band.GetBlockSize(&columns, &rows);
     const int sample_bytes = GDALGetDataTypeSizeBytes(band.GetRasterDataType());
-    if (block_columns <= 0 || block_rows <= 0 ||
-        1.0 * block_columns * block_rows * sample_bytes > kBlockBytesMax) {
-        return;
+    if (columns <= 0 || rows <= 0 || 1.0 * columns * rows * sample_bytes > kBlockBytesMax) {
+        return std::nullopt;
     }
-    const int columns = std::min(band.GetXSize(), std::min(block_columns, 4096));
-    const int rows = std::min(band.GetYSize(), std::min(block_rows, 4096));
+    return BlockSize{std::min(band.GetXSize(), std::min(columns, 4096)),
+                     std::min(band.GetYSize(), std::min(rows, 4096))};
+}
+
+// Until that time, or to the end. Returns the seconds that a sample took.
+double readSamples(GDALRasterBand& band, Clock::time_point end)
+{
+    const std::optional<BlockSize> block = blockToRead(band);
+    if (!block) {
+        return 0.0;
+    }
+    const auto [columns, rows] = *block;
     std::vector<double> samples(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+    const Clock::time_point begin = Clock::now();
+    double count = 0.0;
+    const auto seconds_each = [&] {
+        return std::chrono::duration<double>(Clock::now() - begin).count() / std::max(count, 1.0);
+    };
     const auto read_at = [&](int column, int row) {
         column = std::clamp(column, 0, band.GetXSize() - columns);
         row = std::clamp(row, 0, band.GetYSize() - rows);
+        count += block->samples();
         return band.RasterIO(GF_Read, column, row, columns, rows, samples.data(), columns, rows,
                              GDT_Float64, 0, 0, nullptr) == CE_None &&
                Clock::now() < end;
@@ -152,7 +188,7 @@ void readSamples(GDALRasterBand& band, Clock::time_point end)
     for (int row = 0; row < band.GetYSize(); row += rows) {
         for (int column = 0; column < band.GetXSize(); column += columns) {
             if (!read_at(column, row)) {
-                return;
+                return seconds_each();
             }
             if (column > band.GetXSize() - columns) {
                 break;
@@ -161,6 +197,21 @@ void readSamples(GDALRasterBand& band, Clock::time_point end)
         if (row > band.GetYSize() - rows) {
             break;
         }
+    }
+    return seconds_each();
+}
+
+// An overview first: the same code decodes it, and a block of a JPEG2000 may be all of it, which
+// takes longer than there is time for.
+void readBand(GDALRasterBand& band, Clock::time_point end)
+{
+    const int overviews = band.GetOverviewCount();
+    GDALRasterBand* const smallest = overviews > 0 ? band.GetOverview(overviews - 1) : nullptr;
+    const double seconds_each = smallest != nullptr ? readSamples(*smallest, end) : 0.0;
+    const std::optional<BlockSize> block = blockToRead(band);
+    const std::chrono::duration<double> left = end - Clock::now();
+    if (block && seconds_each * block->samples() <= left.count()) {
+        readSamples(band, end);
     }
 }
 
@@ -212,15 +263,32 @@ std::vector<std::string> use(GDALDataset& dataset)
         band.GetColorInterpretation();
         band.GetMaskFlags();
         band.GetMetadata("");
-        const int overviews = band.GetOverviewCount();
-        readSamples(band, end);
-        if (overviews > 0) {
-            if (GDALRasterBand* smallest = band.GetOverview(overviews - 1)) {
-                readSamples(*smallest, end);
-            }
-        }
+        readBand(band, end);
     }
     return {listed.List(), listed.List() + listed.Count()};
+}
+
+// One of several names, of which only the description is wanted.
+void describe(const std::string& name, std::size_t index)
+{
+    send({{"name", index}});
+    const Attempt attempt = open(name, index);
+    if (!attempt.dataset || attempt.dataset->GetRasterCount() == 0) {
+        return;
+    }
+    GDALDataset& dataset = *attempt.dataset;
+    GDALRasterBand& band = *dataset.GetRasterBand(1);
+    const bool has_bytes = band.GetRasterDataType() == GDT_Byte;
+    const CPLStringList listed(dataset.GetFileList());
+    send({{"kind", "raster"},
+          {"name", index},
+          {"driver", dataset.GetDriverName()},
+          {"columns", dataset.GetRasterXSize()},
+          {"rows", dataset.GetRasterYSize()},
+          {"has_bytes", has_bytes},
+          {"has_colors",
+           band.GetColorTable() != nullptr || (dataset.GetRasterCount() >= 3 && has_bytes)},
+          {"files", std::vector<std::string>(listed.List(), listed.List() + listed.Count())}});
 }
 
 // For a file on a server, under the conditions of later reads.
@@ -246,8 +314,18 @@ Json answerFor(const std::string& name, std::size_t index, std::string& failure)
 
 } // namespace
 
-int runProbe()
+int probeMain(const std::vector<std::string>& arguments)
 {
+    const bool is_each = arguments.size() == 3 && arguments[2] == "each";
+    if (arguments.size() != 2 && !is_each) {
+        return 2;
+    }
+    prctl(PR_SET_DUMPABLE, 0);
+    limit(RLIMIT_CORE, 0);
+    limit(RLIMIT_CPU, std::strtoull(arguments[1].c_str(), nullptr, 10) + 1);
+#ifndef MARSVIEW_UNLIMITED_MEMORY
+    limit(RLIMIT_DATA, std::strtoull(arguments[0].c_str(), nullptr, 10));
+#endif
     answers = dup(STDOUT_FILENO);
     // Output of libraries to stdout is redirected to stderr.
     if (answers < 0 || dup2(STDERR_FILENO, STDOUT_FILENO) < 0) {
@@ -260,6 +338,12 @@ int runProbe()
     std::set_new_handler(onOutOfMemory);
     const std::vector<std::string> names = readNames();
     ensureGdal();
+    if (is_each) {
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            describe(names[i], i);
+        }
+        return 0;
+    }
     std::string first_failure;
     for (std::size_t i = 0; i < names.size(); ++i) {
         std::string failure;

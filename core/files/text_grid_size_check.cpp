@@ -103,6 +103,11 @@ std::map<std::string, std::string>& complete()
 
 } // namespace
 
+bool isTextGrid(std::string_view driver)
+{
+    return driver == "AAIGrid" || driver == "GRASSASCIIGrid";
+}
+
 Status checkTextGrid(const std::string& path, std::uint64_t count)
 {
     const std::string stamp = fmt::format("{} {}", count, stampTextOf({path}));

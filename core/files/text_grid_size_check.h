@@ -5,8 +5,12 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace marsview {
+
+/// Whether GDAL's driver of that name reads ESRI or GRASS ASCII grids.
+bool isTextGrid(std::string_view driver);
 
 /// For ESRI and GRASS ASCII grids: Unreadable, a sentence without the path, if fewer than `count`
 /// words follow the header. `path` may be one of GDAL's, such as a file in an archive. A zero byte

@@ -263,6 +263,46 @@ TEST_F(HostileFiles, RefusesATruncatedTextGridInAnArchiveAndBesideACompanion)
     EXPECT_THAT(companion.err, HasSubstr("its header promises 1024 samples"));
 }
 
+// PROJ would print that it does not know the unit.
+TEST_F(HostileFiles, PrintsNoLineForAnUnknownUnitOfAngle)
+{
+    test::RasterRecipe recipe =
+        test::recipeFor(32, std::vector<std::int16_t>(std::size_t{32} * 32, 1234));
+    recipe.srs = "+proj=longlat +R=3396190 +no_defs";
+    std::string bytes = test::readFile(test::writeRaster(folder_, "map.tif", "GTiff", recipe));
+    const auto key = [](std::uint64_t unit) { // GeogAngularUnits
+        return bytesOf(2054, 2) + bytesOf(0, 2) + bytesOf(1, 2) + bytesOf(unit, 2);
+    };
+    const std::size_t at = bytes.find(key(9102));
+    ASSERT_NE(at, std::string::npos);
+    bytes.replace(at, 8, key(9176));
+    const ProgramOutput output = info(folder_.write("map.tif", bytes));
+    EXPECT_EQ(output.err.find("proj_uom"), std::string::npos) << output.err;
+}
+
+// A child for each of hundreds of rasters would take a minute.
+TEST_F(HostileFiles, LooksAtAllRastersOfAnArchiveInOneChild)
+{
+    const fs::path maps = folder_.path() / "maps";
+    fs::create_directories(maps);
+    const std::string raster = test::readFile(test::writeRaster(
+        folder_, "map.tif", "GTiff",
+        test::recipeFor(32, std::vector<std::int16_t>(std::size_t{32} * 32, 1234))));
+    for (int i = 0; i < 20; ++i) {
+        folder_.write(fmt::format("maps/{}.tif", i), raster);
+    }
+    folder_.write("maps/cut.tif", raster.substr(0, 100));
+    const std::string archive = folder_.file("maps.tar");
+    test::runTool({"tar", "-cf", archive, "-C", folder_.path().string(), "maps"});
+    const fs::path cache = folder_.path() / "cache";
+    const ProgramOutput output =
+        test::runCliWith({"MARSVIEW_CACHE_DIR=" + cache.string()}, {"info", archive});
+    EXPECT_EQ(output.exit_status, 0) << output.err;
+    EXPECT_THAT(output.err, HasSubstr("20 rasters were found in the archive"));
+    const auto answers = fs::directory_iterator(cache / "opened");
+    EXPECT_EQ(std::distance(begin(answers), end(answers)), 1) << "of the raster that is open";
+}
+
 TEST_F(HostileFiles, RefusesDecompressionBombs)
 {
     std::vector<std::string> paths{
