@@ -443,7 +443,7 @@ void addBenchContactCommand(CLI::App& bench, CommandAction& run)
         "updates after which no path over or off the surface leads closer to the goal.");
     command->add_option("DEM", options->map.path, "elevation map; without one, a fractal")
         ->type_name("FILE")
-        ->transform(mapName());
+        ->transform(fileName());
     options->map.addOverridesTo(*command);
     command->add_option("--size", options->size, "columns and rows of the fractal")
         ->capture_default_str()
@@ -497,6 +497,7 @@ void addBenchContactCommand(CLI::App& bench, CommandAction& run)
         ->check(positiveNumber());
     command->add_option("--plot", options->plot, "SVG file: run time against error")
         ->type_name("FILE")
+        ->transform(fileName())
         ->check(fileNameEndingIn({".svg"}));
     command->add_flag("--json", options->is_json, "print JSON");
     command->callback([options, &run] { run = [options] { return runBenchContact(*options); }; });

@@ -401,7 +401,7 @@ void addBenchViewCommand(CLI::App& bench, CommandAction& run)
                      "elevation maps, by default the bundled one; the times of several are "
                      "compared with the first's")
         ->type_name("FILE")
-        ->transform(mapName());
+        ->transform(fileName());
     options->map.addOverridesTo(*command);
     command->add_option("--size", options->size, "width and height in pixels")
         ->type_name("WxH")
@@ -432,7 +432,7 @@ void addBenchViewCommand(CLI::App& bench, CommandAction& run)
                      "exaggerations at which the colors of pictures at rest are measured")
         ->capture_default_str()
         ->delimiter(',')
-        ->check(positiveNumber());
+        ->check(exaggerationFactor());
     command->add_flag("--full", options->bench.is_full,
                       "compare with pictures of every sample even of large maps");
     command->add_flag("--json", options->is_json, "print JSON, with every frame");

@@ -3,6 +3,7 @@
 #include "app/cli/devices_command.h"
 
 #include "app/cli/commands.h"
+#include "app/console/number_checks.h"
 #include "app/console/text_output.h"
 #include "haptics/device/device_registry.h"
 #include "haptics/device/plugin_call.h"
@@ -154,7 +155,8 @@ void addDevicesCommand(CLI::App& app, CommandAction& run)
                       ->add_option("--check", options->plugin,
                                    "test whether a device plugin conforms to the interface, on its "
                                    "device, without force")
-                      ->type_name("FILE");
+                      ->type_name("FILE")
+                      ->transform(fileName());
     command
         ->add_option("--device", options->device,
                      "id of the device to test; by default the first one that is ready")

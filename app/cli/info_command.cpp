@@ -4,6 +4,7 @@
 #include "app/console/long_job.h"
 #include "app/console/map_options.h"
 #include "app/console/map_report.h"
+#include "app/console/number_checks.h"
 #include "app/console/text_output.h"
 #include "core/files/remote_raster.h"
 #include "core/session/map_opening.h"
@@ -211,7 +212,7 @@ void addInfoCommand(CLI::App& app, CommandAction& run)
                      "elevation maps: files, labels, addresses, or GDAL dataset names")
         ->type_name("FILE")
         ->required()
-        ->transform(mapName());
+        ->transform(fileName());
     options->map.addOverridesTo(*command);
     command->add_flag("--json", options->is_json,
                       "print JSON: an object, or an array of objects for several files");

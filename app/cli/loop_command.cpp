@@ -9,6 +9,7 @@
 #include "app/console/number_checks.h"
 #include "app/console/text_output.h"
 #include "core/base/nearest_word.h"
+#include "core/files/file_address.h"
 #include "core/raster/output_check.h"
 #include "haptics/device/device_registry.h"
 #include "haptics/drivers/built_in_drivers.h"
@@ -28,6 +29,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -100,6 +102,18 @@ frameFor(const LoopOptions& options, const LoopMap& map, const DeviceCapabilitie
     return frame;
 }
 
+// "replay:file:///a.csv" and "record:file:///a.csv,DEVICE" with the paths of their files.
+Result<std::string> withLocalPath(const std::string& uri)
+{
+    constexpr std::string_view kLoop = "#loop";
+    const std::size_t begin = uri.find(':') + 1;
+    const std::size_t end = isReplay(uri) ? uri.size() - (uri.ends_with(kLoop) ? kLoop.size() : 0)
+                                          : begin + recordedFile(uri).size();
+    const Result<std::string> path = localPathOf(uri.substr(begin, end - begin));
+    return path ? Result<std::string>(uri.substr(0, begin) + *path + uri.substr(end))
+                : Result<std::string>(path.error());
+}
+
 // The URI of an available driver. The device's presence is only known once it is opened.
 CLI::Validator knownDevice()
 {
@@ -110,6 +124,11 @@ CLI::Validator knownDevice()
                 const bool is_known =
                     std::find(schemes.begin(), schemes.end(), scheme) != schemes.end();
                 if (is_known && colon != std::string::npos) {
+                    Result<std::string> local = withLocalPath(uri);
+                    if (!local) {
+                        return local.error().message;
+                    }
+                    uri = std::move(local).value();
                     return std::string();
                 }
                 return is_known ? fmt::format("\"{}\" has no colon; write \"{}:\"", uri, uri)
@@ -280,7 +299,7 @@ void addLoopCommand(CLI::App& app, CommandAction& run)
                      "its URI: null:, sim:swipe=10,delay_ms=1, replay:GOALS.csv, …")
         ->type_name("URI")
         ->required()
-        ->check(knownDevice());
+        ->transform(knownDevice());
     command->add_option("--seconds", options->seconds, "how long, unless the device ends first")
         ->capture_default_str()
         ->check(positiveNumber());
@@ -297,7 +316,7 @@ void addLoopCommand(CLI::App& app, CommandAction& run)
         ->check(positiveNumber());
     command->add_option("--exaggeration", options->loop.exaggeration, "vertical exaggeration")
         ->capture_default_str()
-        ->check(positiveNumber());
+        ->check(exaggerationFactor());
     command
         ->add_option("--across", options->across_cells,
                      "width of the workspace in cells, around the map's center; default the whole "
@@ -311,11 +330,13 @@ void addLoopCommand(CLI::App& app, CommandAction& run)
     command
         ->add_option("--record", options->record,
                      "CSV file for the recording; trace --goals and replay: read it")
-        ->type_name("FILE");
+        ->type_name("FILE")
+        ->transform(fileName());
     command
         ->add_option("--flight", options->flight,
                      "CSV file for the last ten seconds of the flight recorder")
-        ->type_name("FILE");
+        ->type_name("FILE")
+        ->transform(fileName());
     command->add_flag("--json", options->is_json, "print JSON");
     command->callback([options, &run] {
         options->loop.kind = contactModelKind(options->model).value_or(kContactModelDefault);

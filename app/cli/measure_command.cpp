@@ -306,6 +306,13 @@ Status runSlope(const SlopeOptions& options)
     if (!input) {
         return std::move(input).error();
     }
+    const double baseline_max_m = longestBaselineM(input->terrain->ground());
+    if (options.baseline_m && *options.baseline_m > baseline_max_m) {
+        return Error{ErrorCode::OutOfRange,
+                     fmt::format("--baseline: {} m reach more than half way around the body; use "
+                                 "at most {:.0f} m",
+                                 *options.baseline_m, baseline_max_m)};
+    }
     LongJob job("measuring");
     Result<std::vector<TerrainSlope>> slopes =
         measureSlopes(*input->terrain, input->positions, options.baseline_m, job.monitor());

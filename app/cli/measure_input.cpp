@@ -1,6 +1,7 @@
 #include "app/cli/measure_input.h"
 
 #include "app/console/long_job.h"
+#include "app/console/number_checks.h"
 #include "core/base/bounded_text.h"
 #include "core/base/plain_number.h"
 #include "core/levels/level_file_use.h"
@@ -224,12 +225,14 @@ void MeasureOptions::addTo(CLI::App& command)
                     "CSV with one position per line, with or without a header line; - reads "
                     "standard input")
         ->type_name("FILE")
+        ->transform(fileName())
         ->group(group);
     command
         .add_option("--vector", vector_path,
                     "GeoPackage, GeoJSON, KML, Shapefile or CSV: its first line or polygon, or its "
                     "points; its own CRS applies")
         ->type_name("FILE")
+        ->transform(fileName())
         ->group(group);
     auto* lonlat = command.add_flag("--lonlat", is_lonlat,
                                     "positions are longitude and latitude in degrees, "

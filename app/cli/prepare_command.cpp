@@ -308,6 +308,7 @@ void addPrepareCommand(CLI::App& app, CommandAction& run)
                          "GeoTIFF to write; by default one in the folder of prepared maps, or none "
                          "if DEM is already tiled and has overviews")
             ->type_name("FILE")
+            ->transform(fileName())
             ->check(fileNameEndingIn({".tif", ".tiff"}));
     command->add_flag("--wait", options->is_waiting,
                       "if another program prepares the same file, wait for it");

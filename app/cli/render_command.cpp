@@ -97,6 +97,7 @@ void addRenderCommand(CLI::App& app, CommandAction& run)
     options->map.addTo(*command);
     command->add_option("-o,--output", options->output, "PNG file to write")
         ->type_name("FILE")
+        ->transform(fileName())
         ->required()
         ->check(fileNameEndingIn({".png"}));
     command->add_option("--size", options->size, "width and height in pixels")
@@ -116,7 +117,7 @@ void addRenderCommand(CLI::App& app, CommandAction& run)
     command->add_option("--tilt", options->tilt_deg, "0 looks straight down, at most 85 degrees")
         ->check(numberFrom(0.0, 85.0));
     command->add_option("--exaggeration", options->exaggeration, "vertical exaggeration")
-        ->check(positiveNumber());
+        ->check(exaggerationFactor());
     auto* error =
         command
             ->add_option("--error-px", options->error_px, "largest error of the surface, in pixels")

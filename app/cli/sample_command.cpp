@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <fmt/format.h>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -136,7 +137,8 @@ private:
     bool is_json_;
 };
 
-// Two numbers separated by blanks, a comma or a semicolon; "nan" is a number.
+// Two numbers separated by blanks, a comma or a semicolon; "nan" is a number. An empty line is no
+// position: it has no elevation, so that every line of the input has one in the output.
 std::optional<Position> parsePosition(std::string line)
 {
     for (char& c : line) {
@@ -148,6 +150,10 @@ std::optional<Position> parsePosition(std::string line)
     std::string first;
     std::string second;
     std::string rest;
+    if (line.find_first_not_of(' ') == std::string::npos) {
+        constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+        return Position{kNan, kNan};
+    }
     if (!(words >> first >> second) || words >> rest) {
         return std::nullopt;
     }
@@ -171,9 +177,6 @@ Status sampleStdin(Sampler& sampler)
                          fmt::format("--stdin: line {} is longer than {} bytes; write one position "
                                      "per line",
                                      number, kLineBytesMax)};
-        }
-        if (line.find_first_not_of(" \t\r") == std::string::npos) {
-            continue;
         }
         const std::optional<Position> position = parsePosition(line);
         if (!position) {
@@ -262,8 +265,8 @@ void addSampleCommand(CLI::App& app, CommandAction& run, bool has_stdin)
     }
     command->add_flag(
         "--stdin", options->is_stdin,
-        "read one position per line, print one elevation per line; the position options "
-        "then take no numbers (default: --map)");
+        "read one position per line, print one elevation per line, nan for an empty one; the "
+        "position options then take no numbers (default: --map)");
     command->add_flag("--json", options->is_json, "print JSON");
     command->callback([options, command, has_stdin, &run] {
         std::size_t count = 0;

@@ -346,7 +346,7 @@ void addTraceCommand(CLI::App& app, CommandAction& run)
                      "in meters, not exaggerated; - for standard input")
         ->type_name("FILE")
         ->required()
-        ->transform(mapName());
+        ->transform(fileName());
     std::vector<std::string> names;
     names.reserve(kContactModelKinds.size());
     for (const ContactModelKind kind : kContactModelKinds) {
@@ -376,9 +376,11 @@ void addTraceCommand(CLI::App& app, CommandAction& run)
         ->check(oneOf({"flat", "body"}));
     command->add_flag("--timing", options->has_timing, "add a column ns, the time of each update");
     command->add_option("--summary", options->summary, "JSON file for totals, means and times")
-        ->type_name("FILE");
+        ->type_name("FILE")
+        ->transform(fileName());
     command->add_option("-o,--output", options->output, "CSV file to write, default stdout")
-        ->type_name("FILE");
+        ->type_name("FILE")
+        ->transform(fileName());
     command->callback([options, &run] {
         const auto needs_radius = contactModelName(ContactModelKind::VirtualProxy);
         if (options->radius_m && options->model.value_or("") != needs_radius) {

@@ -4,7 +4,6 @@
 #include "app/console/number_checks.h"
 #include "app/console/text_output.h"
 #include "core/base/nearest_word.h"
-#include "core/files/file_address.h"
 #include "core/files/remote_raster.h"
 #include "core/geo/crs.h"
 #include "core/session/map.h"
@@ -57,19 +56,6 @@ CLI::Validator knownCrs()
 
 } // namespace
 
-CLI::Validator mapName()
-{
-    return {[](std::string& name) {
-                Result<std::string> path = localPathOf(name);
-                if (!path) {
-                    return path.error().message;
-                }
-                name = std::move(path).value();
-                return std::string();
-            },
-            ""};
-}
-
 void MapOptions::addTo(CLI::App& command)
 {
     command
@@ -77,7 +63,7 @@ void MapOptions::addTo(CLI::App& command)
                     "elevation map: a file, a label, an address, or a GDAL dataset name")
         ->type_name("FILE")
         ->required()
-        ->transform(mapName());
+        ->transform(fileName());
     addOverridesTo(command);
 }
 
@@ -91,14 +77,33 @@ void MapOptions::addOverridesTo(CLI::App& command)
         ->group(group)
         ->check(knownCrs());
     command.add_option("--body", body, "Mars, Moon, Earth, …")->group(group)->check(knownBody());
+    const auto set_radii = [this](const std::vector<double>& meters) {
+        if (meters.front() < meters.back()) {
+            throw CLI::ValidationError(
+                "--radii", fmt::format("the equatorial radius, {}, is below the polar one, {}",
+                                       meters.front(), meters.back()));
+        }
+        radii_m = meters;
+    };
+    constexpr double kRadiusMinM = 10.0;
+    constexpr double kRadiusMaxM = 1e9; // the Sun's is 7e8
     command
-        .add_option("--radii", radii_m, "equatorial and polar radius of the ellipsoid in meters")
+        .add_option_function<std::vector<double>>(
+            "--radii", set_radii, "equatorial and polar radius of the ellipsoid in meters")
         ->expected(1, 2)
         ->group(group)
-        ->check(positiveNumber());
+        ->check(numberFrom(kRadiusMinM, kRadiusMaxM));
+    const auto set_geotransform = [this](const std::vector<double>& values) {
+        GeoTransform::Terms terms{};
+        std::copy_n(values.begin(), std::min(values.size(), terms.size()), terms.begin());
+        if (const Result<GeoTransform> transform = GeoTransform::fromTerms(terms); !transform) {
+            throw CLI::ValidationError("--geotransform", transform.error().message);
+        }
+        geotransform = values;
+    };
     command
-        .add_option(
-            "--geotransform", geotransform,
+        .add_option_function<std::vector<double>>(
+            "--geotransform", set_geotransform,
             "x0 dx/dcolumn dx/drow y0 dy/dcolumn dy/drow, of the first pixel's outer corner")
         ->expected(6)
         ->group(group)
@@ -118,6 +123,7 @@ void MapOptions::addOverridesTo(CLI::App& command)
     command
         .add_option("--vertical-datum", vertical_datum,
                     "surface that elevations refer to: areoid, EGM96 geoid, …")
+        ->check(someText())
         ->group(group);
     command.add_option("--nodata", nodata, "raw value that marks nodata")
         ->group(group)

@@ -12,7 +12,6 @@
 
 namespace CLI {
 class App;
-class Validator;
 } // namespace CLI
 
 namespace marsview {
@@ -44,9 +43,6 @@ struct MapOptions {
     /// The kind of bare latitudes for a map of that body (null: unknown body).
     LatitudeKind latitudeKind(const Body* of_body) const;
 };
-
-/// For every option that names a map: converts "file://" URLs to paths.
-CLI::Validator mapName();
 
 /// The raster that the options name, with their overrides. Shows progress where that takes long.
 Result<OpenRaster> openRaster(const MapOptions& options);

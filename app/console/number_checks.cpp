@@ -2,6 +2,8 @@
 
 #include "core/base/nearest_word.h"
 #include "core/base/plain_number.h"
+#include "core/files/file_address.h"
+#include "core/view/exaggeration.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -70,6 +72,11 @@ CLI::Validator numberFrom(double low, double high)
                        fmt::format("number from {} to {}", low, high));
 }
 
+CLI::Validator exaggerationFactor()
+{
+    return numberFrom(kExaggerationMin, kExaggerationMax);
+}
+
 CLI::Validator wholeNumberFrom(std::uint64_t low, std::uint64_t high)
 {
     return {[low, high](std::string& text) {
@@ -96,6 +103,29 @@ CLI::Validator oneOf(std::vector<std::string> words)
                                          didYouMean(text, words));
             },
             description};
+}
+
+CLI::Validator someText()
+{
+    return {[](std::string& text) {
+                return text.find_first_not_of(" \t\r\n") != std::string::npos
+                           ? std::string()
+                           : std::string("the text is empty");
+            },
+            ""};
+}
+
+CLI::Validator fileName()
+{
+    return {[](std::string& name) {
+                Result<std::string> path = localPathOf(name);
+                if (!path) {
+                    return path.error().message;
+                }
+                name = std::move(path).value();
+                return std::string();
+            },
+            ""};
 }
 
 CLI::Validator fileNameEndingIn(std::vector<std::string> endings)

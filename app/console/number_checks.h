@@ -23,9 +23,16 @@ CLI::Validator positiveNumber();
 CLI::Validator nonZeroNumber();
 /// Both ends included.
 CLI::Validator numberFrom(double low, double high);
+/// A vertical exaggeration.
+CLI::Validator exaggerationFactor();
 CLI::Validator wholeNumberFrom(std::uint64_t low, std::uint64_t high);
 /// One of these words, case-sensitive; the error suggests the nearest one.
 CLI::Validator oneOf(std::vector<std::string> words);
+/// Anything but white space.
+CLI::Validator someText();
+/// For every option that names a file or folder: converts "file://" addresses to paths, for
+/// CLI::Option::transform. Call it before fileNameEndingIn().
+CLI::Validator fileName();
 /// A name with one of these extensions (".png"), case-insensitive.
 CLI::Validator fileNameEndingIn(std::vector<std::string> endings);
 

@@ -401,6 +401,9 @@ std::string usageMessage(const CLI::ParseError& error)
     constexpr std::string_view kRequired = " is required";
     constexpr std::string_view kExcludes = " excludes ";
     constexpr std::string_view kRequires = " requires ";
+    if (ended("exactly one is required")) {
+        return text;
+    }
     if (ended(kRequired)) {
         return text.substr(0, text.size() - kRequired.size()) + ": missing";
     }

@@ -8,8 +8,6 @@ namespace marsview {
 namespace {
 
 constexpr std::array kRoundNumbers{1.0, 1.5, 2.0, 3.0, 5.0, 7.0};
-constexpr double kExaggerationMin = 1e-6;
-constexpr double kExaggerationMax = 1e6;
 
 // Relief as a fraction of the extent: smaller relief is exaggerated to kReliefWanted, relief above
 // kReliefTooHigh is reduced to kReliefBounded. Between the two it is unchanged.

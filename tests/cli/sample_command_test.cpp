@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
@@ -196,6 +197,22 @@ TEST(SampleCommand, ReportsDamagedTilesAsErrorsInsteadOfElevations)
         }
     }
     EXPECT_GT(refusals, 5);
+}
+
+TEST(SampleCommand, PrintsOneLineForEveryLineOfItsInput)
+{
+    const ProgramOutput output =
+        runCli({"sample", bundledMars(), "--pixel", "--stdin"}, "1 2\n\n3 4\n \t\r\n5 6");
+    EXPECT_EQ(output.exit_status, 0) << output.err;
+    const std::vector<double> elevations = numbersIn(output.out);
+    ASSERT_EQ(elevations.size(), 5U);
+    EXPECT_TRUE(std::isnan(elevations[1]) && std::isnan(elevations[3]));
+    EXPECT_EQ(elevations[4],
+              numbersIn(runCli({"sample", bundledMars(), "--pixel", "5", "6"}).out).at(0));
+    const ProgramOutput json =
+        runCli({"sample", bundledMars(), "--pixel", "--stdin", "--json"}, "1 2\n\n");
+    EXPECT_EQ(std::count(json.out.begin(), json.out.end(), '\n'), 2);
+    EXPECT_TRUE(nlohmann::json::parse(json.out.substr(json.out.find('\n')))["height"].is_null());
 }
 
 } // namespace marsview::test

@@ -124,6 +124,18 @@ TEST(Usage, RefusesValuesOfTheWrongFormOrOutsideTheirRange)
         {with(info, {"--unit", "cubits"}), "--unit"},
         {with(info, {"--radii", "3e6,-1"}), "--radii"},
         {with(info, {"--radii", "1,2,3"}), "--radii"},
+        {with(info, {"--radii", "1"}), "--radii"},
+        {with(info, {"--radii", "3376200,3396190"}), "--radii"},
+        {with(info, {"--geotransform", "0,0,0,0,0,0"}), "--geotransform"},
+        {with(info, {"--geotransform", "0,1,1,0,1,1"}), "--geotransform"},
+        {with(info, {"--crs", "EPSG:5703"}), "--crs"},
+        {with(info, {"--vertical-datum", " "}), "--vertical-datum"},
+        {with(render, {"--exaggeration", "1e300"}), "--exaggeration"},
+        {with(loop, {"--exaggeration", "1e-300"}), "--exaggeration"},
+        {with(trace, {"--exaggeration", "1e7"}), "--exaggeration"},
+        {{"render", bundledMars(), "-o", "file://elsewhere/x.png"}, "--output"},
+        {{"measure", "slope", bundledMars(), "--points", "file:///a%zz"}, "--points"},
+        {with(loop, {"--record", "file://elsewhere/x.csv"}), "--record"},
         {with(info, {"--geotransform", "0,1,0,0,0"}), "--geotransform"},
         {with(info, {"--geotransform", "0,1,0,0,0,inf"}), "--geotransform"},
         {with(info, {"--geotransform", "0", "1", "0", "0", "0", "-inf"}), "--geotransform"},
@@ -245,6 +257,53 @@ TEST(Usage, OpensFileAddresses)
     };
     EXPECT_EQ(traced("file://" + folder.path().string() + "/goals%20a.csv"),
               traced(folder.file("goals a.csv")));
+}
+
+TEST(Usage, ReadsAndWritesFileAddressesWithEveryOption)
+{
+    const TempFolder folder;
+    const std::string base = "file://" + folder.path().string();
+    const std::string mars = bundledMars();
+    folder.write("goals a.csv", "x,y,z\n226.2,18.65,30000\n");
+    folder.write("points a.csv", "lon,lat\n226.2,18.65\n226.9,18.9\n");
+    struct Case {
+        Words arguments;
+        std::string written{}; // may be empty
+    };
+    const std::vector<Case> cases{
+        {{"measure", "distance", mars, "--points", base + "/points%20a.csv"}},
+        {{"measure", "distance", mars, "--vector", base + "/points%20a.csv"}},
+        {{"loop", mars, "--device", "replay:" + base + "/goals%20a.csv", "--seconds", "0.1"}},
+        {{"loop", mars, "--device", "record:" + base + "/touch%20a.csv,null:", "--seconds", "0.1"},
+         "touch a.csv"},
+        {{"loop", mars, "--device", "null:", "--seconds", "0.1", "--record", base + "/r%20a.csv"},
+         "r a.csv"},
+        {{"loop", mars, "--device", "null:", "--seconds", "0.1", "--flight", base + "/f%20a.csv"},
+         "f a.csv"},
+        {{"trace", mars, "--goals", base + "/goals%20a.csv", "-o", base + "/t%20a.csv"}, "t a.csv"},
+        {{"trace", mars, "--goals", base + "/goals%20a.csv", "--summary", base + "/s%20a.json"},
+         "s a.json"},
+        {{"render", mars, "--size", "40x30", "-o", base + "/p%20a.png"}, "p a.png"},
+        {{"prepare", mars, "-o", base + "/m%20a.tif"}, "m a.tif"},
+        {{"bench", "terrain", "--make", base + "/b%20a.tif", "--size", "64x64"}, "b a.tif"},
+    };
+    for (const Case& c : cases) {
+        const ProgramOutput output = runCli(c.arguments);
+        EXPECT_EQ(output.exit_status, 0) << fmt::format("{}", fmt::join(c.arguments, " ")) << "\n"
+                                         << output.err;
+        EXPECT_TRUE(c.written.empty() || std::filesystem::exists(folder.file(c.written)))
+            << c.written;
+    }
+}
+
+TEST(Usage, SaysThatExactlyOneOfTwoIsRequired)
+{
+    const Words distance{"measure", "distance", bundledMars()};
+    const std::string problem = "marsview-cli: --points, --vector: exactly one is required";
+    EXPECT_EQ(refusal(distance), problem);
+    EXPECT_EQ(refusal(with(distance, {"--points", "a.csv", "--vector", "b.csv"})), problem);
+    EXPECT_EQ(refusal(with({"sample", bundledMars()}, {"--pixel", "1,2", "--map", "1,2"})),
+              "marsview-cli: --map, --lonlat, --pixel: exactly one is required");
 }
 
 TEST(Usage, FailsInOneLineOnEndlessInput)

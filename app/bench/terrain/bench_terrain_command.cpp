@@ -382,14 +382,15 @@ void addBenchTerrainCommand(CLI::App& bench, CommandAction& run)
     CLI::App* command = bench.add_subcommand("terrain", "Measure maps that are larger than memory");
     command->add_option("DEM", options->bench.map.path, "elevation map, by default the bundled one")
         ->type_name("FILE")
-        ->transform(mapName());
+        ->transform(fileName());
     options->bench.map.addOverridesTo(*command);
     CLI::Option* make = command
                             ->add_option("--make", options->make.path,
                                          "write a large map to this file instead: a measured one "
                                          "with seeded fractal detail below "
                                          "its resolution")
-                            ->type_name("FILE");
+                            ->type_name("FILE")
+                            ->transform(fileName());
     command->add_option("--size", options->size, "of the map that is made, columns by rows")
         ->type_name("WxH")
         ->capture_default_str()
@@ -401,6 +402,7 @@ void addBenchTerrainCommand(CLI::App& bench, CommandAction& run)
     command
         ->add_option("--from", options->make.from, "the measured map, by default the bundled one")
         ->type_name("FILE")
+        ->transform(fileName())
         ->needs(make);
     command->add_option("--layout", options->layout, "tiles or strips")
         ->capture_default_str()
@@ -421,6 +423,7 @@ void addBenchTerrainCommand(CLI::App& bench, CommandAction& run)
         ->add_option("--folder", options->folder,
                      "folder for prepared maps; by default a temporary one")
         ->type_name("FOLDER")
+        ->transform(fileName())
         ->excludes(make);
     command
         ->add_option("--seconds", options->bench.seconds,
@@ -444,12 +447,14 @@ void addBenchTerrainCommand(CLI::App& bench, CommandAction& run)
     command
         ->add_option("--against", options->bench.against,
                      "a smaller map to compare frame times with")
-        ->type_name("FILE");
+        ->type_name("FILE")
+        ->transform(fileName());
     command->add_option("--frames", options->bench.frame_count, "frames per flight")
         ->capture_default_str()
         ->check(wholeNumberFrom(1, 100'000));
     command->add_option("--plot", options->plot, "draw the growth to this SVG file")
         ->type_name("FILE")
+        ->transform(fileName())
         ->check(fileNameEndingIn({".svg"}));
     command->add_flag("--warm", options->bench.is_warm,
                       "draw the first picture with the file in the system's cache");
