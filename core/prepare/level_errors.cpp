@@ -196,11 +196,12 @@ public:
             if (!tile.hasVoids()) {
                 continue;
             }
-            ordered_.put({lastTileRowOf(layout_, band.level, band.tile_row), band.level, id.column},
-                         packedArray(tile),
-                         [this, number = keptTileNumber(layout_, id)](const FilePart& part) {
-                             coarse_fill_parts_.add(number, part);
-                         });
+            ordered_.put(
+                {lastTileRowOf(layout_, band.level, band.tile_row), band.level, id.row, id.column},
+                packedArray(tile),
+                [this, number = keptTileNumber(layout_, id)](const FilePart& part) {
+                    coarse_fill_parts_.add(number, part);
+                });
         }
         return Done{};
     }
@@ -389,7 +390,7 @@ private:
         const TileId& id = tile.id;
         const bool is_filled = hasVoids(id.column, id.row);
         if (is_filled) {
-            ordered_.put({id.row, 0, id.column},
+            ordered_.put({id.row, 0, id.row, id.column},
                          packed({.columns = fill->window.columns,
                                  .rows = fill->window.rows,
                                  .element_bytes = sizeof(float)},

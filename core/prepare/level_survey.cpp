@@ -198,10 +198,12 @@ public:
                             .column = static_cast<std::uint32_t>(first / kTileSide),
                             .row = static_cast<std::uint32_t>(band.tile_row)};
             const SampleGrid tile = columnsOf(band.samples, first, layout_.tileWidth(id));
-            ordered_.put({lastTileRowOf(layout_, band.level, band.tile_row), band.level, id.column},
-                         packedSamples(tile),
-                         [to = &found_.samples_index[keptTileNumber(layout_, id)]](
-                             const FilePart& part) { *to = part; });
+            ordered_.put(
+                {lastTileRowOf(layout_, band.level, band.tile_row), band.level, id.row, id.column},
+                packedSamples(tile),
+                [to = &found_.samples_index[keptTileNumber(layout_, id)]](const FilePart& part) {
+                    *to = part;
+                });
         }
         return Done{};
     }

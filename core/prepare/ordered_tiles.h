@@ -35,6 +35,8 @@ public:
     struct Place {
         std::size_t tile_row = 0; // of level 0: the last one that the tile depends on
         std::size_t level = 0;
+        std::size_t row =
+            0; // of the level: at the end of a map two may depend on one row of level 0
         std::size_t column = 0;
         auto operator<=>(const Place&) const = default;
     };

@@ -73,7 +73,9 @@ profileFigure(const MeasureItem& item, const Profile& profile, HeightUnit unit)
     ProfilePlot plot;
     plot.setPalette(paperPalette());
     plot.setHeightUnit(unit);
-    ProfileCurve curve{.name = item.name, .color = QColor(176, 58, 30)};
+    ProfileCurve curve;
+    curve.name = item.name;
+    curve.color = QColor(176, 58, 30);
     curve.is_approximate = profile.is_approximate;
     curve.vertices_m = profile.vertices_m;
     for (const ProfilePoint& point : profile.points) {

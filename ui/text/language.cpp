@@ -8,17 +8,13 @@
 #include <algorithm>
 #include <utility>
 
-namespace {
-
-// The macro must not be in a namespace.
-void loadTranslations()
+// The macro must not be in a namespace, not even an unnamed one.
+static void loadTranslations()
 {
 #ifdef MARSVIEW_HAS_TRANSLATIONS
     Q_INIT_RESOURCE(translations);
 #endif
 }
-
-} // namespace
 
 namespace marsview {
 namespace {

@@ -115,12 +115,13 @@ Status mergeErrors(CheckpointReader& from,
     const std::size_t tile_columns = layout.tileColumns(TileKind::Samples, 0);
     const auto place_of_tile = [&](std::uint64_t number) -> std::optional<OrderedTiles::Place> {
         const std::size_t row = number / tile_columns;
-        return part.has(row) ? std::optional(OrderedTiles::Place{row, 0, number % tile_columns})
-                             : std::nullopt;
+        return part.has(row)
+                   ? std::optional(OrderedTiles::Place{row, 0, row, number % tile_columns})
+                   : std::nullopt;
     };
     std::map<std::uint64_t, OrderedTiles::Place> places;
     forEachKeptTile(layout, part, [&](const TileId& id, std::size_t last_row) {
-        places[keptTileNumber(layout, id)] = {last_row, id.level, id.column};
+        places[keptTileNumber(layout, id)] = {last_row, id.level, id.row, id.column};
     });
     const auto place_of_coarse = [&](std::uint64_t number) -> std::optional<OrderedTiles::Place> {
         const auto at = places.find(number);

@@ -280,7 +280,7 @@ Status mergeSurvey(CheckpointReader& from,
         is_good = is_good && from.get(at_part.offset) && from.get(at_part.bytes) &&
                   from.get(at_part.checksum);
         if (is_good && at_part.bytes > 0) {
-            stored.push_back({{last_row, id.level, id.column},
+            stored.push_back({{last_row, id.level, id.row, id.column},
                               at_part,
                               [to = &found.samples_index[keptTileNumber(layout, id)]](
                                   const FilePart& placed) { *to = placed; }});

@@ -306,6 +306,16 @@ TEST(LevelFile, MatchesTheAnalysisOfTheWholeMap)
     }
 }
 
+TEST(LevelFile, HasAllTilesWhereTwoRowsOfALevelEndInOneRowOfTiles)
+{
+    test::Random random;
+    for (const std::size_t rows : {4096U, 4097U, 2049U}) {
+        const auto heights =
+            test::heightsFrom(test::fractalHeights(random, 40, rows, 4000.0, 0.55), 40);
+        expectSameAsInMemory(test::int16Terrain(40, rows, {}, heights));
+    }
+}
+
 /// Kinds of holes.
 std::vector<std::function<bool(std::size_t column, std::size_t row)>> holes(test::Random& random)
 {

@@ -169,7 +169,7 @@ TEST(CrsOverride, IsRefusedIfItsUnitDoesNotFitTheGrid)
         {"metres near the origin", gridAt(-40, 40, 0.1, 800, 800), "IAU_2015:30135", true},
         {"40 by 50 degrees on UTM", gridAt(10, 60, 1, 40, 50), "EPSG:32633", false},
         {"degrees on UTM without a registered area", gridAt(5, 60, 0.25, 120, 80),
-         "+proj=utm +zone=32 +R=3396190 +no_defs", false},
+         "+proj=tmerc +lon_0=8 +k=0.9997 +x_0=500000 +R=3396190 +no_defs", false},
         {"degrees on a national grid", gridAt(6, 48, 1.0 / 120, 480, 240), "EPSG:2056", false},
         {"metres of some site", gridAt(10, 60, 1, 50, 50), "IAU_2015:49910", true},
         {"metres of UTM", gridAt(500010, 60, 1, 50, 50), "EPSG:32610", true},

@@ -39,7 +39,7 @@ Georeference placementOf(const PlacedRaster& one)
 {
     auto crs = Crs::fromText(one.crs);
     EXPECT_TRUE(crs) << one.name;
-    return {2000, 1600, GeoTransform(one.terms), std::move(*crs)};
+    return {2000, 1600, *GeoTransform::fromTerms(one.terms), std::move(*crs)};
 }
 
 OrbitCamera randomViewOf(const Georeference& georeference, Random& random)
@@ -112,7 +112,8 @@ TEST(ViewCamera, LooksAtTheSamePlaceOnAnotherMapOfTheBody)
     const Georeference polar = placementOf(placedRasters()[1]);
     auto crs = Crs::fromText("IAU_2015:30100");
     ASSERT_TRUE(crs);
-    const Georeference global(2000, 1600, GeoTransform({-180.0, 0.18, 0.0, 90.0, 0.0, -0.1125}),
+    const Georeference global(2000, 1600,
+                              *GeoTransform::fromTerms({-180.0, 0.18, 0.0, 90.0, 0.0, -0.1125}),
                               std::move(*crs));
     const OrbitCamera camera{.target = polar.sceneFrame().toScene({1300.0, 500.0}, 600.0),
                              .distance_m = 5e4,
@@ -134,7 +135,7 @@ TEST(ViewCamera, LooksAtTheSamePlaceOnAnotherMapOfTheBody)
 
 TEST(ViewCamera, AMapWithoutABodyKeepsMapCoordinates)
 {
-    const Georeference local(100, 100, GeoTransform({10.0, 2.0, 0.0, 50.0, 0.0, -2.0}),
+    const Georeference local(100, 100, *GeoTransform::fromTerms({10.0, 2.0, 0.0, 50.0, 0.0, -2.0}),
                              std::nullopt);
     const OrbitCamera camera{.target = local.sceneFrame().toScene({20.0, 30.0}, 7.0),
                              .distance_m = 40.0};

@@ -105,8 +105,9 @@ TEST(ClipRange, StaysOrderedWhenTheBoxIsBehindOrAround)
 {
     const SceneBox box{{-100.0, -50.0, -1.0}, {100.0, 50.0, 9.0}};
     for (const double y : {-1000.0, 0.0, 1000.0}) {
-        const ClipRange clip = clipRange(
-            {.target = {0.0, y, 0.0}, .distance_m = 10.0, .tilt = Angle::degrees(85.0)}, box);
+        const OrbitCamera camera{
+            .target = {0.0, y, 0.0}, .distance_m = 10.0, .tilt = Angle::degrees(85.0)};
+        const ClipRange clip = clipRange(camera, box);
         EXPECT_GT(clip.near_m, 0.0);
         EXPECT_GT(clip.far_m, clip.near_m);
     }
