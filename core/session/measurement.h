@@ -1,6 +1,7 @@
 // Measurements as the document holds them: geometry, the layer they were made on, and results.
 #pragma once
 
+#include "core/annotations/drawn_vertex.h"
 #include "core/base/job_monitor.h"
 #include "core/base/result.h"
 #include "core/geo/frames.h"
@@ -23,8 +24,8 @@ namespace marsview {
 
 enum class MeasurementKind { Distance, Area, Profile, Attitude, Crater, Slope };
 
-/// A position of a measurement: on a body, or in the map coordinates of a map without one.
-using MeasuredVertex = std::variant<GeographicPoint, MapPoint>;
+/// A position of a measurement.
+using MeasuredVertex = DrawnVertex;
 
 /// The result of one of the functions of core/measure.
 using MeasuredValues =
@@ -44,8 +45,8 @@ struct Measurement {
     std::vector<MeasuredVertex> vertices{};
     LayerId layer = LayerId::None; // on which it was made
     std::chrono::system_clock::time_point time{};
-    std::string note{};          // by the user
-    std::optional<Rgb8> color{}; // empty: the usual one
+    std::string note{};                        // by the user
+    std::optional<Rgb8> color{};               // empty: the usual one
     AreaOptions area{};                        // of Area
     std::optional<double> step_m{};            // of Profile
     std::optional<double> baseline_m{};        // of Slope

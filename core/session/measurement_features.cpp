@@ -1,16 +1,14 @@
 #include "core/session/measurement_features.h"
 
-#include "core/files/raster_path.h"
-#include "core/measure/ground.h"
-#include "core/vector/vector_file.h"
+#include "core/annotations/annotation_files.h"
+#include "core/annotations/drawn_geometry.h"
+#include "core/annotations/drawn_json.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <fmt/chrono.h>
 #include <iterator>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -19,7 +17,6 @@
 namespace marsview {
 namespace {
 
-constexpr double kPieceDeg = 0.5; // of arc, between positions of a line
 constexpr std::size_t kCirclePositions = 180;
 
 struct Kind {
@@ -68,10 +65,7 @@ FieldValue text(const std::string& value)
 
 FieldValue colorOf(const Measurement& measurement)
 {
-    const auto& color = measurement.color;
-    return color ? FieldValue(
-                       fmt::format("#{:02x}{:02x}{:02x}", color->red, color->green, color->blue))
-                 : FieldValue();
+    return measurement.color ? FieldValue(colorText(*measurement.color)) : FieldValue();
 }
 
 // In the order of Kind::results.
@@ -132,120 +126,36 @@ const T* valueOf(const Measurement& measurement)
                : nullptr;
 }
 
-// Geometry on a body, as longitude and latitude of `crs`.
-class BodyGeometry {
-public:
-    explicit BodyGeometry(const Crs& crs)
-        : crs_(crs)
-        , ground_(Ground::onEllipsoid(*crs.ellipsoid()))
-        , piece_m_(crs.ellipsoid()->equatorial_m * kPieceDeg * std::numbers::pi / 180.0)
-    {}
-
-    std::vector<MapPoint> vertices(const Measurement& measurement) const
-    {
-        std::vector<MapPoint> points;
-        for (const GroundPosition position : positions(measurement)) {
-            points.push_back(mapPoint(position));
-        }
-        return points;
-    }
-
-    std::vector<MapPoint> line(const Measurement& measurement, bool is_closed) const
-    {
-        std::vector<GroundPosition> corners = positions(measurement);
-        if (is_closed) {
-            corners.push_back(corners.front());
-        }
-        return between(corners);
-    }
-
-    std::vector<MapPoint> circle(const Crater& crater) const
-    {
-        std::vector<GroundPosition> corners =
-            circleOn(ground_, crater.center, 0.5 * crater.diameter_m, kCirclePositions);
-        corners.push_back(corners.front());
-        return between(corners);
-    }
-
-    MapPoint mapPoint(GroundPosition position) const
-    {
-        return crs_.toMap(ground_.geographic(position)).value_or(MapPoint{position.x, position.y});
-    }
-
-private:
-    std::vector<GroundPosition> positions(const Measurement& measurement) const
-    {
-        std::vector<GroundPosition> positions;
-        for (const MeasuredVertex& vertex : measurement.vertices) {
-            positions.push_back(ground_.position(std::get<GeographicPoint>(vertex)));
-        }
-        return positions;
-    }
-
-    std::vector<MapPoint> between(const std::vector<GroundPosition>& corners) const
-    {
-        std::vector<MapPoint> points{mapPoint(corners.front())};
-        double turn = 0.0; // so that longitudes continue from one leg to the next
-        for (std::size_t i = 1; i < corners.size(); ++i) {
-            const GroundLine leg = ground_.line(corners[i - 1], corners[i]);
-            const auto pieces = static_cast<int>(std::ceil(leg.lengthM() / piece_m_));
-            for (int piece = 1; piece <= std::max(1, pieces); ++piece) {
-                GroundPosition position = piece == pieces || pieces < 1
-                                              ? leg.at(leg.lengthM())
-                                              : leg.at(piece * leg.lengthM() / pieces);
-                position.x += turn;
-                points.push_back(mapPoint(position));
-            }
-            const double end = leg.at(leg.lengthM()).x;
-            turn += end - corners[i].x;
-        }
-        return points;
-    }
-
-    Crs crs_;
-    Ground ground_;
-    double piece_m_;
-};
-
 std::vector<FeaturePart> asPoints(const std::vector<MapPoint>& points)
 {
     return {FeaturePart{.points = points, .is_hole = false}};
 }
 
-Feature geometryOf(const Measurement& measurement, const BodyGeometry* body)
+Feature geometryOf(const Measurement& measurement, const DrawnGeometry& geometry, bool is_on_body)
 {
     Feature feature;
-    std::vector<MapPoint> vertices;
-    if (body != nullptr) {
-        vertices = body->vertices(measurement);
-    } else {
-        for (const MeasuredVertex& vertex : measurement.vertices) {
-            vertices.push_back(std::get<MapPoint>(vertex));
-        }
-    }
     switch (measurement.kind) {
     case MeasurementKind::Distance:
     case MeasurementKind::Profile:
         feature.shape = FeatureShape::Line;
-        feature.parts = asPoints(body != nullptr ? body->line(measurement, false) : vertices);
+        feature.parts = asPoints(geometry.line(measurement.vertices, LineEnds::Open));
         return feature;
     case MeasurementKind::Area:
         feature.shape = FeatureShape::Polygon;
-        if (body == nullptr) {
-            vertices.push_back(vertices.front());
-        }
-        feature.parts = asPoints(body != nullptr ? body->line(measurement, true) : vertices);
+        feature.parts = asPoints(geometry.line(measurement.vertices, LineEnds::Closed));
         return feature;
     case MeasurementKind::Crater:
-        if (const auto* crater = valueOf<Crater>(measurement); crater != nullptr && body) {
+        if (const auto* crater = valueOf<Crater>(measurement); crater != nullptr && is_on_body) {
             feature.shape = FeatureShape::Polygon;
-            feature.parts = asPoints(body->circle(*crater));
+            feature.parts = asPoints(geometry.closedLine(circleOn(
+                geometry.ground(), crater->center, 0.5 * crater->diameter_m, kCirclePositions)));
             return feature;
         }
         break;
     case MeasurementKind::Attitude:
-        if (const auto* attitude = valueOf<Attitude>(measurement); attitude != nullptr && body) {
-            feature.parts = asPoints({body->mapPoint(attitude->center)});
+        if (const auto* attitude = valueOf<Attitude>(measurement);
+            attitude != nullptr && is_on_body) {
+            feature.parts = asPoints({geometry.mapPoint(attitude->center)});
             return feature;
         }
         break;
@@ -253,7 +163,7 @@ Feature geometryOf(const Measurement& measurement, const BodyGeometry* body)
         break;
     }
     feature.shape = FeatureShape::Point;
-    feature.parts = asPoints(vertices);
+    feature.parts = asPoints(geometry.points(measurement.vertices));
     return feature;
 }
 
@@ -262,13 +172,12 @@ FeatureCollection collectionOf(const std::vector<const NamedMeasurement*>& measu
                                const Crs* crs)
 {
     FeatureCollection content;
-    std::optional<BodyGeometry> geometry;
     if (crs != nullptr) {
         content.body = crs->body();
         content.crs =
             content.body != nullptr ? Crs::geographic(*content.body, *crs->ellipsoid()) : *crs;
-        geometry.emplace(*content.crs);
     }
+    const DrawnGeometry geometry(content.crs);
     for (const Kind& kind : kinds()) {
         FeatureLayer layer{.name = kind.layer,
                            .fields = {{.name = "name", .type = FieldType::Text},
@@ -285,7 +194,7 @@ FeatureCollection collectionOf(const std::vector<const NamedMeasurement*>& measu
             if (measurement.kind != kind.kind) {
                 continue;
             }
-            Feature feature = geometryOf(measurement, geometry ? &*geometry : nullptr);
+            Feature feature = geometryOf(measurement, geometry, crs != nullptr);
             const auto seconds = std::chrono::floor<std::chrono::seconds>(measurement.time);
             feature.values = {measurement.name, text(measurement.note), colorOf(measurement),
                               named->layer_name, fmt::format("{:%FT%T}Z", seconds)};
@@ -345,27 +254,9 @@ std::vector<FeatureCollection> measurementFeatures(std::span<const NamedMeasurem
 Status writeMeasurements(std::span<const NamedMeasurement> measurements,
                          const std::filesystem::path& path)
 {
-    const std::vector<FeatureCollection> collections = measurementFeatures(measurements);
-    std::vector<std::string> names;
     JobMonitor monitor;
-    for (const FeatureCollection& content : collections) {
-        std::string name = path.string();
-        if (collections.size() > 1) {
-            std::filesystem::path beside = path;
-            beside.replace_extension();
-            name = fmt::format("{}-{}", beside.string(),
-                               content.body != nullptr ? lowerCase(std::string(content.body->name))
-                               : content.crs           ? "body"
-                                                       : "map");
-            const auto same = std::count(names.begin(), names.end(), name);
-            names.push_back(name);
-            name += same > 0 ? fmt::format("-{}.gpkg", same + 1) : ".gpkg";
-        }
-        if (const auto written = writeVectorFile(name, content, monitor); !written) {
-            return written.error();
-        }
-    }
-    return Done{};
+    const auto written = writeCollections(measurementFeatures(measurements), path, monitor);
+    return written ? Status(Done{}) : Status(written.error());
 }
 
 } // namespace marsview

@@ -1,26 +1,22 @@
 #include "core/session/project.h"
 
+#include "core/annotations/drawn_json.h"
 #include "core/base/durable_file.h"
 #include "core/files/raster_path.h"
-#include "core/session/json_members.h"
+#include "core/json/json_members.h"
 #include "core/session/project_views.h"
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <chrono>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <cstring>
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <fstream>
 #include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
-#include <variant>
 
 namespace marsview {
 namespace {
@@ -30,9 +26,8 @@ namespace fs = std::filesystem;
 constexpr const char* kFormat = "MarsView project";
 constexpr std::uintmax_t kBytesMax = std::uintmax_t{64} << 20;
 constexpr std::size_t kLayersMax = 100000;
-constexpr std::size_t kMeasurementsMax = 1000000;
+constexpr std::size_t kDrawnMax = 1000000; // measurements, annotations
 constexpr std::size_t kViewsMax = 100000;
-constexpr std::size_t kPointsMax = 10000000; // of a measurement
 constexpr int kIndent = 2;
 
 constexpr std::array kShadings{
@@ -182,41 +177,6 @@ Json cameraJson(const ProjectCamera& camera)
     return json;
 }
 
-// "2026-11-23T20:58:21.125Z"
-std::string timeText(ProjectTime time)
-{
-    const auto seconds = std::chrono::floor<std::chrono::seconds>(time);
-    return fmt::format("{:%FT%T}.{:03}Z", seconds, (time - seconds).count());
-}
-
-std::optional<ProjectTime> timeFrom(const std::string& text)
-{
-    int year = 0;
-    unsigned month = 0;
-    unsigned day = 0;
-    int hour = 0;
-    int minute = 0;
-    double second = 0.0;
-    char zone = '\0';
-    if (std::sscanf(text.c_str(), "%d-%u-%uT%d:%d:%lf%c", &year, &month, &day, &hour, &minute,
-                    &second, &zone) != 7) { // NOLINT: every conversion is checked
-        return std::nullopt;
-    }
-    namespace chrono = std::chrono;
-    const chrono::year_month_day date{chrono::year{year}, chrono::month{month}, chrono::day{day}};
-    if (zone != 'Z' || !date.ok() || hour < 0 || hour > 23 || minute < 0 || minute > 59 ||
-        !(second >= 0.0 && second < 61.0)) {
-        return std::nullopt;
-    }
-    return chrono::sys_days{date} + chrono::hours{hour} + chrono::minutes{minute} +
-           chrono::milliseconds{std::llround(1000.0 * second)};
-}
-
-std::string colorText(const Rgb8& color)
-{
-    return fmt::format("#{:02x}{:02x}{:02x}", color.red, color.green, color.blue);
-}
-
 Json measurementJson(const ProjectMeasurement& measurement)
 {
     Json json = Json::object();
@@ -232,23 +192,7 @@ Json measurementJson(const ProjectMeasurement& measurement)
         json["layer"] = *measurement.layer;
     }
     json["time"] = timeText(measurement.time);
-    Json degrees = Json::array();
-    Json points = Json::array();
-    for (const MeasuredVertex& vertex : measurement.vertices) {
-        if (const auto* geographic = std::get_if<GeographicPoint>(&vertex)) {
-            degrees.push_back(
-                Json::array({degreesOf(geographic->longitude), degreesOf(geographic->latitude)}));
-        } else {
-            const auto& point = std::get<MapPoint>(vertex);
-            points.push_back(Json::array({point.x, point.y}));
-        }
-    }
-    if (!degrees.empty()) {
-        json["longitudes_latitudes_deg"] = std::move(degrees);
-    }
-    if (!points.empty()) {
-        json["map_points"] = std::move(points);
-    }
+    putVertices(json, measurement.vertices);
     return json;
 }
 
@@ -403,33 +347,6 @@ ProjectCamera cameraFrom(Members& members)
     return camera;
 }
 
-// Two finite numbers.
-std::optional<std::array<double, 2>> pairFrom(const Json& json)
-{
-    if (!json.is_array() || json.size() != 2 || !json[0].is_number() || !json[1].is_number()) {
-        return std::nullopt;
-    }
-    const std::array<double, 2> pair{json[0].get<double>(), json[1].get<double>()};
-    return std::isfinite(pair[0]) && std::isfinite(pair[1]) ? std::optional(pair) : std::nullopt;
-}
-
-// Of the member "color"; empty if there is none.
-std::optional<Rgb8> colorFrom(Members& members)
-{
-    std::string text;
-    members.text("color", text);
-    unsigned rgb = 0;
-    char rest = '\0';
-    if (text.size() == 7 && std::sscanf(text.c_str(), "#%6x%c", &rgb, &rest) == 1) { // NOLINT
-        return Rgb8{static_cast<std::uint8_t>(rgb >> 16U), static_cast<std::uint8_t>(rgb >> 8U),
-                    static_cast<std::uint8_t>(rgb)};
-    }
-    if (members.has("color")) {
-        members.refuse("color", "a color such as #ffdd40");
-    }
-    return std::nullopt;
-}
-
 ProjectMeasurement measurementFrom(Members& members, std::size_t layer_count)
 {
     ProjectMeasurement measurement;
@@ -438,38 +355,8 @@ ProjectMeasurement measurementFrom(Members& members, std::size_t layer_count)
     members.index("layer", measurement.layer, layer_count);
     members.text("note", measurement.note);
     measurement.color = colorFrom(members);
-    std::string time = timeText({});
-    members.text("time", time);
-    if (const auto known = timeFrom(time)) {
-        measurement.time = *known;
-    } else {
-        members.refuse("time", "a time such as 2026-05-17T09:30:00Z");
-    }
-    const char* const what = "a list of pairs of numbers";
-    members.list(
-        "longitudes_latitudes_deg", kPointsMax, what,
-        [&](const Json& json, const std::string& /*place*/) {
-            const auto pair = pairFrom(json);
-            if (!pair || std::abs((*pair)[1]) > 90.0) {
-                members.refuse("longitudes_latitudes_deg", "a list of longitudes and latitudes");
-                return;
-            }
-            measurement.vertices.emplace_back(GeographicPoint{
-                .longitude = Angle::degrees((*pair)[0]), .latitude = Angle::degrees((*pair)[1])});
-        });
-    if (members.has("map_points") && !measurement.vertices.empty()) {
-        members.refuse("map_points", "absent where there are longitudes and latitudes");
-        return measurement;
-    }
-    members.list("map_points", kPointsMax, what,
-                 [&](const Json& json, const std::string& /*place*/) {
-                     const auto pair = pairFrom(json);
-                     if (!pair) {
-                         members.refuse("map_points", what);
-                         return;
-                     }
-                     measurement.vertices.emplace_back(MapPoint{(*pair)[0], (*pair)[1]});
-                 });
+    measurement.time = timeFrom(members);
+    measurement.vertices = verticesFrom(members);
     return measurement;
 }
 
@@ -485,8 +372,8 @@ VectorOverlay overlayFrom(Members& members, const ProjectFolders& folders)
     return overlay;
 }
 
-constexpr std::array kKnownMembers{"format", "version",  "active", "look",        "camera",
-                                   "layers", "overlays", "views",  "measurements"};
+constexpr std::array kKnownMembers{"format", "version",  "active", "look",         "camera",
+                                   "layers", "overlays", "views",  "measurements", "annotations"};
 
 } // namespace
 
@@ -563,6 +450,17 @@ Result<std::string> projectText(const Project& project, const ProjectFolders& fo
         }
         json["measurements"] = std::move(measurements);
     }
+    if (!project.annotations.empty()) {
+        Json annotations = Json::array();
+        for (const ProjectAnnotation& drawn : project.annotations) {
+            Json annotation = annotationJson(drawn.annotation);
+            if (drawn.layer) {
+                annotation["layer"] = *drawn.layer;
+            }
+            annotations.push_back(std::move(annotation));
+        }
+        json["annotations"] = std::move(annotations);
+    }
     for (const auto& [key, text] : project.others) {
         json[key] = Json::parse(text, nullptr, false);
     }
@@ -571,7 +469,8 @@ Result<std::string> projectText(const Project& project, const ProjectFolders& fo
     } catch (const Json::type_error&) {
         return Error{
             ErrorCode::Invalid,
-            "a layer, a view or a measurement has a name or path that is not UTF-8; rename it"};
+            "a layer, a view, a measurement or an annotation has a name or path that is not UTF-8; "
+            "rename it"};
     }
 }
 
@@ -629,11 +528,18 @@ projectFrom(std::string_view text, const ProjectFolders& folders, const std::str
                      Members view(element, place, fault);
                      project.views.push_back(viewFrom(view, project.layers.size()));
                  });
-    members.list("measurements", kMeasurementsMax, "a list of measurements",
+    members.list("measurements", kDrawnMax, "a list of measurements",
                  [&](const Json& element, const std::string& place) {
                      Members measurement(element, place, fault);
                      project.measurements.push_back(
                          measurementFrom(measurement, project.layers.size()));
+                 });
+    members.list("annotations", kDrawnMax, "a list of annotations",
+                 [&](const Json& element, const std::string& place) {
+                     Members annotation(element, place, fault);
+                     ProjectAnnotation drawn{.annotation = annotationFrom(annotation)};
+                     annotation.index("layer", drawn.layer, project.layers.size());
+                     project.annotations.push_back(std::move(drawn));
                  });
     members.object("look", [&](Members& look) { project.look = lookFrom(look); });
     members.object("camera", [&](Members& camera) { project.camera = cameraFrom(camera); });

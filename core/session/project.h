@@ -2,12 +2,12 @@
 // the format.
 #pragma once
 
+#include "core/annotations/annotation.h"
 #include "core/base/angle.h"
 #include "core/base/result.h"
 #include "core/session/measurement.h"
 #include "core/session/session.h"
 
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -36,20 +36,25 @@ struct ProjectCamera {
     bool operator==(const ProjectCamera&) const = default;
 };
 
-/// A time of the day in UTC, to the millisecond.
-using ProjectTime = std::chrono::sys_time<std::chrono::milliseconds>;
-
 /// A measurement by its geometry. The results follow from it and from the layer.
 struct ProjectMeasurement {
     MeasurementKind kind = MeasurementKind::Distance;
     std::string name{};
     std::optional<std::size_t> layer{};     // an index of Project::layers; empty: it was removed
     std::vector<MeasuredVertex> vertices{}; // all of one type
-    ProjectTime time{};                     // at which it was begun
+    DrawnTime time{};                       // at which it was begun
     std::string note{};
     std::optional<Rgb8> color{}; // empty: the usual one
 
     bool operator==(const ProjectMeasurement&) const = default;
+};
+
+/// An annotation, and the layer that it was drawn on.
+struct ProjectAnnotation {
+    Annotation annotation{};
+    std::optional<std::size_t> layer{}; // an index of Project::layers; empty: it was removed
+
+    bool operator==(const ProjectAnnotation&) const = default;
 };
 
 /// A saved view; see SavedView.
@@ -72,6 +77,7 @@ struct Project {
     std::optional<ProjectCamera> camera{};
     std::vector<ProjectView> views{};
     std::vector<ProjectMeasurement> measurements{};
+    std::vector<ProjectAnnotation> annotations{};
     /// Members that this version does not define, as JSON. They are kept when the project is saved.
     std::map<std::string, std::string> others{};
 
@@ -88,7 +94,7 @@ struct ProjectFolders {
 std::vector<LayerId> projectOrder(const Session& session);
 
 /// The project of a session: its layers in projectOrder(), its overlays, its views and its look.
-/// Without camera and measurements.
+/// Without camera, measurements and annotations.
 Project projectOf(const Session& session);
 
 /// Views by the places of their layers in `layers`, and back. The ids that they get are counted

@@ -1,7 +1,7 @@
 // The saved views in a project file. Only for project.cpp.
 #pragma once
 
-#include "core/session/json_members.h"
+#include "core/json/json_members.h"
 #include "core/session/project.h"
 
 #include <cstddef>

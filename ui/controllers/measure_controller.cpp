@@ -322,7 +322,7 @@ std::vector<ProjectMeasurement> MeasureController::saved() const
                           ? std::optional(static_cast<std::size_t>(layer - order.begin()))
                           : std::nullopt,
              .vertices = item.vertices,
-             .time = ProjectTime(std::chrono::milliseconds(item.time.toMSecsSinceEpoch())),
+             .time = DrawnTime(std::chrono::milliseconds(item.time.toMSecsSinceEpoch())),
              .note = item.note.toStdString(),
              .color = item.color});
     }

@@ -152,7 +152,7 @@ ProjectMeasurement randomMeasurement(Random& random, std::size_t layer_count)
         measurement.layer = random.below(layer_count);
     }
     // Between the years 1970 and 2100.
-    measurement.time = ProjectTime(std::chrono::milliseconds(random.below(4'102'444'800'000)));
+    measurement.time = DrawnTime(std::chrono::milliseconds(random.below(4'102'444'800'000)));
     if (random.chance(0.5)) {
         measurement.note = randomText(random);
         measurement.color = Rgb8{static_cast<std::uint8_t>(random.below(256)), 0, 255};
@@ -168,6 +168,37 @@ ProjectMeasurement randomMeasurement(Random& random, std::size_t layer_count)
         }
     }
     return measurement;
+}
+
+ProjectAnnotation randomAnnotation(Random& random, std::size_t layer_count)
+{
+    const ProjectMeasurement like = randomMeasurement(random, layer_count);
+    ProjectAnnotation drawn{.annotation = {.shape = static_cast<FeatureShape>(random.below(3)),
+                                           .name = like.name,
+                                           .note = like.note,
+                                           .color = like.color,
+                                           .time = like.time},
+                            .layer = like.layer};
+    Annotation& annotation = drawn.annotation;
+    const std::size_t needed = verticesNeeded(annotation.shape);
+    const bool is_point = annotation.shape == FeatureShape::Point;
+    if (is_point) {
+        annotation.symbol = kMarkSymbols.at(random.below(kMarkSymbols.size()));
+    }
+    const bool is_on_body = random.chance(0.7);
+    for (std::size_t left = is_point ? 1 : needed + random.below(4); left > 0; --left) {
+        annotation.vertices.emplace_back(
+            is_on_body
+                ? DrawnVertex(GeographicPoint{.longitude = randomAngle(random, -400.0, 400.0),
+                                              .latitude = randomAngle(random, -90.0, 90.0)})
+                : DrawnVertex(MapPoint{randomNumber(random), randomNumber(random)}));
+    }
+    if (is_on_body) {
+        annotation.body = {.name = random.chance(0.7) ? "Mars" : randomText(random),
+                           .ellipsoid =
+                               Ellipsoid{random.uniform(1.0, 1e8), random.uniform(1.0, 1e8)}};
+    }
+    return drawn;
 }
 
 ProjectView randomView(Random& random, std::size_t layer_count)
@@ -230,6 +261,9 @@ Project randomProject(Random& random)
     for (std::size_t left = random.below(5); left > 0; --left) {
         project.measurements.push_back(randomMeasurement(random, project.layers.size()));
     }
+    for (std::size_t left = random.below(5); left > 0; --left) {
+        project.annotations.push_back(randomAnnotation(random, project.layers.size()));
+    }
     if (random.chance(0.3)) {
         project.others["future"] = R"([{"name":"Tharsis"},3.25])";
     }
@@ -261,6 +295,7 @@ TEST(Project, ThousandRandomSessionsSavedAndOpenedAreEqual)
     int layer_count = 0;
     int measurement_count = 0;
     int view_count = 0;
+    int annotation_count = 0;
     for (int i = 0; i < 1000; ++i) {
         const Project project = randomProject(random);
         layer_count += static_cast<int>(project.layers.size());
@@ -269,6 +304,7 @@ TEST(Project, ThousandRandomSessionsSavedAndOpenedAreEqual)
         ASSERT_EQ(*again, project) << text(project) << "\n" << text(*again);
         measurement_count += static_cast<int>(project.measurements.size());
         view_count += static_cast<int>(project.views.size());
+        annotation_count += static_cast<int>(project.annotations.size());
         const fs::path file = folder.path() / "a.mvproj";
         ASSERT_TRUE(writeProject(project, file, kFolders.bundled));
         const auto read = readProject(file, kFolders.bundled);
@@ -278,6 +314,7 @@ TEST(Project, ThousandRandomSessionsSavedAndOpenedAreEqual)
     EXPECT_GT(layer_count, 2000);
     EXPECT_GT(measurement_count, 1500);
     EXPECT_GT(view_count, 1500);
+    EXPECT_GT(annotation_count, 1500);
 }
 
 TEST(Project, AnglesOfAnyRadiansKeepAllButTheLastPlace)
@@ -446,6 +483,14 @@ TEST(Project, FaultsAreNamed)
          "measurements[0].longitudes_latitudes_deg is not a list of longitudes and latitudes"},
         {R"("version":1,"layers":[],"measurements":[{"map_points":[[0,"a"]]}])",
          "measurements[0].map_points is not a list of pairs of numbers"},
+        {R"("version":1,"layers":[],"annotations":[{"shape":"line","map_points":[[0,0]]}])",
+         "annotations[0].shape is not possible with so few or so many positions"},
+        {R"("version":1,"layers":[],"annotations":[{"map_points":[[0,0]],"symbol":"rose"}])",
+         "annotations[0].symbol is not a known symbol"},
+        {R"("version":1,"layers":[],"annotations":[{"longitudes_latitudes_deg":[[0,0]]}])",
+         "annotations[0].body is not a known body, and its radii are not stated"},
+        {R"("version":1,"layers":[],"annotations":[{"map_points":[[0,0]],"layer":0}])",
+         "annotations[0].layer is not the index of a layer"},
         {R"("version":0,"layers":[])", "version is not a whole number from 1 up"},
         {R"("version":1)", "the list of layers is missing"},
     };

@@ -1,5 +1,4 @@
-// Reading the members of JSON objects, with the place of the first fault. Only for the files of
-// this folder that read documents.
+// Reading the members of JSON objects, with the place of the first fault.
 #pragma once
 
 #include "core/base/angle.h"

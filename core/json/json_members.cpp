@@ -1,4 +1,4 @@
-#include "core/session/json_members.h"
+#include "core/json/json_members.h"
 
 #include <algorithm>
 #include <array>
