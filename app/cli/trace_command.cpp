@@ -365,7 +365,7 @@ void addTraceCommand(CLI::App& app, CommandAction& run)
     command
         ->add_option("--exaggeration", options->exaggeration,
                      "vertical exaggeration; default from the recording, else 1")
-        ->check(positiveNumber());
+        ->check(exaggerationFactor());
     command
         ->add_option_function<std::string>(
             "--scene",

@@ -483,7 +483,9 @@ void noteUnreadNumbers(RasterInfo& info, const LabelElevation& label)
                            {number.field});
             continue;
         }
+        // GDAL takes "0,5" for 0.5 in one format and for none in another.
         const bool is_scale = number.field == OverrideField::Scale;
+        (is_scale ? info.scale : info.offset) = is_scale ? 1.0 : 0.0;
         info.addNotice(fmt::format("{}; {} is used instead; set the {} that the product's "
                                    "documentation gives ({})",
                                    gives, is_scale ? info.scale : info.offset,

@@ -21,12 +21,20 @@ namespace {
     return std::aligned_alloc(step, (bytes + step - 1) / step * step + (bytes == 0 ? step : 0));
 }
 
-void* orThrow(void* memory)
+// As the standard requires: asks the handler of the program until there is memory.
+template <typename Allocate>
+void* orThrow(Allocate allocate)
 {
-    if (memory == nullptr) {
-        throw std::bad_alloc();
+    while (true) {
+        if (void* const memory = allocate()) {
+            return memory;
+        }
+        const std::new_handler handler = std::get_new_handler();
+        if (handler == nullptr) {
+            throw std::bad_alloc();
+        }
+        handler();
     }
-    return memory;
 }
 
 [[gnu::noinline]] void release(void* memory) noexcept
@@ -41,11 +49,11 @@ void* orThrow(void* memory)
 
 void* operator new(std::size_t bytes)
 {
-    return orThrow(counted(bytes));
+    return orThrow([bytes] { return counted(bytes); });
 }
 void* operator new[](std::size_t bytes)
 {
-    return orThrow(counted(bytes));
+    return orThrow([bytes] { return counted(bytes); });
 }
 void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept
 {
@@ -57,11 +65,11 @@ void* operator new[](std::size_t bytes, const std::nothrow_t&) noexcept
 }
 void* operator new(std::size_t bytes, std::align_val_t alignment)
 {
-    return orThrow(countedAligned(bytes, alignment));
+    return orThrow([bytes, alignment] { return countedAligned(bytes, alignment); });
 }
 void* operator new[](std::size_t bytes, std::align_val_t alignment)
 {
-    return orThrow(countedAligned(bytes, alignment));
+    return orThrow([bytes, alignment] { return countedAligned(bytes, alignment); });
 }
 void operator delete(void* memory) noexcept
 {

@@ -150,6 +150,16 @@ TEST(JsonPage, ListsTheFieldsOfPrepareAndDevices)
     const TempFolder folder;
     expectDocumented("prepare",
                      printed({"prepare", bundledMars(), "-o", folder.file("mars.tif"), "--json"}));
+    const auto part = [&folder](std::vector<std::string> which) {
+        std::vector<std::string> arguments{
+            "prepare", bundledMars(), "-o", folder.file("parts.tif"), "--parts", "2"};
+        arguments.insert(arguments.end(), which.begin(), which.end());
+        arguments.push_back("--json");
+        return printed(arguments);
+    };
+    expectDocumented("prepare --part", part({"--part", "1"}));
+    expectDocumented("prepare --part", part({"--part", "2"}));
+    expectDocumented("prepare --join", part({"--join"}));
     expectDocumented("devices", printed({"devices", "--json"}));
     const std::string plugin = std::string(MARSVIEW_TEST_PLUGINS) + "/has_none.so";
     expectDocumented("devices --check", printed({"devices", "--check", plugin, "--json"}));

@@ -92,8 +92,9 @@ SessionController::SessionController(TerrainView& view, QObject* parent)
     });
     connect(loader_, &LoadController::succeeded, this, &SessionController::accept);
     connect(loader_, &LoadController::failed, this, [this](const LoadFailure& failure) {
-        if (current_->as_declared) {
-            accept(current_->as_declared); // nothing is left without those samples
+        // Nothing is left without those samples. A copy: accept() ends the load that has the map.
+        if (const std::shared_ptr<const Map> declared = current_->as_declared) {
+            accept(declared);
             return;
         }
         const Load load = *std::exchange(current_, std::nullopt);

@@ -1,7 +1,7 @@
 // The elevations of index contours, on the lines.
 #pragma once
 
-#include "core/contours/contour_labels.h"
+#include "core/session/contour_labels.h"
 #include "ui/overlay/picture_part.h"
 #include "ui/text/number_text.h"
 

@@ -22,10 +22,8 @@ CameraFlight::CameraFlight(TerrainView& view, QObject* parent)
     timer_.setInterval(kFlightFrame);
     connect(&timer_, &QTimer::timeout, this, &CameraFlight::advance);
     connect(&view_, &TerrainView::sightChanged, this, [this] {
-        // A change of the window's size is one of the sight, too.
-        if (isPlaying() && !is_moving_ && (view_.isMoving() || view_.camera() != set_)) {
-            stop();
-            Q_EMIT interrupted();
+        if (!is_moving_) {
+            yieldToInput();
         }
     });
 }
@@ -37,7 +35,7 @@ void CameraFlight::play(CameraPath path, std::chrono::milliseconds duration, dou
     begin_ = std::clamp(share, 0.0, 1.0);
     clock_.start();
     timer_.start();
-    advance();
+    show(begin_);
 }
 
 void CameraFlight::stop()
@@ -45,11 +43,29 @@ void CameraFlight::stop()
     timer_.stop();
 }
 
+// A change of the window's size changes what is in sight too, but not the camera.
+bool CameraFlight::yieldToInput()
+{
+    if (!isPlaying() || (!view_.isMoving() && view_.camera() == set_)) {
+        return false;
+    }
+    stop();
+    Q_EMIT interrupted();
+    return true;
+}
+
 void CameraFlight::advance()
 {
-    const double share = std::min(begin_ + static_cast<double>(clock_.elapsed()) /
-                                               static_cast<double>(duration_.count()),
-                                  1.0);
+    // A motion that has begun since the last frame would end with the next position of the path.
+    if (!yieldToInput()) {
+        show(std::min(begin_ + static_cast<double>(clock_.elapsed()) /
+                                   static_cast<double>(duration_.count()),
+                      1.0));
+    }
+}
+
+void CameraFlight::show(double share)
+{
     {
         const QScopedValueRollback moving(is_moving_, true);
         view_.setCamera(path_->at(share));

@@ -38,6 +38,8 @@ Q_SIGNALS:
 
 private:
     void advance();
+    void show(double share);
+    bool yieldToInput(); // whether the flight has ended
 
     TerrainView& view_;
     std::optional<CameraPath> path_;

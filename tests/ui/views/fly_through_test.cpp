@@ -62,7 +62,9 @@ protected:
     FlyThroughDialog& openDialog()
     {
         window_->commands().views.actions().fly_through->trigger();
-        return *window_->commands().fly_through.dialog();
+        FlyThroughDialog& dialog = *window_->commands().fly_through.dialog();
+        QApplication::setActiveWindow(&dialog); // there is no window manager
+        return dialog;
     }
     FlyThroughRecorder& recorder() { return window_->commands().fly_through.recorder(); }
     QString path(const char* name) const { return QString::fromStdString(folder_.file(name)); }
@@ -191,8 +193,10 @@ TEST_F(FlyThroughTest, FollowsAMeasuredLine)
     };
     EXPECT_NEAR(at(0.0).column, 10.0, 1e-6);
     EXPECT_NEAR(at(0.0).row, 10.0, 1e-6);
-    EXPECT_NEAR(at(0.5).column, 30.0, 0.1);
-    EXPECT_NEAR(at(0.5).row, 20.0, 0.1);
+    // On the line, and near its middle: the terrain is not symmetric, and the camera keeps above
+    // it.
+    EXPECT_NEAR(at(0.5).column, 30.0, 1.0);
+    EXPECT_NEAR(at(0.5).row - 10.0, (at(0.5).column - 10.0) / 2.0, 1e-3);
     EXPECT_NEAR(at(1.0).column, 50.0, 1e-6);
     EXPECT_NEAR(dialog.path()->at(0.5).azimuth.degrees(),
                 90.0 + std::atan2(20.0, 40.0) * 180.0 / 3.14159265358979, 0.5);

@@ -1,4 +1,4 @@
-#include "core/contours/contour_labels.h"
+#include "core/session/contour_labels.h"
 #include "tests/support/map_maker.h"
 #include "tests/support/random.h"
 #include "tests/support/shared_data.h"
@@ -18,6 +18,8 @@ constexpr double kGrade = 0.4;
 
 // A cone around the middle, 30 m a sample, and a camera that looks at it.
 class ContourLabelsTest : public testing::Test {
+    MapMaker maker_;
+
 protected:
     std::shared_ptr<const Map> cone_ =
         maker_.make({.columns = 301, .rows = 301}, [](std::size_t c, std::size_t r) {
@@ -41,8 +43,6 @@ protected:
         return contourLabels(ground, camera, look, {.viewport = kPicture}, 14.0,
                              [](double) { return 40.0; });
     }
-
-    MapMaker maker_;
 };
 
 void expectApart(const std::vector<ContourLabel>& labels)

@@ -1,4 +1,4 @@
-#include "core/contours/contour_labels.h"
+#include "core/session/contour_labels.h"
 
 #include <algorithm>
 #include <cmath>
