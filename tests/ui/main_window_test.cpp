@@ -72,21 +72,21 @@ TEST_F(MainWindowTest, OpensAFileAskedForBeforeItWasShown)
 
 TEST_F(MainWindowTest, TheTitleNamesALayerInThePicture)
 {
-    ASSERT_TRUE(openAndWait(*window_, maps_.hill()));
-    ASSERT_TRUE(openAndWait(*window_, maps_.hill(QStringLiteral("other.asc"))));
+    ASSERT_TRUE(openAndWait(*window_, maps_.mars()));
+    ASSERT_TRUE(openAndWait(*window_, maps_.mars("other")));
     SessionController& controller = window_->controller();
     const LayerId top = window_->session().layers[0].id;
     const LayerId below = window_->session().layers[1].id;
     const auto titleHas = [this](const char* name) {
         return window_->windowTitle().contains(QLatin1String(name));
     };
-    EXPECT_TRUE(titleHas("other.asc"));
+    EXPECT_TRUE(titleHas("other.vrt"));
     controller.activate(below);
-    EXPECT_TRUE(titleHas("hill.asc"));
+    EXPECT_TRUE(titleHas("mars.vrt"));
     controller.setVisible(below, false);
-    EXPECT_TRUE(titleHas("other.asc")) << "the selected layer is hidden";
+    EXPECT_TRUE(titleHas("other.vrt")) << "the selected layer is hidden";
     controller.setVisible(top, false);
-    EXPECT_TRUE(titleHas("hill.asc"));
+    EXPECT_TRUE(titleHas("mars.vrt"));
 }
 
 TEST_F(MainWindowTest, OpensAFolderOfAdjoiningRastersAsOneMap)

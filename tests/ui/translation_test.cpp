@@ -95,6 +95,9 @@ protected:
                   QStringLiteral("hill.asc"),
                   QStringLiteral("VRT"),
                   QStringLiteral("AAIGrid")};
+        for (const Language& language : languages()) {
+            names_.append(language.name); // in that language
+        }
         for (const Body& body : knownBodies()) {
             names_.append(
                 QString::fromUtf8(body.name.data(), static_cast<qsizetype>(body.name.size())));

@@ -13,6 +13,7 @@
 #include <QProgressBar>
 #include <QScrollArea>
 #include <QSlider>
+#include <QTabBar>
 #include <QSpinBox>
 #include <QStackedWidget>
 
@@ -141,7 +142,9 @@ QList<QWidget*> controlsOf(const QWidget& root)
         const bool is_frame_only = qobject_cast<QScrollArea*>(widget) != nullptr ||
                                    qobject_cast<QMenu*>(widget) != nullptr ||
                                    qobject_cast<QLabel*>(widget) != nullptr;
-        if (is_control && !is_frame_only && !isInside(*widget)) {
+        const auto* tabs = qobject_cast<QTabBar*>(widget);
+        const bool is_without_tabs = tabs != nullptr && tabs->count() == 0;
+        if (is_control && !is_frame_only && !is_without_tabs && !isInside(*widget)) {
             controls.append(widget);
         }
     }

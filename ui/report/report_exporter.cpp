@@ -44,7 +44,7 @@ QPageSize::PageSizeId paperOfLocale()
 ReportExporter::ReportExporter(const Parts& parts, QObject* parent)
     : QObject(parent)
     , parts_(parts)
-    , action_(new QAction(lineIcon(QStringLiteral("report")), tr("Export &Report…"), this))
+    , action_(new QAction(lineIcon(QStringLiteral("report")), tr("E&xport Report…"), this))
 {
     action_->setObjectName(QStringLiteral("exportReport"));
     action_->setToolTip(

@@ -71,7 +71,7 @@ void SavedViews::makeActions()
     actions_.save->setObjectName(QStringLiteral("saveView"));
     actions_.save->setShortcut(QKeySequence(Qt::CTRL | Qt::Key_B));
     actions_.go_to = make(tr("&Go to View"), QStringLiteral("fly"), tr("Fly to the selected view"));
-    actions_.update = make(tr("&Update View"), QStringLiteral("views"),
+    actions_.update = make(tr("Upda&te View"), QStringLiteral("views"),
                            tr("Give the selected view the present camera and exaggeration"));
     actions_.rename =
         make(tr("Re&name View"), QStringLiteral("rename"), tr("Rename the selected view"));
