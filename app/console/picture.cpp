@@ -1,10 +1,10 @@
 #include "app/console/picture.h"
 
 #include "core/globe/body_navigation.h"
+#include "core/session/body_terrain.h"
 
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
 
 namespace marsview {
 namespace {
@@ -47,6 +47,18 @@ cameraFrom(const PictureOptions& options, const Scene& scene, double exaggeratio
     return scene.bounded(camera, exaggeration, Scene::Ground::Waiting);
 }
 
+// Longitude is periodic where the map is, and a map that closes around a pole covers it.
+Result<GeographicPoint> placeOnBody(const BodyTerrain& terrain, const MapPoint& look_at)
+{
+    const Georeference& georeference = terrain.map()->georeference();
+    const auto place = georeference.toGeographic(georeference.toGrid(look_at));
+    if (!place || !terrain.gridAt(*place)) {
+        return Error{ErrorCode::OutOfRange,
+                     fmt::format("--look-at: {},{} is not on the map", look_at.x, look_at.y)};
+    }
+    return *place;
+}
+
 // The camera in the scene of the body.
 Result<CameraPose>
 bodyPoseFrom(const PictureOptions& options, const Scene& scene, double exaggeration)
@@ -54,8 +66,9 @@ bodyPoseFrom(const PictureOptions& options, const Scene& scene, double exaggerat
     const HeightRange range = scene.map->heightfield().range().value_or(HeightRange{});
     const BodyLimits limits = bodyLimits(*scene.body_grid, range.minimum_m * exaggeration,
                                          range.maximum_m * exaggeration);
-    const auto height = [&](const GridPoint& grid) {
-        return exaggeration * scene.map->heightfield().heightWaiting(grid);
+    const BodyTerrain terrain(scene.map, scene.body_grid);
+    const auto height = [&](const GeographicPoint& place) {
+        return exaggeration * terrain.height(place, BodyTerrain::Tiles::Waiting);
     };
     BodyCamera camera = homeCamera(limits, options.viewport);
     if (options.tilt_deg) {
@@ -63,24 +76,16 @@ bodyPoseFrom(const PictureOptions& options, const Scene& scene, double exaggerat
     }
     camera.azimuth = Angle::degrees(options.azimuth_deg);
     camera.distance_m = options.distance_m.value_or(camera.distance_m);
-    const Georeference& georeference = scene.map->georeference();
     if (options.look_at) {
-        const Result<GridPoint> grid = placeOnMap(scene, *options.look_at);
-        if (!grid) {
-            return grid.error();
-        }
-        const auto place = georeference.toGeographic(*grid);
+        const Result<GeographicPoint> place = placeOnBody(terrain, *options.look_at);
         if (!place) {
-            return Error{ErrorCode::OutOfRange, "--look-at: is not on the body"};
+            return place.error();
         }
         camera.target = *place;
-        const double height_m = height(*grid);
+        const double height_m = height(*place);
         camera.height_m = std::isnan(height_m) ? 0.0 : height_m;
     }
-    camera = constrained(camera, limits, [&](const GeographicPoint& place) {
-        const auto grid = georeference.toGrid(place);
-        return grid ? height(*grid) : std::numeric_limits<double>::quiet_NaN();
-    });
+    camera = constrained(camera, limits, height);
     return poseOf(camera, limits.ellipsoid);
 }
 

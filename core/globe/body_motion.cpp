@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 namespace marsview {
 namespace {
@@ -10,8 +11,10 @@ namespace {
 // Poleward of this the heading turns with the ground.
 constexpr Angle kPolarLatitude = Angle::degrees(80.0);
 
-constexpr int kHeldRounds = 40;
+constexpr int kHeldRounds = 12;
+constexpr int kNewtonRounds = 12;
 constexpr double kHeldErrorPx = 1e-3;
+constexpr double kNewtonErrorPx = 1e-6;
 
 constexpr double kPanMaxRad = std::numbers::pi / 4.0;
 
@@ -97,6 +100,72 @@ double scaleTo(const Ellipsoid& ellipsoid, const ScenePoint& point)
                      point.z * point.z / (ellipsoid.polar_m * ellipsoid.polar_m));
 }
 
+// How far the point is from its pixel; nothing if it is not in front of the eye.
+std::optional<PixelPoint> missOf(const BodyCamera& camera,
+                                 const Ellipsoid& ellipsoid,
+                                 const Viewport& viewport,
+                                 const HeldPoint& held)
+{
+    const auto pixel = project(poseOf(camera, ellipsoid), viewport, held.point);
+    return pixel ? std::optional(PixelPoint{pixel->x - held.pixel.x, pixel->y - held.pixel.y})
+                 : std::nullopt;
+}
+
+// Newton steps of the target's two angles: small turns converge slowly where the body turns under
+// a heading that stays, and near the poles of a flattened body.
+BodyCamera refined(BodyCamera camera,
+                   const Ellipsoid& ellipsoid,
+                   const Viewport& viewport,
+                   const HeldPoint& held,
+                   bool turns_heading)
+{
+    auto miss = missOf(camera, ellipsoid, viewport, held);
+    const double probe = 1e-6 * std::min(camera.distance_m / ellipsoid.equatorial_m, 1.0);
+    for (int i = 0; miss && i < kNewtonRounds; ++i) {
+        const double error_px = std::hypot(miss->x, miss->y);
+        if (error_px < kNewtonErrorPx) {
+            break;
+        }
+        const Vec3 up = direction(camera.target);
+        const double longitude = camera.target.longitude.radians();
+        const Vec3 east{-std::sin(longitude), std::cos(longitude), 0.0};
+        const Vec3 north = cross(up, east);
+        const auto moved = [&](double east_rad, double north_rad) {
+            const Vec3 axis = north * east_rad - east * north_rad;
+            const double angle = length(axis);
+            return angle > 0.0
+                       ? turned(camera, Rotation::about(axis * (1.0 / angle), angle), turns_heading)
+                       : camera;
+        };
+        const auto to_east = missOf(moved(probe, 0.0), ellipsoid, viewport, held);
+        const auto to_north = missOf(moved(0.0, probe), ellipsoid, viewport, held);
+        if (!to_east || !to_north) {
+            break;
+        }
+        const double a = (to_east->x - miss->x) / probe;
+        const double b = (to_north->x - miss->x) / probe;
+        const double c = (to_east->y - miss->y) / probe;
+        const double d = (to_north->y - miss->y) / probe;
+        const double determinant = a * d - b * c;
+        double share = 1.0;
+        bool is_better = false;
+        for (; !is_better && share > 1e-3; share /= 2.0) {
+            const BodyCamera next = moved(share * (b * miss->y - d * miss->x) / determinant,
+                                          share * (c * miss->x - a * miss->y) / determinant);
+            const auto next_miss = missOf(next, ellipsoid, viewport, held);
+            is_better = next_miss && std::hypot(next_miss->x, next_miss->y) < error_px;
+            if (is_better) {
+                camera = next;
+                miss = next_miss;
+            }
+        }
+        if (!is_better) {
+            break;
+        }
+    }
+    return camera;
+}
+
 // Repeats small turns that bring the point to its pixel.
 BodyCamera broughtTo(BodyCamera camera,
                      const Ellipsoid& ellipsoid,
@@ -113,7 +182,7 @@ BodyCamera broughtTo(BodyCamera camera,
         }
         camera = turned(camera, rotation, turns_heading);
     }
-    return camera;
+    return refined(camera, ellipsoid, viewport, held, turns_heading);
 }
 
 } // namespace

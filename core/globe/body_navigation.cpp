@@ -14,6 +14,9 @@ constexpr double kNearestShare = 1e-7; // of the radius
 constexpr double kSizesFarthest = 4.0;
 constexpr double kRadiiFarthest = 12.0;
 
+// A place at the edge of the area stays where it is: a hundredth of a millimeter on a planet.
+constexpr double kEdgeRad = 1e-12;
+
 // An area of at least this reach is looked at as a ball.
 constexpr Angle kBallReach = Angle::degrees(50.0);
 
@@ -51,7 +54,7 @@ GeographicPoint withinArea(const GeographicPoint& place, const BodyArea& area)
 {
     const Vec3 middle = directionOf(area.middle);
     const Vec3 there = directionOf(place);
-    if (angleBetween(middle, there) <= area.reach.radians()) {
+    if (angleBetween(middle, there) <= area.reach.radians() + kEdgeRad) {
         return place;
     }
     const Vec3 aside = normalized(there - middle * dot(there, middle));

@@ -198,6 +198,30 @@ TEST_F(RenderCommand, RefusesPositionsOutsideTheMap)
     expectRefusal({bundledMars(), "-o", png, "--look-at", "here,there"}, "--look-at");
 }
 
+// The same place in any turn of longitude; the poles, which lie beyond the outermost samples.
+TEST_F(RenderCommand, LooksAtAnyLongitudeAndThePolesOfAMapAroundItsBody)
+{
+    const auto drawn = [&](const std::string& place) {
+        const std::string png = folder_.file("place.png");
+        const ProgramOutput output =
+            render({bundledMars(), "-o", png, "--scene", "body", "--size", "160x100", "--samples",
+                    "1", "--distance", "1e6", "--look-at=" + place});
+        EXPECT_EQ(output.exit_status, 0) << output.err;
+        return output.exit_status == 0 ? pixels(png) : std::string();
+    };
+    const std::string valles = drawn("-75,-9");
+    EXPECT_EQ(valles, drawn("285,-9"));
+    EXPECT_EQ(valles, drawn("645,-9"));
+    EXPECT_NE(valles, drawn("105,-9"));
+    EXPECT_FALSE(drawn("0,89.9").empty());
+    EXPECT_FALSE(drawn("0,90").empty());
+    EXPECT_FALSE(drawn("-180,-89.99").empty());
+    expectRefusal(
+        {bundledMars(), "-o", folder_.file("no.png"), "--scene", "body", "--look-at", "0,90.5"},
+        "--look-at");
+    expectRefusal({bundledMars(), "-o", folder_.file("no.png"), "--look-at=-75,-9"}, "--look-at");
+}
+
 TEST_F(RenderCommand, RefusesInvalidSizes)
 {
     const std::string png = folder_.file("no.png");

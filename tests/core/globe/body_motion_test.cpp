@@ -90,8 +90,13 @@ TEST(BodyMotion, ADragKeepsTheGroundUnderThePointerAndTheHeading)
             << i << ": distance " << camera.distance_m << ", tilt " << camera.tilt.degrees();
         EXPECT_EQ(moved.tilt, camera.tilt);
         EXPECT_EQ(moved.distance_m, camera.distance_m);
-        if (std::abs(moved.target.latitude.degrees()) < 80.0) {
-            EXPECT_EQ(moved.azimuth, camera.azimuth) << i;
+        // Near a pole the ground turns under a heading that stays, and may not reach the pixel.
+        const double ground_deg = placeOf(*ground, kMars).foot.latitude.degrees();
+        if (std::abs(moved.target.latitude.degrees()) < 80.0 && std::abs(ground_deg) < 65.0) {
+            EXPECT_EQ(moved.azimuth, camera.azimuth)
+                << i << ": latitude of the ground " << ground_deg << ", of the camera "
+                << camera.target.latitude.degrees() << ", moved to "
+                << moved.target.latitude.degrees() << ", distance " << camera.distance_m;
         }
         ++dragged;
     }
@@ -111,6 +116,9 @@ TEST(BodyMotion, ADragOverThePoleKeepsTheGroundUnderThePointer)
         const auto ground = hit(camera, from, camera.height_m);
         ASSERT_TRUE(ground);
         const PixelPoint to{random.uniform(300.0, 700.0), random.uniform(200.0, 500.0)};
+        if (!hit(camera, to, camera.height_m)) {
+            continue; // sky
+        }
         const BodyCamera moved = heldAt(camera, kMars, kViewport, {*ground, to});
         // The ellipsoid turns about its center: not exactly onto itself.
         EXPECT_LT(pixelsApart(moved, *ground, to), 2e-3)

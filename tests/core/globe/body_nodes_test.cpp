@@ -245,7 +245,7 @@ TEST(BodySelection, RangesAreTheSameAtBothEndsOfAMapAroundTheBody)
     test::Random random(43);
     const Drawn drawn(test::wholeMars(360, 180));
     std::size_t compared = 0;
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < 120; ++i) {
         BodyCamera camera = cameraOver(random, drawn);
         camera.target.longitude = Angle::degrees(random.uniform(-3.0, 3.0));
         const Shot shot = shotOf(drawn, camera, 3.0);

@@ -1,0 +1,71 @@
+// The terrain of a map on its body: heights by place, and what a ray meets first.
+#pragma once
+
+#include "core/body/body_grid.h"
+#include "core/session/map.h"
+#include "core/view/camera.h"
+
+#include <memory>
+#include <optional>
+
+namespace marsview {
+
+/// A point of the terrain that a ray meets.
+struct BodyHit {
+    GridPoint grid;          // of the map; between its last column and one more across its seam
+    double height_m = 0.0;   // of the surface, not exaggerated
+    double distance_m = 0.0; // along the ray
+};
+
+/// A map with its grid on the body. Longitude is periodic, and a map that closes around the body
+/// has terrain in the strip between its last and first column. Between its outermost row and a pole
+/// the height is that of the row. Immutable; copies share; any thread.
+class BodyTerrain {
+public:
+    BodyTerrain(std::shared_ptr<const Map> map, std::shared_ptr<const BodyGrid> grid);
+
+    const std::shared_ptr<const Map>& map() const noexcept { return map_; }
+    const std::shared_ptr<const BodyGrid>& grid() const noexcept { return grid_; }
+
+    /// Where a place is on the map's grid; nothing where the map has no surface, voids apart.
+    std::optional<GridPoint> gridAt(const GeographicPoint& place) const;
+    /// The terrain to use where tiles of the map are missing: Now uses the coarser tiles that
+    /// replace them, Waiting loads the tiles themselves.
+    enum class Tiles { Now, Waiting };
+    /// The elevation in meters; NaN where the map has no surface.
+    double height(const GeographicPoint& place, Tiles tiles = Tiles::Now) const;
+    /// The same at a position that gridAt() found.
+    double heightOnGrid(const GridPoint& grid, Tiles tiles = Tiles::Now) const;
+
+    /// The first point of the terrain along a ray of the body-fixed frame that begins above it, at
+    /// full resolution; for a tiled map, at the finest resident level. To a thousandth of a cell.
+    std::optional<BodyHit> cast(const Ray& ray, double exaggeration) const;
+
+private:
+    // A point of a ray over the grid.
+    struct Place {
+        double t = 0.0;
+        bool is_on_projection = false;
+        GridPoint grid{};
+        double height_m = 0.0; // not exaggerated
+    };
+    struct Piece {
+        Place from;
+        Place to;
+        int depth = 0;
+    };
+
+    Place placeAt(const Ray& ray, double t, double exaggeration) const;
+    GridPoint nearTo(GridPoint grid, const GridPoint& other) const;
+    bool canMeet(const Piece& piece, double sag_m) const;
+    std::optional<BodyHit> castPiece(const Piece& piece, const Ray& ray, double exaggeration) const;
+    BodyHit refined(double t, const Piece& piece, const Ray& ray, double exaggeration) const;
+    double clearance(const Place& place) const;
+    std::optional<GridPoint> onSurface(GridPoint grid) const;
+
+    std::shared_ptr<const Map> map_;
+    std::shared_ptr<const BodyGrid> grid_;
+    double columns_per_turn_ = 0.0; // 0 where longitude is not periodic along the columns
+};
+
+} // namespace marsview
