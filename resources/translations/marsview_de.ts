@@ -454,6 +454,114 @@
     </message>
 </context>
 <context>
+    <name>Report</name>
+    <message>
+        <source>in the middle of the picture</source>
+        <translation>in der Bildmitte</translation>
+    </message>
+    <message>
+        <source>N</source>
+        <extracomment>On a north arrow: north</extracomment>
+        <translation>N</translation>
+    </message>
+    <message>
+        <source>Vertical exaggeration %1</source>
+        <extracomment>Below a diagram; %1 is a number: elevations are drawn so many times larger than distances</extracomment>
+        <translation>Überhöhung %1</translation>
+    </message>
+    <message>
+        <source>Contours every %1</source>
+        <extracomment>%1 is the elevation from one contour line to the next</extracomment>
+        <translation>Höhenlinien alle %1</translation>
+    </message>
+    <message>
+        <source>Slope (°)</source>
+        <translation>Neigung (°)</translation>
+    </message>
+    <message>
+        <source>Elevation (%1)</source>
+        <extracomment>%1 is a unit</extracomment>
+        <translation>Höhe (%1)</translation>
+    </message>
+    <message>
+        <source>%1. %2. Vertical exaggeration ×%3</source>
+        <extracomment>Below a map; %1 is the position in its middle, %2 a body and a CRS, %3 a factor</extracomment>
+        <translation>%1. %2. Überhöhung ×%3</translation>
+    </message>
+    <message>
+        <source>Layers</source>
+        <translation>Layer</translation>
+    </message>
+    <message>
+        <source>Layer</source>
+        <translation>Layer</translation>
+    </message>
+    <message>
+        <source>Body and CRS</source>
+        <translation>Himmelskörper und KBS</translation>
+    </message>
+    <message>
+        <source>Samples</source>
+        <translation>Abtastwerte</translation>
+    </message>
+    <message>
+        <source>Pixel</source>
+        <translation>Pixel</translation>
+    </message>
+    <message>
+        <source>Elevations</source>
+        <translation>Höhen</translation>
+    </message>
+    <message>
+        <source>Measurements</source>
+        <translation>Messungen</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>Name</translation>
+    </message>
+    <message>
+        <source>Kind</source>
+        <translation>Art</translation>
+    </message>
+    <message>
+        <source>Result</source>
+        <translation>Ergebnis</translation>
+    </message>
+    <message>
+        <source>Note</source>
+        <translation>Notiz</translation>
+    </message>
+    <message>
+        <source>%1 (%2)</source>
+        <extracomment>Heading: %1 is a measurement, %2 its kind</extracomment>
+        <translation>%1 (%2)</translation>
+    </message>
+    <message>
+        <source>Equal-area net of the lower hemisphere: planes, poles, and their 95 % confidence</source>
+        <translation>Flächentreues Netz der unteren Halbkugel: Ebenen, Pole und ihre 95-%-Vertrauensbereiche</translation>
+    </message>
+    <message>
+        <source>Attitudes</source>
+        <translation>Lagerungen</translation>
+    </message>
+    <message>
+        <source>Made with MarsView %1, %2</source>
+        <extracomment>At the foot of a report; %1 is a version, %2 a date</extracomment>
+        <translation>Erstellt mit MarsView %1, %2</translation>
+    </message>
+    <message>
+        <source>Page %1 of %2</source>
+        <extracomment>Page number: %1 of %2</extracomment>
+        <translation>Seite %1 von %2</translation>
+    </message>
+    <message>
+        <source>%1: cannot write the report (%2); choose another folder</source>
+        <extracomment>%1 is a file, %2 the reason</extracomment>
+        <translation>%1: Der Bericht kann nicht geschrieben werden (%2); wählen Sie einen anderen Ordner</translation>
+    </message>
+</context>
+<context>
     <name>SaveChart</name>
     <message>
         <source>CSV table (*.csv)</source>
@@ -567,6 +675,18 @@
     <message>
         <source>A click, or Enter, places a point of the measurement; a double click, or Enter again in the same place, finishes it. Drag a point to move it, drag a line to insert one; Backspace removes the last one. Choose what to measure in the Measure menu.</source>
         <translation>Ein Klick oder die Eingabetaste setzt einen Punkt der Messung; ein Doppelklick oder nochmals die Eingabetaste am selben Ort schließt sie ab. Ziehen Sie einen Punkt, um ihn zu verschieben, oder eine Linie, um einen einzufügen; die Rücktaste entfernt den letzten. Was gemessen wird, wählen Sie im Menü Messen.</translation>
+    </message>
+</context>
+<context>
+    <name>ViewName</name>
+    <message>
+        <source>View</source>
+        <translation>Ansicht</translation>
+    </message>
+    <message>
+        <source>%1 (%2)</source>
+        <extracomment>A name that is taken, with a number after it</extracomment>
+        <translation>%1 (%2)</translation>
     </message>
 </context>
 <context>
@@ -1253,6 +1373,13 @@
     </message>
 </context>
 <context>
+    <name>marsview::ContourLabelsView</name>
+    <message>
+        <source>Elevations of contour lines</source>
+        <translation>Höhen der Höhenlinien</translation>
+    </message>
+</context>
+<context>
     <name>marsview::ContourTools</name>
     <message>
         <source>Contour Interval</source>
@@ -1469,6 +1596,195 @@
         <source>Open Folder</source>
         <extracomment>On a button: open all rasters in a folder as one map</extracomment>
         <translation>Ordner öffnen</translation>
+    </message>
+</context>
+<context>
+    <name>marsview::FlyThroughDialog</name>
+    <message>
+        <source>&amp;Legend</source>
+        <extracomment>In a recording</extracomment>
+        <translation>&amp;Legende</translation>
+    </message>
+    <message>
+        <source>L&amp;abels and lines on the map</source>
+        <extracomment>In a recording: names of places, graticule, measurements</extracomment>
+        <translation>&amp;Beschriftung und Linien auf der Karte</translation>
+    </message>
+    <message>
+        <source>&amp;Record…</source>
+        <translation>&amp;Aufzeichnen …</translation>
+    </message>
+    <message>
+        <source>Fly-Through</source>
+        <translation>Überflug</translation>
+    </message>
+    <message>
+        <source>Position in the fly-through</source>
+        <translation>Stelle im Überflug</translation>
+    </message>
+    <message>
+        <source>Recording</source>
+        <translation>Aufzeichnung</translation>
+    </message>
+    <message>
+        <source>&amp;Path</source>
+        <translation>&amp;Weg</translation>
+    </message>
+    <message>
+        <source>Slower at each view</source>
+        <extracomment>Speed of a fly-through</extracomment>
+        <translation>Bei jeder Ansicht langsamer</translation>
+    </message>
+    <message>
+        <source>Constant</source>
+        <extracomment>Speed of a fly-through</extracomment>
+        <translation>Gleichmäßig</translation>
+    </message>
+    <message>
+        <source>&amp;Speed</source>
+        <translation>&amp;Geschwindigkeit</translation>
+    </message>
+    <message>
+        <source> km</source>
+        <extracomment>Kilometers, after a number</extracomment>
+        <translation> km</translation>
+    </message>
+    <message>
+        <source>&amp;Distance</source>
+        <translation>&amp;Entfernung</translation>
+    </message>
+    <message>
+        <source>0° looks straight down, 85° along the ground</source>
+        <translation>0° blickt senkrecht nach unten, 85° am Boden entlang</translation>
+    </message>
+    <message>
+        <source>&amp;Tilt</source>
+        <translation>&amp;Neigung</translation>
+    </message>
+    <message>
+        <source> s</source>
+        <extracomment>Seconds, after a number</extracomment>
+        <translation> s</translation>
+    </message>
+    <message>
+        <source>D&amp;uration</source>
+        <translation>&amp;Dauer</translation>
+    </message>
+    <message>
+        <source>Video (MP4)</source>
+        <extracomment>Format of a recording</extracomment>
+        <translation>Video (MP4)</translation>
+    </message>
+    <message>
+        <source>Numbered pictures (PNG)</source>
+        <extracomment>Format of a recording</extracomment>
+        <translation>Nummerierte Bilder (PNG)</translation>
+    </message>
+    <message>
+        <source>&amp;Format</source>
+        <translation>&amp;Format</translation>
+    </message>
+    <message>
+        <source>Videos need the program ffmpeg, which is not installed.</source>
+        <translation>Videos brauchen das Programm ffmpeg, das nicht installiert ist.</translation>
+    </message>
+    <message>
+        <source>%1 × %2</source>
+        <extracomment>Size of a picture: %1 × %2 pixels</extracomment>
+        <translation>%1 × %2</translation>
+    </message>
+    <message>
+        <source>Si&amp;ze</source>
+        <translation>G&amp;röße</translation>
+    </message>
+    <message>
+        <source>%1 fps</source>
+        <extracomment>Frames per second</extracomment>
+        <translation>%1 Bilder/s</translation>
+    </message>
+    <message>
+        <source>Frame rat&amp;e</source>
+        <translation>&amp;Bildrate</translation>
+    </message>
+    <message>
+        <source>Include</source>
+        <translation>Mit</translation>
+    </message>
+    <message>
+        <source>Saved views</source>
+        <translation>Gespeicherte Ansichten</translation>
+    </message>
+    <message>
+        <source>Pause</source>
+        <translation>Pause</translation>
+    </message>
+    <message>
+        <source>Play</source>
+        <translation>Abspielen</translation>
+    </message>
+    <message>
+        <source>Play from here</source>
+        <translation>Von hier abspielen</translation>
+    </message>
+    <message>
+        <source>%1 / %2</source>
+        <extracomment>Of a fly-through: %1 is the time that has passed, %2 all of it</extracomment>
+        <translation>%1 / %2</translation>
+    </message>
+    <message>
+        <source>Save at least two views of this map with Ctrl+B, or measure a distance or a profile to fly along.</source>
+        <translation>Speichern Sie mit Strg+B mindestens zwei Ansichten dieser Karte, oder messen Sie eine Entfernung oder ein Profil, um daran entlang zu fliegen.</translation>
+    </message>
+    <message>
+        <source>%1 pictures</source>
+        <translation>%1 Bilder</translation>
+    </message>
+    <message>
+        <source>Record Fly-Through</source>
+        <translation>Überflug aufzeichnen</translation>
+    </message>
+    <message>
+        <source>MP4 video (*.mp4)</source>
+        <translation>MP4-Video (*.mp4)</translation>
+    </message>
+    <message>
+        <source>PNG pictures (*.png)</source>
+        <translation>PNG-Bilder (*.png)</translation>
+    </message>
+    <message>
+        <source>fly-through</source>
+        <extracomment>The name of a recording&apos;s file, without its extension</extracomment>
+        <translation>ueberflug</translation>
+    </message>
+</context>
+<context>
+    <name>marsview::FlyThroughRecorder</name>
+    <message>
+        <source>%1 exists already; choose another name or folder</source>
+        <extracomment>%1 is a file</extracomment>
+        <translation>%1 gibt es schon; wählen Sie einen anderen Namen oder Ordner</translation>
+    </message>
+    <message>
+        <source>The program ffmpeg is not installed; install it, or save numbered pictures</source>
+        <translation>Das Programm ffmpeg ist nicht installiert; installieren Sie es, oder speichern Sie nummerierte Bilder</translation>
+    </message>
+    <message>
+        <source>The program ffmpeg cannot be started; save numbered pictures instead</source>
+        <translation>Das Programm ffmpeg kann nicht gestartet werden; speichern Sie stattdessen nummerierte Bilder</translation>
+    </message>
+    <message>
+        <source>Recording stopped, because another layer is on top now</source>
+        <translation>Die Aufzeichnung wurde beendet, weil jetzt ein anderer Layer oben liegt</translation>
+    </message>
+    <message>
+        <source>%1: the video cannot be written (%2); choose another folder, or save numbered pictures</source>
+        <extracomment>%1 is a file, %2 what ffmpeg says</extracomment>
+        <translation>%1: Das Video kann nicht geschrieben werden (%2); wählen Sie einen anderen Ordner, oder speichern Sie nummerierte Bilder</translation>
+    </message>
+    <message>
+        <source>%1: the video cannot be written; choose another folder</source>
+        <extracomment>%1 is a file</extracomment>
+        <translation>%1: Das Video kann nicht geschrieben werden; wählen Sie einen anderen Ordner</translation>
     </message>
 </context>
 <context>
@@ -3713,6 +4029,76 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
     </message>
 </context>
 <context>
+    <name>marsview::ReportExporter</name>
+    <message>
+        <source>E&amp;xport Report…</source>
+        <translation>Be&amp;richt exportieren …</translation>
+    </message>
+    <message>
+        <source>Save the map with legend and scale, the measurements and their diagrams as one PDF or web page</source>
+        <translation>Die Karte mit Legende und Maßstab, die Messungen und ihre Diagramme als ein PDF oder eine Webseite speichern</translation>
+    </message>
+    <message>
+        <source>Export Report</source>
+        <translation>Bericht exportieren</translation>
+    </message>
+    <message>
+        <source>Map</source>
+        <translation>Karte</translation>
+    </message>
+    <message>
+        <source>Source of the data, author</source>
+        <translation>Quelle der Daten, Autor</translation>
+    </message>
+    <message>
+        <source>&amp;Measurements</source>
+        <translation>&amp;Messungen</translation>
+    </message>
+    <message>
+        <source>&amp;Diagrams</source>
+        <translation>&amp;Diagramme</translation>
+    </message>
+    <message>
+        <source>There are no measurements yet</source>
+        <translation>Es gibt noch keine Messungen</translation>
+    </message>
+    <message>
+        <source>&amp;Title</source>
+        <translation>&amp;Titel</translation>
+    </message>
+    <message>
+        <source>&amp;Credit</source>
+        <translation>&amp;Quellenangabe</translation>
+    </message>
+    <message>
+        <source>Include</source>
+        <translation>Mit</translation>
+    </message>
+    <message>
+        <source>&amp;Export…</source>
+        <extracomment>On a button: choose a file for the report</extracomment>
+        <translation>&amp;Exportieren …</translation>
+    </message>
+    <message>
+        <source>PDF document (*.pdf)</source>
+        <translation>PDF-Dokument (*.pdf)</translation>
+    </message>
+    <message>
+        <source>Web page (*.html)</source>
+        <translation>Webseite (*.html)</translation>
+    </message>
+    <message>
+        <source>report</source>
+        <extracomment>The name of a report&apos;s file, without its extension</extracomment>
+        <translation>bericht</translation>
+    </message>
+    <message>
+        <source>%1: cannot write the report (%2); choose another folder</source>
+        <extracomment>%1 is a file, %2 the reason</extracomment>
+        <translation>%1: Der Bericht kann nicht geschrieben werden (%2); wählen Sie einen anderen Ordner</translation>
+    </message>
+</context>
+<context>
     <name>marsview::SavePictureDialog</name>
     <message>
         <source>&amp;Legend</source>
@@ -3797,6 +4183,132 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
     <message>
         <source>%2 times the window (%1)</source>
         <translation>%2-mal das Fenster (%1)</translation>
+    </message>
+</context>
+<context>
+    <name>marsview::SavedViews</name>
+    <message>
+        <source>&amp;Save View</source>
+        <translation>Ansicht &amp;speichern</translation>
+    </message>
+    <message>
+        <source>Keep the present camera and exaggeration in the project</source>
+        <translation>Die gegenwärtige Kamera und Überhöhung im Projekt behalten</translation>
+    </message>
+    <message>
+        <source>&amp;Go to View</source>
+        <translation>&amp;Gehe zur Ansicht</translation>
+    </message>
+    <message>
+        <source>Fly to the selected view</source>
+        <translation>Zur ausgewählten Ansicht fliegen</translation>
+    </message>
+    <message>
+        <source>Upda&amp;te View</source>
+        <translation>Ansicht &amp;aktualisieren</translation>
+    </message>
+    <message>
+        <source>Give the selected view the present camera and exaggeration</source>
+        <translation>Der ausgewählten Ansicht die gegenwärtige Kamera und Überhöhung geben</translation>
+    </message>
+    <message>
+        <source>Re&amp;name View</source>
+        <translation>Ansicht &amp;umbenennen</translation>
+    </message>
+    <message>
+        <source>Rename the selected view</source>
+        <translation>Die ausgewählte Ansicht umbenennen</translation>
+    </message>
+    <message>
+        <source>Move View &amp;Up</source>
+        <translation>Ansicht nach &amp;oben</translation>
+    </message>
+    <message>
+        <source>Move the view up (Alt+Up)</source>
+        <translation>Die Ansicht nach oben verschieben (Alt+Auf)</translation>
+    </message>
+    <message>
+        <source>Move View &amp;Down</source>
+        <translation>Ansicht nach u&amp;nten</translation>
+    </message>
+    <message>
+        <source>Move the view down (Alt+Down)</source>
+        <translation>Die Ansicht nach unten verschieben (Alt+Ab)</translation>
+    </message>
+    <message>
+        <source>R&amp;emove View</source>
+        <translation>Ansicht &amp;entfernen</translation>
+    </message>
+    <message>
+        <source>Remove the selected view (Delete)</source>
+        <translation>Die ausgewählte Ansicht entfernen (Entf)</translation>
+    </message>
+    <message>
+        <source>&amp;Fly-Through…</source>
+        <translation>Über&amp;flug …</translation>
+    </message>
+    <message>
+        <source>Fly along the saved views or a line, and record it</source>
+        <translation>Entlang der gespeicherten Ansichten oder einer Linie fliegen und es aufzeichnen</translation>
+    </message>
+    <message>
+        <source>Show &amp;Panel</source>
+        <translation>&amp;Bedienfeld zeigen</translation>
+    </message>
+    <message>
+        <source>Show the saved views</source>
+        <translation>Die gespeicherten Ansichten zeigen</translation>
+    </message>
+    <message>
+        <source>Saved &amp;Views</source>
+        <translation>&amp;Gespeicherte Ansichten</translation>
+    </message>
+    <message>
+        <source>Go to View %1</source>
+        <translation>Gehe zur Ansicht %1</translation>
+    </message>
+    <message>
+        <source>The view looks beyond the map&apos;s projection and cannot be saved</source>
+        <translation>Die Ansicht blickt über die Projektion der Karte hinaus und kann nicht gespeichert werden</translation>
+    </message>
+    <message>
+        <source>Updated %1</source>
+        <extracomment>In the status bar, for a few seconds; %1 is a saved view</extracomment>
+        <translation>%1 aktualisiert</translation>
+    </message>
+    <message>
+        <source>The layer of %1 is not open</source>
+        <translation>Der Layer von %1 ist nicht geöffnet</translation>
+    </message>
+    <message>
+        <source>%1 is on %2: open a map of it first</source>
+        <translation>%1 liegt auf %2: Öffnen Sie zuerst eine Karte davon</translation>
+    </message>
+    <message>
+        <source>%1 is outside the map&apos;s projection</source>
+        <extracomment>%1 is a saved view</extracomment>
+        <translation>%1 liegt außerhalb der Projektion der Karte</translation>
+    </message>
+    <message>
+        <source>%1
+Exaggeration ×%2</source>
+        <extracomment>Of a saved view; %1 is a position or a body, %2 a factor</extracomment>
+        <translation>%1
+Überhöhung ×%2</translation>
+    </message>
+</context>
+<context>
+    <name>marsview::SavedViewsPanel</name>
+    <message>
+        <source>Saved views</source>
+        <translation>Gespeicherte Ansichten</translation>
+    </message>
+    <message>
+        <source>No saved views.
+Move the map to a view worth keeping and press %1. A double click on a saved view flies back to it.</source>
+        <extracomment>%1 is a key</extracomment>
+        <translation>Keine gespeicherten Ansichten.
+Bewegen Sie die Karte zu einer Ansicht, die Sie behalten wollen, und drücken Sie %1. Ein Doppelklick auf eine gespeicherte Ansicht fliegt dorthin zurück.</translation>
     </message>
 </context>
 <context>
@@ -3925,6 +4437,36 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
         <source>%1: its overviews are gone. Build them again, or choose another folder for prepared maps in the preferences</source>
         <extracomment>%1 is a file</extracomment>
         <translation>%1: Die Übersichten sind verschwunden. Bauen Sie sie neu, oder wählen Sie in den Einstellungen einen anderen Ordner für vorbereitete Karten</translation>
+    </message>
+    <message>
+        <source>Save View %1</source>
+        <extracomment>Continues &quot;Undo …&quot;; %1 is a saved view</extracomment>
+        <translation>Ansicht %1 speichern</translation>
+    </message>
+    <message>
+        <source>Update View %1</source>
+        <extracomment>Continues &quot;Undo …&quot;; %1 is a saved view</extracomment>
+        <translation>Ansicht %1 aktualisieren</translation>
+    </message>
+    <message>
+        <source>Rename View %1</source>
+        <extracomment>Continues &quot;Undo …&quot;; %1 is a saved view</extracomment>
+        <translation>Ansicht %1 umbenennen</translation>
+    </message>
+    <message>
+        <source>Move View %1</source>
+        <extracomment>Continues &quot;Undo …&quot;; %1 is a saved view</extracomment>
+        <translation>Ansicht %1 verschieben</translation>
+    </message>
+    <message>
+        <source>Remove View %1</source>
+        <extracomment>Continues &quot;Undo …&quot;; %1 is a saved view</extracomment>
+        <translation>Ansicht %1 entfernen</translation>
+    </message>
+    <message>
+        <source>Go to View %1</source>
+        <extracomment>Continues &quot;Undo …&quot;; %1 is a saved view</extracomment>
+        <translation>Gehe zur Ansicht %1</translation>
     </message>
 </context>
 <context>
@@ -4726,6 +5268,10 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
         <source>Measurements</source>
         <translation>Messungen</translation>
     </message>
+    <message>
+        <source>Views</source>
+        <translation>Ansichten</translation>
+    </message>
 </context>
 <context>
     <name>marsview::WindowMessages</name>
@@ -4872,6 +5418,14 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
     <message>
         <source>&amp;Cancel Loading</source>
         <translation>Laden &amp;abbrechen</translation>
+    </message>
+    <message>
+        <source>Cannot Record Fly-Through</source>
+        <translation>Der Überflug kann nicht aufgezeichnet werden</translation>
+    </message>
+    <message>
+        <source>Cannot Export Report</source>
+        <translation>Der Bericht kann nicht exportiert werden</translation>
     </message>
 </context>
 </TS>
