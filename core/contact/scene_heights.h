@@ -7,8 +7,11 @@
 
 #include "core/terrain/filled_heightfield.h"
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <limits>
 #include <type_traits>
 
 namespace marsview {
@@ -34,8 +37,8 @@ private:
     double exaggeration_;
 };
 
-/// Samples of type T without voids. The same heights as FilledHeights, to the bit, in a third of
-/// the time.
+/// Samples of type T, where all voids, if any, have one raw value in common. The same heights as
+/// FilledHeights, to the bit, in a third of the time.
 template <typename T>
 class PlainHeights {
 public:
@@ -44,14 +47,15 @@ public:
     static bool canRead(const FilledHeightfield& terrain) noexcept
     {
         const SampleGrid& samples = terrain.heightfield().samples();
-        return !samples.hasVoids() && samples.visit([](auto view) {
+        return (!samples.hasVoids() || terrain.voidBits()) && samples.visit([](auto view) {
             return std::is_same_v<decltype(view), GridView<const T>>;
         });
     }
 
     /// canRead(terrain).
     PlainHeights(const FilledHeightfield& terrain, double exaggeration) noexcept
-        : columns_(terrain.columns())
+        : terrain_(&terrain)
+        , columns_(terrain.columns())
         , scale_(terrain.heightfield().scale())
         , exaggeration_(exaggeration)
     {
@@ -61,20 +65,47 @@ public:
                 samples_ = view.data();
             }
         });
+        if (terrain.voidBits()) {
+            T raw;
+            std::memcpy(&raw, &*terrain.voidBits(), sizeof(raw));
+            void_key_ = keyOf(raw);
+        }
     }
 
-    double at(std::int32_t column, std::int32_t row) const noexcept
+    [[gnu::always_inline]] double at(std::int32_t column, std::int32_t row) const noexcept
     {
         const T raw =
             samples_[static_cast<std::size_t>(row) * columns_ + static_cast<std::size_t>(column)];
+        if (keyOf(raw) == void_key_) [[unlikely]] {
+            return elsewhere(column, row);
+        }
         return exaggeration_ * scale_.height(static_cast<double>(raw));
     }
 
 private:
+    // The raw value as an integer: two NaNs with the same bits are equal.
+    static std::int64_t keyOf(T raw) noexcept
+    {
+        if constexpr (std::is_integral_v<T>) {
+            return raw;
+        } else {
+            static_assert(sizeof(T) == sizeof(std::int32_t));
+            return std::bit_cast<std::int32_t>(raw);
+        }
+    }
+    // Kept out of the loops that read heights.
+    [[gnu::noinline]] double elsewhere(std::int32_t column, std::int32_t row) const noexcept
+    {
+        return exaggeration_ *
+               terrain_->sample(static_cast<std::size_t>(column), static_cast<std::size_t>(row));
+    }
+
     const T* samples_ = nullptr;
+    const FilledHeightfield* terrain_;
     std::size_t columns_;
     ElevationScale scale_;
     double exaggeration_;
+    std::int64_t void_key_ = std::numeric_limits<std::int64_t>::min(); // without voids: no sample's
 };
 
 } // namespace marsview

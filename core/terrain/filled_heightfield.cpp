@@ -1,10 +1,25 @@
 #include "core/terrain/filled_heightfield.h"
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
 #include <utility>
 
 namespace marsview {
+namespace {
+
+std::uint64_t rawBits(const SampleGrid& samples, std::size_t column, std::size_t row)
+{
+    return samples.visit([&](auto view) {
+        const auto raw = view(column, row);
+        std::uint64_t bits = 0;
+        std::memcpy(&bits, &raw, sizeof(raw));
+        return bits;
+    });
+}
+
+} // namespace
+
 Result<FilledHeightfield> FilledHeightfield::build(const Heightfield& heightfield,
                                                    std::shared_ptr<const SurfaceAnalysis> analysis,
                                                    JobMonitor& monitor)
@@ -29,6 +44,7 @@ bool FilledHeightfield::buildMaxima(JobMonitor& monitor)
     const MinMaxPyramid& pyramid = analysis_->bounds;
     std::vector<float> maxima(pyramid.columns(0) * pyramid.rows(0));
     const std::size_t blocks = pyramid.columns(0);
+    bool has_common_bits = true;
     for (std::size_t row = 0; row < pyramid.rows(0); ++row) {
         if (monitor.isCanceled()) {
             return false;
@@ -44,11 +60,17 @@ bool FilledHeightfield::buildMaxima(JobMonitor& monitor)
                      c <= std::min((column + 1) * kBlock, columns() - 1); ++c) {
                     if (isVoid(c, r)) {
                         maximum = std::max(maximum, fillAt(c, r));
+                        const std::uint64_t bits = rawBits(heightfield_.samples(), c, r);
+                        has_common_bits = has_common_bits && void_bits_.value_or(bits) == bits;
+                        void_bits_ = bits;
                     }
                 }
             }
             maxima[row * blocks + column] = maximum;
         }
+    }
+    if (!has_common_bits) {
+        void_bits_.reset();
     }
     maxima_ = maximaFrom(std::move(maxima), pyramid);
     return true;

@@ -8,7 +8,9 @@
 #include "core/terrain/surface_analysis.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace marsview {
@@ -44,6 +46,9 @@ public:
                    ? static_cast<double>(fillAt(column, row))
                    : heightfield_.scale().height(heightfield_.samples().raw(column, row));
     }
+    /// The bits of the raw value of all void samples, if they have one in common: samples with
+    /// other bits are not void. Empty without voids.
+    const std::optional<std::uint64_t>& voidBits() const noexcept { return void_bits_; }
     CellHeights cell(std::size_t column, std::size_t row) const noexcept
     {
         return {sample(column, row), sample(column + 1, row), sample(column, row + 1),
@@ -76,6 +81,7 @@ private:
     FillRange range_;
     // One array per level, as in the analysis' bounds; empty without voids.
     std::vector<std::vector<float>> maxima_;
+    std::optional<std::uint64_t> void_bits_;
 };
 
 } // namespace marsview

@@ -315,6 +315,20 @@ std::vector<Scenery> withVoids()
     return {{filled, test::unitFrame(*filled)}, {holes, test::unitFrame(*holes)}};
 }
 
+// Voids that are NaN.
+Scenery withHoles()
+{
+    std::vector<float> samples;
+    for (int r = 0; r < 50; ++r) {
+        for (int c = 0; c < 70; ++c) {
+            const bool is_void = (c - 30) * (c - 30) + (r - 20) * (r - 20) < 150;
+            samples.push_back(is_void ? kNanFloat : static_cast<float>(std::sin(c * 0.3) + r));
+        }
+    }
+    const auto filled = terrainOf(70, samples);
+    return {filled, test::unitFrame(*filled)};
+}
+
 struct Case {
     std::string name;
     std::function<std::vector<Scenery>()> make;
@@ -574,6 +588,9 @@ TEST_P(StabilityOfModels, MovesTheSameOverSamplesReadInTheirOwnType)
         shaped<float>(41, 37,
                       [](double c, double r) { return 9.0 * std::sin(c * 0.4) * std::cos(r); }),
         random, stressed(20000));
+    // Voids are filled.
+    GetParam().compare_plain(withVoids().front(), random, stressed(20000));
+    GetParam().compare_plain(withHoles(), random, stressed(20000));
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, StabilityOfModels, testing::ValuesIn(subjects()), [](const auto& one) {

@@ -5,8 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
+#include <optional>
 #include <vector>
 
 namespace marsview {
@@ -107,6 +110,33 @@ TEST(FilledHeightfield, FillsAMapWithOneSample)
     const FilledHeightfield terrain = filled(50, heights);
     EXPECT_EQ(terrain.sample(0, 0), -7.5);
     EXPECT_EQ(terrain.sample(49, 39), -7.5);
+}
+
+TEST(FilledHeightfield, KnowsTheRawValueThatAllVoidsHaveInCommon)
+{
+    const auto bits_of = [](const std::vector<std::int16_t>& raw, const VoidRule& rule) {
+        SampleGrid grid = SampleGrid::create(SampleType::Int16, 3, 2).value();
+        for (std::size_t row = 0; row < 2; ++row) {
+            std::memcpy(grid.rowData(row), raw.data() + row * 3, 3 * sizeof(std::int16_t));
+        }
+        const SampleStatistics statistics = grid.applyRule(rule, 0, 2);
+        if (!rule.nodata) {
+            grid.markVoid(0, 0); // as by a mask
+            grid.markVoid(2, 1);
+        }
+        const Heightfield heightfield(std::make_shared<const SampleGrid>(std::move(grid)),
+                                      statistics, {});
+        JobMonitor monitor;
+        return FilledHeightfield::build(heightfield, *analyze(heightfield, monitor), monitor)
+            .value()
+            .voidBits();
+    };
+    EXPECT_EQ(bits_of({-2, 1, 2, 3, -2, 4}, {.nodata = -2.0}), 0xfffeU);
+    EXPECT_EQ(bits_of({5, 1, 2, 3, 5, 5}, {}), 5U) << "a valid sample has it too";
+    EXPECT_EQ(bits_of({5, 1, 2, 3, 5, 6}, {}), std::nullopt) << "two values";
+    EXPECT_EQ(bits_of({5, 1, 2, 3, 5, 6}, {.nodata = 7.0}), std::nullopt) << "no voids";
+    EXPECT_EQ(filled(3, {kNanFloat, 1, 2, 3, 4, kNanFloat}).voidBits(),
+              std::bit_cast<std::uint32_t>(kNanFloat));
 }
 
 TEST(FilledHeightfield, StopsWhenCanceled)
