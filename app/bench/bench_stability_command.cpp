@@ -117,26 +117,48 @@ std::string tableOf(const std::vector<Row>& rows, const BenchStabilityOptions& o
     return text;
 }
 
-// Random sessions instead of the scenes.
-Status runSessions(const BenchStabilityOptions& options)
-{
-    TouchSessionResult sum;
-    LongJob job("touching");
+// Random sessions of a hand, the loop and a camera.
+struct Sessions {
+    std::uint64_t count = 0;
+    std::uint64_t seed = 0;
     std::uint64_t failed = 0;
-    std::uint64_t first_failed = 0;
-    for (std::uint64_t i = 0; i < options.sessions; ++i) {
-        job.monitor().report(static_cast<double>(i) / static_cast<double>(options.sessions));
+    std::uint64_t first_failed = 0; // its seed
+    TouchSessionResult sum{};
+
+    Status verdict() const
+    {
+        if (failed == 0) {
+            return Done{};
+        }
+        return Error{ErrorCode::Invalid,
+                     fmt::format("{} of {} sessions failed; the first has the seed {}: {}", failed,
+                                 count, first_failed, sum.first)};
+    }
+};
+
+Result<Sessions> measureSessions(std::uint64_t count, std::uint64_t seed)
+{
+    Sessions sessions{.count = count, .seed = seed};
+    LongJob job("touching");
+    for (std::uint64_t i = 0; i < count; ++i) {
+        job.monitor().report(static_cast<double>(i) / static_cast<double>(count));
         if (job.monitor().isCanceled()) {
             return Error{ErrorCode::Canceled, "measuring was canceled"};
         }
-        const TouchSessionResult result = runTouchSession({.seed = options.seed + i});
-        if (result.violationCount() > 0 && ++failed == 1) {
-            first_failed = options.seed + i;
+        const TouchSessionResult result = runTouchSession({.seed = seed + i});
+        if (result.violationCount() > 0 && ++sessions.failed == 1) {
+            sessions.first_failed = seed + i;
         }
-        sum.add(result);
+        sessions.sum.add(result);
     }
-    Json json = {{"sessions", options.sessions},
-                 {"seed", options.seed},
+    return sessions;
+}
+
+Json asJson(const Sessions& sessions)
+{
+    const TouchSessionResult& sum = sessions.sum;
+    Json json = {{"sessions", sessions.count},
+                 {"seed", sessions.seed},
                  {"ticks", sum.ticks},
                  {"contact_ticks", sum.contact_ticks},
                  {"pan_ticks", sum.pan_ticks},
@@ -145,31 +167,40 @@ Status runSessions(const BenchStabilityOptions& options)
                  {"force_n_max", sum.force_n_max},
                  {"energy_j_max", sum.energy_j_max},
                  {"sink_m_max", sum.sink_m_max},
-                 {"failed_sessions", failed},
+                 {"failed_sessions", sessions.failed},
                  {"violations", Json::object()}};
     for (std::size_t i = 0; i < kTouchInvariantCount; ++i) {
         json["violations"][touchInvariantName(static_cast<TouchInvariant>(i))] = sum.violations[i];
     }
-    if (options.is_json) {
-        printJson(withSchema(json));
-    } else {
-        for (const auto& [name, value] : json.items()) {
-            printLine(fmt::format("{}: {}", name, value.dump()));
-        }
-    }
-    if (failed > 0) {
-        return Error{ErrorCode::Invalid,
-                     fmt::format("{} of {} sessions failed; the first has the seed {}: {}", failed,
-                                 options.sessions, first_failed, sum.first)};
-    }
-    return Done{};
+    return json;
 }
 
-Status runBench(const BenchStabilityOptions& options)
+std::string asText(const Sessions& sessions)
 {
-    if (options.sessions > 0) {
-        return runSessions(options);
+    std::string text;
+    const Json json = asJson(sessions);
+    for (const auto& [name, value] : json.items()) {
+        text += fmt::format("{}: {}\n", name, value.dump());
     }
+    return text;
+}
+
+Status runSessions(const BenchStabilityOptions& options)
+{
+    const Result<Sessions> sessions = measureSessions(options.sessions, options.seed);
+    if (!sessions) {
+        return sessions.error();
+    }
+    if (options.is_json) {
+        printJson(withSchema(asJson(*sessions)));
+    } else {
+        printLine(asText(*sessions));
+    }
+    return sessions->verdict();
+}
+
+Result<std::vector<Row>> measureScenes(const BenchStabilityOptions& options)
+{
     std::vector<Row> rows;
     for (const Variant& variant : kVariants) {
         for (const ContactModelKind model : kContactModelKinds) {
@@ -200,23 +231,42 @@ Status runBench(const BenchStabilityOptions& options)
                               options.most_n_per_m);
         }
     }
+    return rows;
+}
+
+Status runBench(const BenchStabilityOptions& options)
+{
+    if (options.sessions > 0) {
+        return runSessions(options);
+    }
+    const Result<std::vector<Row>> rows = measureScenes(options);
+    if (!rows) {
+        return rows.error();
+    }
+    constexpr std::uint64_t kSessions = 200;
+    const Result<Sessions> sessions = measureSessions(kSessions, options.seed);
+    if (!sessions) {
+        return sessions.error();
+    }
     if (!options.is_json) {
-        printLine(tableOf(rows, options));
-        return Done{};
+        printLine(tableOf(*rows, options));
+        printLine("random sessions with a camera:\n\n" + asText(*sessions));
+        return sessions->verdict();
     }
     Json json = {{"stated_n_per_m", kStatedStiffnessNPerM},
                  {"most_n_per_m", options.most_n_per_m},
                  {"jitter_ms", options.jitter_ms},
                  {"seed", options.seed},
                  {"delays_s", kDelaysS}};
-    for (const Row& row : rows) {
+    for (const Row& row : *rows) {
         json["rows"].push_back({{"mixing", row.variant->name},
                                 {"model", contactModelName(row.model)},
                                 {"scene", stabilitySceneName(row.scene)},
                                 {"largest_n_per_m", row.largest_n_per_m}});
     }
+    json["random_sessions"] = asJson(*sessions);
     printJson(withSchema(json));
-    return Done{};
+    return sessions->verdict();
 }
 
 } // namespace
@@ -236,8 +286,9 @@ void addBenchStabilityCommand(CLI::App& bench, CommandAction& run)
         ->capture_default_str()
         ->check(wholeNumberFrom(0, std::numeric_limits<std::uint64_t>::max()));
     command
-        ->add_option("--sessions", options->sessions,
-                     "test so many random sessions with a camera instead")
+        ->add_option(
+            "--sessions", options->sessions,
+            "run only so many random sessions with a camera; without it, all scenes and 200")
         ->check(wholeNumberFrom(1, 100'000'000));
     command->add_flag("--json", options->is_json, "print JSON");
     command->callback([options, &run] { run = [options] { return runBench(*options); }; });

@@ -8,7 +8,6 @@
 namespace marsview {
 namespace {
 
-constexpr Viewport kViewport{.width = 800, .height = 600};
 constexpr double kCellM = 1.0;
 
 // From the lowest to the highest sample.
@@ -41,10 +40,12 @@ ClosedLoop::ClosedLoop(ClosedLoopOptions options, std::shared_ptr<ServoMap> map,
     : options_(std::move(options))
     , tick_options_(tickOptionsFor(options_.device))
     , hand_(options_.hand, options_.hand_begin)
+    , view_(reachWithin(options_.device.workspace))
 {
     settings.stiffness_n_per_m = options_.stiffness_n_per_m;
+    const double across_m = boxOf(*map, height_m).diagonal_m();
     setMap(std::move(map), std::move(height_m));
-    moveCamera({.target = {0.0, 0.0, 0.0}, .distance_m = 0.75 * limits_.box.diagonal_m()});
+    moveCamera({.target = {0.0, 0.0, 0.0}, .distance_m = 0.75 * across_m});
 }
 
 void ClosedLoop::setMap(std::shared_ptr<ServoMap> map, HeightOf height_m)
@@ -52,23 +53,14 @@ void ClosedLoop::setMap(std::shared_ptr<ServoMap> map, HeightOf height_m)
     settings.map = std::move(map);
     if (settings.map) {
         height_m_ = std::move(height_m);
-        limits_ = navigationLimits(boxOf(*settings.map, height_m_), kCellM);
-        moveCamera(view_.camera);
+        const Georeference& grid = settings.map->frame.georeference();
+        view_.setMap({.frame = settings.map->frame.frame(),
+                      .columns = grid.columns(),
+                      .rows = grid.rows(),
+                      .limits = navigationLimits(boxOf(*settings.map, height_m_), kCellM),
+                      .height_m = height_m_});
+        moveCamera(view_.camera());
     }
-}
-
-OrbitCamera ClosedLoop::limited(const OrbitCamera& camera) const
-{
-    return constrained(camera, limits_, height_m_);
-}
-
-WorkspaceFrame ClosedLoop::fittedFrame() const
-{
-    const Georeference& grid = settings.map->frame.georeference();
-    return frameForView(
-        view_.camera, kViewport,
-        {.frame = settings.map->frame.frame(), .columns = grid.columns(), .rows = grid.rows()},
-        limits_.box, reachWithin(options_.device.workspace));
 }
 
 double ClosedLoop::surfaceZ() const
@@ -80,44 +72,8 @@ double ClosedLoop::surfaceZ() const
 
 void ClosedLoop::moveCamera(const OrbitCamera& camera)
 {
-    if (!settings.map) {
-        return;
-    }
-    view_.camera = limited(camera);
-    view_.frame = fittedFrame();
-    is_fitted_ = true;
-    settings.fit.reset();
-    takeView(FrameOrigin::View);
-}
-
-void ClosedLoop::takeView(FrameOrigin origin)
-{
-    settings.frame = view_.frame;
-    settings.frame_origin = origin;
-    ++settings.frame_number;
-    settings.view_bounds = boundsFor(view_, limits_);
-    boundZoom(view_, limits_, settings.modes);
-}
-
-void ClosedLoop::poll()
-{
-    if (!settings.map || state_.frame_number != settings.frame_number) {
-        return;
-    }
-    if (state_.seen_frame == view_.frame) {
-        if (!is_fitted_ && !isHolding(last_.mode)) {
-            is_fitted_ = true;
-            settings.fit = WorkspaceFit{.seen = view_.frame, .fitted = fittedFrame()};
-        }
-        return;
-    }
-    is_fitted_ = false;
-    const OrbitCamera followed = cameraFollowing(view_, state_.seen_frame);
-    const LimitedView limited_view =
-        limitedView({.camera = followed, .frame = state_.seen_frame}, limited(followed));
-    view_ = limited_view.view;
-    if (limited_view.is_moved) {
-        takeView(FrameOrigin::Limit);
+    if (settings.map) {
+        view_.moveCamera(camera, settings);
     }
 }
 
@@ -132,8 +88,8 @@ const StepResult& ClosedLoop::tick(double dt_s)
     input_.sample.time = input_.now;
     last_ = step(tick_options_, input_, state_, dt_s);
     hand_.push(last_.force_n);
-    if (++ticks_ % options_.poll_ticks == 0) {
-        poll();
+    if (++ticks_ % options_.poll_ticks == 0 && settings.map) {
+        view_.follow(state_.seen_frame, state_.frame_number, last_.mode, settings);
     }
     return last_;
 }

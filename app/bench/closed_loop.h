@@ -1,8 +1,8 @@
 // Hand, tick, frame, camera and the camera's limits in one loop, without window or clock.
 #pragma once
 
+#include "app/bench/followed_view.h"
 #include "haptics/drivers/simulated/simulated_hand.h"
-#include "haptics/interaction/hand_view.h"
 #include "haptics/loop/haptic_tick.h"
 
 #include <cstddef>
@@ -23,7 +23,7 @@ struct ClosedLoopOptions {
 
 /// A window's side and a loop's side of touching, with the code of both: at 1 kHz a simulated hand
 /// moves and step() computes its force; 60 times a second the camera follows the hand within its
-/// limits, as HapticsController has it do. The map lies level; one scene unit is one meter.
+/// limits. The map lies level; one scene unit is one meter.
 class ClosedLoop {
 public:
     using HeightOf = std::function<double(double x, double y)>;
@@ -49,18 +49,15 @@ public:
     const TickState& state() const noexcept { return state_; }
     const TickOptions& options() const noexcept { return tick_options_; }
     const WorkspaceFrame& frame() const noexcept { return state_.frame; }
-    const OrbitCamera& camera() const noexcept { return view_.camera; }
+    const OrbitCamera& camera() const noexcept { return view_.camera(); }
     /// The camera within its limits.
-    OrbitCamera limited(const OrbitCamera& camera) const;
+    OrbitCamera limited(const OrbitCamera& camera) const { return view_.limited(camera); }
     /// The frame that fits what the camera shows.
-    WorkspaceFrame fittedFrame() const;
+    WorkspaceFrame fittedFrame() const { return view_.fittedFrame(); }
     /// Of the surface straight below the hand, in the workspace; NaN outside the map.
     double surfaceZ() const;
 
 private:
-    void takeView(FrameOrigin origin);
-    void poll();
-
     ClosedLoopOptions options_;
     TickOptions tick_options_;
     TickState state_;
@@ -69,9 +66,7 @@ private:
     SimulatedHand hand_;
     double twist_rad_ = 0.0;
     HeightOf height_m_;
-    NavigationLimits limits_;
-    HandView view_;
-    bool is_fitted_ = true;
+    FollowedView view_;
     std::uint64_t ticks_ = 0;
 };
 

@@ -18,6 +18,8 @@ namespace {
 constexpr std::size_t kSessionSide = 201; // samples
 constexpr double kHalfM = 100.0;
 constexpr double kTickS = 1e-3;
+constexpr double kJitter = 0.2; // share of a tick
+constexpr double kFitM = 1e-3;  // of the hand from where a fitted workspace has it
 
 double terrainHeight(std::size_t kind, double x, double y)
 {
@@ -177,14 +179,15 @@ private:
         loop_.twist(twist_rad_);
         const Vec3 force_before_n = loop_.last().force_n;
         const Vec3 velocity = loop_.hand().velocity();
-        const StepResult& felt = loop_.tick(kTickS);
+        const double dt_s = kTickS * uniform(1.0 - kJitter, 1.0 + kJitter);
+        const StepResult& felt = loop_.tick(dt_s);
         // The force of the last tick has acted since.
-        energy_j_ += dot(force_before_n, (velocity + loop_.hand().velocity()) * 0.5) * kTickS;
-        check(felt);
+        energy_j_ += dot(force_before_n, (velocity + loop_.hand().velocity()) * 0.5) * dt_s;
+        check(felt, dt_s);
         last_force_n_ = felt.force_n;
     }
 
-    void check(const StepResult& felt)
+    void check(const StepResult& felt, double dt_s)
     {
         const SafetyLimits& limits = loop_.options().limits;
         const double force_n = length(felt.force_n);
@@ -194,7 +197,7 @@ private:
         const double rate = felt.reason == ForceOffReason::None ? limits.rate_n_per_s_max
                                                                 : limits.release_n_per_s_max;
         const double change_n = length(felt.force_n - last_force_n_);
-        if (!(change_n <= rate * kTickS * (1.0 + 1e-9))) {
+        if (!(change_n <= rate * dt_s * (1.0 + 1e-9))) {
             note(TouchInvariant::ForceChangesNoFasterThanTheLimiter, fmt::format("{} N", change_n));
         }
         result_.force_n_max = std::max(result_.force_n_max, force_n);
@@ -244,18 +247,34 @@ private:
         }
     }
 
-    // Free space, then a press in the middle of the workspace, then free space again.
+    // From the hand to where a workspace that fits the view has it.
+    double offFit() const
+    {
+        const WorkspaceFrame fit =
+            loop_.settings.fit ? loop_.settings.fit->fitted : loop_.fittedFrame();
+        const WorkspacePoint hand = loop_.hand().measured();
+        return length(fit.toWorkspace(loop_.frame().toScene(hand)) - hand);
+    }
+    bool isSettled() const
+    {
+        return loop_.state().modes.pan.velocity_m_per_s == Vec3{} && offFit() <= kFitM;
+    }
+
+    // Free space, then a press in the middle of the workspace.
     void rest()
     {
         loop_.settings.is_grabbing = false;
-        changeMap();
-        hold({0.0, 0.0, 0.055}, 16000); // a map glides for up to 12 s
-        const WorkspaceFrame fit =
-            loop_.settings.fit ? loop_.settings.fit->fitted : loop_.fittedFrame();
-        const ScenePoint hand = loop_.frame().toScene(loop_.hand().measured());
-        const double off_m = length(fit.toWorkspace(hand) - loop_.hand().measured());
+        if (!loop_.settings.map) {
+            changeMap();
+        }
+        constexpr int kRestTicks = 16000; // a map glides for up to 12 s
+        constexpr int kPart = 500;
+        for (int i = 0; i < kRestTicks && (i < 2 * kPart || !isSettled()); i += kPart) {
+            hold({0.0, 0.0, 0.055}, kPart);
+        }
+        const double off_m = offFit();
         const bool is_free = !loop_.last().contact.is_in_contact;
-        if (is_free && !(off_m <= 1e-3)) {
+        if (is_free && !(off_m <= kFitM)) {
             note(TouchInvariant::ViewIsReachable, fmt::format("{} mm off", off_m * 1e3));
         }
         const double z_m = loop_.surfaceZ();
