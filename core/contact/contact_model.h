@@ -64,6 +64,9 @@ public:
     /// Moves the proxy towards the goal. The first update places it. Goals that place() refuses
     /// change nothing and are counted.
     virtual ContactState update(const ScenePoint& goal) noexcept = 0;
+    /// The result that update(goal) would have, without updating: a copy of the model moves. Loads
+    /// into the processor's caches what that update needs.
+    virtual ContactState rehearse(const ScenePoint& goal) const noexcept = 0;
     /// Where the proxy is, with the counters of the last update.
     virtual ContactState state() const noexcept = 0;
 

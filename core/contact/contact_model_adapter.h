@@ -25,6 +25,10 @@ public:
     {}
     ContactState place(const ScenePoint& goal) noexcept override { return model_.place(goal); }
     ContactState update(const ScenePoint& goal) noexcept override { return model_.update(goal); }
+    ContactState rehearse(const ScenePoint& goal) const noexcept override
+    {
+        return M(model_).update(goal);
+    }
     ContactState state() const noexcept override { return model_.state(); }
 
 protected:

@@ -52,11 +52,18 @@ ForceOffReason reasonOf(DeviceStatus status) noexcept
     return ForceOffReason::Fault;
 }
 
+enum class Purpose : std::uint8_t { Tick, Rehearsal };
+
 // One tick, with the data passed between its steps.
 class Tick {
 public:
-    Tick(const TickOptions& options, const TickInput& input, TickState& state, double dt_s) noexcept
-        : options_(options)
+    Tick(Purpose purpose,
+         const TickOptions& options,
+         const TickInput& input,
+         TickState& state,
+         double dt_s) noexcept
+        : is_rehearsal_(purpose == Purpose::Rehearsal)
+        , options_(options)
         , input_(input)
         , settings_(*input.settings)
         , state_(state)
@@ -377,7 +384,7 @@ private:
 
     void refreshTerrain(double stiffness) noexcept
     {
-        if (map_->terrain == nullptr) {
+        if (map_->terrain == nullptr || is_rehearsal_) {
             return;
         }
         ServoTerrain& terrain = *map_->terrain;
@@ -455,7 +462,9 @@ private:
         }
         update(aimed);
         state_.has_touched = true;
-        map_->is_touched = true;
+        if (!is_rehearsal_) {
+            map_->is_touched = true;
+        }
         if (map_->terrain != nullptr) {
             const auto missed = map_->terrain->resident().misses().count;
             result_.missed_samples =
@@ -485,7 +494,8 @@ private:
     void update(const TracePoint& goal) noexcept
     {
         state_.goal = map_->frame.toScene(goal);
-        state_.contact = map_->model->update(state_.goal);
+        state_.contact =
+            is_rehearsal_ ? map_->model->rehearse(state_.goal) : map_->model->update(state_.goal);
         if (state_.contact.counters.refused == 0) {
             // In free space exactly the goal, as in `trace`.
             state_.proxy = state_.contact.is_in_contact || map_->frame.isClamped(goal)
@@ -573,8 +583,13 @@ private:
         result_.goal = state_.goal + (state_.is_on_map ? beyond_m_ : Vec3{}); // where the hand is
         result_.contact = state_.contact;
         result_.proxy = state_.proxy;
+        if (map_ != nullptr && state_.has_hand &&
+            beyondMap(state_.frame.toScene(state_.hand)) == Vec3{}) {
+            result_.surface_z_m = state_.hand.z - clearance();
+        }
     }
 
+    bool is_rehearsal_;
     const TickOptions& options_;
     const TickInput& input_;
     const LoopSettings& settings_;
@@ -622,7 +637,16 @@ double usedStiffness(double wanted_n_per_m,
 StepResult
 step(const TickOptions& options, const TickInput& input, TickState& state, double dt_s) noexcept
 {
-    return Tick(options, input, state, dt_s).run();
+    return Tick(Purpose::Tick, options, input, state, dt_s).run();
+}
+
+StepResult rehearse(const TickOptions& options,
+                    const TickInput& input,
+                    const TickState& state,
+                    double dt_s) noexcept
+{
+    TickState copy = state;
+    return Tick(Purpose::Rehearsal, options, input, copy, dt_s).run();
 }
 
 } // namespace marsview

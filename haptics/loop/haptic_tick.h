@@ -14,6 +14,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -144,6 +145,8 @@ struct StepResult {
     double damping_n_s_per_m = 0;     // added for passivity
     std::uint32_t missed_samples = 0; // terrain samples not available at full resolution
     bool has_ground_changed = false;  // the contact model was notified of a terrain change
+    /// Of the surface straight below or above the hand, in the workspace; NaN beside the map.
+    double surface_z_m = std::numeric_limits<double>::quiet_NaN();
 };
 
 ///     TickState state;
@@ -156,6 +159,13 @@ struct StepResult {
 /// outputs. Does not allocate or wait.
 StepResult
 step(const TickOptions& options, const TickInput& input, TickState& state, double dt_s) noexcept;
+
+/// The result that step() would have, without changing anything: loads code and data of the tick
+/// into the processor's caches. Terrain that has newly arrived is left to the tick.
+StepResult rehearse(const TickOptions& options,
+                    const TickInput& input,
+                    const TickState& state,
+                    double dt_s) noexcept;
 
 /// The stiffness that is used for the requested one: at most the device's stable stiffness, and
 /// less if the loop runs slower than nominal, since the stable stiffness of a sampled spring falls

@@ -9,6 +9,7 @@
 #include "haptics/loop/safety_limiter.h"
 
 #include <cstdint>
+#include <limits>
 
 namespace marsview {
 
@@ -86,6 +87,8 @@ struct TickRecord {
     bool has_goal = false; // false: the contact model was not updated in this tick
     bool has_motion = false;
     SceneMotion motion{}; // of the map by the hand, since the last update that was recorded
+    /// Of the surface straight below or above the hand, in the workspace; NaN beside the map.
+    double surface_z_m = std::numeric_limits<double>::quiet_NaN();
     float tick_us = 0.0F;
     TouchedGround ground{};
     std::uint32_t ground_records = 0; // number of terrain records since the last update

@@ -110,6 +110,12 @@ void RealTimeThread::run(const RealTimeOptions& options, void* self, Tick tick, 
     turn.deadline = now() + options.period;
     LoopTime last_begin{};
     for (std::uint64_t number = 0; !shared.is_stopping.load(std::memory_order_relaxed); ++number) {
+        if (options.lead.count() > 0) {
+            sleepUntil(turn.deadline - options.lead);
+            if (now() < turn.deadline - options.lead / 2) { // otherwise it would delay the turn
+                tick(self, {.number = number, .deadline = turn.deadline, .is_preparation = true});
+            }
+        }
         sleepUntil(turn.deadline);
         if (number == options.uncounted_turns) {
             statistics = {};

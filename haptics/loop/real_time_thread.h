@@ -27,6 +27,9 @@ struct RealTimeOptions {
     /// Initial turns that are not counted: first calls of functions cause page faults that later
     /// calls do not.
     std::uint64_t uncounted_turns = 100;
+    /// Before each turn the function is also called this much earlier, to prepare the turn
+    /// (LoopTick::is_preparation); 0: it is not.
+    std::chrono::nanoseconds lead{0};
     std::size_t stack_bytes_touched = std::size_t{256} << 10; // before the first turn
     /// Locks all touched pages of the process while the thread runs. If the system limits how much
     /// may be locked, only the thread's stack and `memory` are locked, so that other allocations of
@@ -47,7 +50,8 @@ struct RealTimeGrants {
 struct LoopTick {
     std::uint64_t number = 0; // from 0, without skipped turns
     LoopTime deadline;
-    double dt_s = 0.0; // measured between the beginnings of turns; 0 at the first
+    double dt_s = 0.0;           // measured between the beginnings of turns; 0 at the first
+    bool is_preparation = false; // of turn `number`; the outcome is ignored
 };
 
 enum class LoopOutcome : std::uint8_t { GoOn, Stop };

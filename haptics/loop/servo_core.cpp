@@ -120,6 +120,25 @@ void ServoCore::deviceTick(void* self, LoopTime now) noexcept
     }
 }
 
+// With the position to which the hand moves if it keeps its velocity.
+void ServoCore::prepareTurn() noexcept
+{
+    if (read_at_ == LoopTime{} || settings_.front().map == nullptr) {
+        return;
+    }
+    const RtScope scope;
+    const LoopTime now = steady_clock::now();
+    const double period_s = std::chrono::duration<double>(options_.period).count();
+    TickInput input{.settings = &settings_.front(),
+                    .device = &device_->capabilities(),
+                    .sample = sample_,
+                    .now = now,
+                    .since_write_s = period_s};
+    input.sample.position = sample_.position + shift_m_;
+    input.sample.time = now;
+    rehearse(options_.tick, input, tick_, period_s);
+}
+
 LoopOutcome ServoCore::turn(LoopTime begin, bool has_missed_deadline) noexcept
 {
     const RtScope scope;
@@ -139,8 +158,10 @@ LoopOutcome ServoCore::turnInside(LoopTime begin, bool has_missed_deadline) noex
     if (!takeDevice()) {
         return LoopOutcome::GoOn; // the watchdog is bringing it to rest
     }
+    const WorkspacePoint before = sample_.position;
     const DeviceStatus status = device_->read(sample_);
     leaveDevice();
+    shift_m_ = sample_.position - before;
     if (is_abandoned_.load(std::memory_order_acquire)) {
         writeForce({});
         return LoopOutcome::Stop;
@@ -277,6 +298,7 @@ void ServoCore::record(const StepResult& result, double tick_s) noexcept
                       .reason = result.reason,
                       .is_in_contact = result.contact.is_in_contact,
                       .has_goal = result.goals.count > 0,
+                      .surface_z_m = result.surface_z_m,
                       .tick_us = static_cast<float>(tick_s * 1e6)};
     if (const auto& map = settings_.front().map; map != nullptr) {
         record.ground = {.serial = map->serial,

@@ -54,6 +54,8 @@ public:
     // Called by the ticking thread.
 
     LoopOutcome turn(LoopTime begin, bool has_missed_deadline) noexcept;
+    /// Shortly before turn(): loads what it will need into the processor's caches.
+    void prepareTurn() noexcept;
     /// As HapticDevice::ClockTick; `self` is a ServoCore.
     static void deviceTick(void* self, LoopTime now) noexcept;
 
@@ -133,6 +135,7 @@ private:
     // Used by the ticking thread.
     TickState tick_;
     DeviceSample sample_;
+    Vec3 shift_m_{}; // between the last two samples
     LoopCounts counts_;
     std::uint64_t ticks_ = 0;
     LoopTime read_at_{};  // when the last sample was read; 0: none

@@ -79,6 +79,10 @@ void ServoLoop::start()
         thread_.emplace(options_.thread, [core = core_, period = options_.thread.period,
                                           last_deadline =
                                               LoopTime{}](const LoopTick& tick) mutable noexcept {
+            if (tick.is_preparation) {
+                core->prepareTurn();
+                return LoopOutcome::GoOn;
+            }
             const LoopTime now = steady_clock::now();
             // Skipped turns, or one that is later than a whole period.
             const bool has_missed = tick.number > 0 && (tick.deadline - last_deadline > period ||

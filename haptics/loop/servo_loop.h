@@ -20,7 +20,8 @@
 namespace marsview {
 
 struct ServoLoopOptions {
-    RealTimeOptions thread;            // its period is set from the device
+    /// Its period is set from the device.
+    RealTimeOptions thread{.lead = std::chrono::microseconds(100)};
     std::optional<TickOptions> tick;   // empty: tickOptionsFor(the device)
     std::uint64_t ticks_max = 0;       // the loop ends after this many; 0: no limit
     std::size_t flight_ticks = 10'000; // capacity of the flight recorder

@@ -77,6 +77,58 @@ TEST(HapticTick, PressesBackByTheDepthInTheWorkspace)
     EXPECT_EQ(result.reason, ForceOffReason::None);
 }
 
+TEST(HapticTick, ARehearsalHasTheResultOfTheTickAndChangesNothing)
+{
+    const auto hills = [](std::size_t column, std::size_t row) {
+        return 10.0 + 3.0 * std::sin(0.4 * static_cast<double>(column)) +
+               2.0 * std::cos(0.3 * static_cast<double>(row));
+    };
+    for (const ContactModelKind kind : kContactModelKinds) {
+        Rig rehearsed(servoMap(201, 201, hills, {.kind = kind}));
+        Rig plain(servoMap(201, 201, hills, {.kind = kind}));
+        std::size_t contacts = 0;
+        for (int i = 0; i < 2000; ++i) {
+            const double t = 1e-3 * i;
+            const WorkspacePoint hand{0.03 * std::sin(3.0 * t), 0.02 * std::cos(4.0 * t),
+                                      -0.022 + 0.006 * std::sin(2.0 * t)};
+            plain.settings.is_grabbing = rehearsed.settings.is_grabbing = i > 1200 && i < 1600;
+            rehearsed.input.settings = &rehearsed.settings;
+            rehearsed.input.device = &rehearsed.device;
+            TickInput input = rehearsed.input;
+            input.now += std::chrono::milliseconds(1);
+            input.sample.position = hand;
+            input.sample.time = input.now;
+            StepResult expected;
+            {
+                const RtScope scope;
+                const auto allocations = RtScope::allocationCount();
+                expected = rehearse(rehearsed.options, input, rehearsed.state, kDt);
+                ASSERT_EQ(RtScope::allocationCount(), allocations);
+            }
+            const StepResult result = rehearsed.at(hand);
+            const StepResult without = plain.at(hand);
+            ASSERT_EQ(result.force_n, expected.force_n) << contactModelName(kind) << ' ' << i;
+            ASSERT_EQ(result.contact.proxy, expected.contact.proxy);
+            ASSERT_EQ(result.mode, expected.mode);
+            ASSERT_EQ(result.force_n, without.force_n) << "rehearsals change nothing";
+            ASSERT_EQ(result.contact.proxy, without.contact.proxy);
+            contacts += result.contact.is_in_contact ? 1U : 0U;
+        }
+        EXPECT_GT(contacts, 500U);
+    }
+}
+
+TEST(HapticTick, ReportsTheHeightOfTheSurfaceBelowTheHand)
+{
+    Rig rig; // 20 mm above the plane
+    EXPECT_NEAR(rig.at({}).surface_z_m, -0.02, 1e-12);
+    EXPECT_NEAR(rig.to({0.01, 0.0, -0.025}).surface_z_m, -0.02, 1e-12);
+    rig.settings.frame.scene_per_meter = 4000.0; // the edge of the map is at 25 mm
+    ++rig.settings.frame_number;
+    rig.to({0.02, 0.0, 0.02});
+    EXPECT_TRUE(std::isnan(rig.to({0.03, 0.0, 0.02}).surface_z_m)) << "beside the map";
+}
+
 TEST(HapticTick, FeelsASlopeAtARightAngleHoweverTheMapIsTurned)
 {
     const auto slope = [](std::size_t column, std::size_t) {

@@ -47,6 +47,30 @@ TEST(RealTimeThread, CallsAtWholePeriodsUntilStopped)
     EXPECT_EQ(thread.grants().locking_refusal, "not requested");
 }
 
+TEST(RealTimeThread, PreparesTurnsAheadOfTheirDeadline)
+{
+    RealTimeOptions options = quick();
+    options.period = 2ms;
+    options.lead = 1ms;
+    std::uint64_t turns = 0;
+    std::uint64_t prepared = 0;
+    RealTimeThread thread(options, [&](const LoopTick& turn) noexcept {
+        EXPECT_EQ(turn.number, turns);
+        if (turn.is_preparation) {
+            EXPECT_LT(std::chrono::steady_clock::now(), turn.deadline);
+            ++prepared;
+            return LoopOutcome::Stop; // ignored
+        }
+        EXPECT_GE(std::chrono::steady_clock::now(), turn.deadline);
+        return ++turns < 50 ? LoopOutcome::GoOn : LoopOutcome::Stop;
+    });
+    thread.join();
+    EXPECT_EQ(turns, 50U);
+    EXPECT_GT(prepared, 0U);
+    EXPECT_LE(prepared, 50U);
+    EXPECT_EQ(thread.statistics().tick.count(), 50U) << "preparations are not counted";
+}
+
 TEST(RealTimeThread, CountsATickThatTakesTooLong)
 {
     int turns = 0;
