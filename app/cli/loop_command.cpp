@@ -1,12 +1,15 @@
 // marsview-cli loop: runs the real servo thread on a device and reports its timing.
 
+#include "app/bench/followed_view.h"
 #include "app/cli/commands.h"
+#include "app/cli/flight_plot.h"
 #include "app/cli/loop_map.h"
 #include "app/cli/loop_outcome.h"
 #include "app/cli/loop_report.h"
 #include "app/cli/replay_notice.h"
 #include "app/console/long_job.h"
 #include "app/console/number_checks.h"
+#include "app/console/output_file.h"
 #include "app/console/text_output.h"
 #include "core/base/nearest_word.h"
 #include "core/files/file_address.h"
@@ -45,8 +48,10 @@ struct LoopOptions {
     double seconds = 10.0;
     std::optional<double> across_cells;
     double stiffness_n_per_m = 300.0;
+    double lead_us = 100.0;
     std::string record;
     std::string flight;
+    std::string plot;
     bool is_json = false;
 };
 
@@ -100,6 +105,21 @@ frameFor(const LoopOptions& options, const LoopMap& map, const DeviceCapabilitie
         frame.scene_per_meter = *options.across_cells * map.cell_m / (reach.high.x - reach.low.x);
     }
     return frame;
+}
+
+// The map as a camera of the view shows it.
+FollowedMap followedMap(const LoopMap& map, double exaggeration)
+{
+    const Georeference& georeference = map.opened->georeference();
+    return {.frame = georeference.sceneFrame(),
+            .columns = georeference.columns(),
+            .rows = georeference.rows(),
+            .limits = navigationLimits(map.box, map.cell_m),
+            .height_m = [opened = map.opened, exaggeration](double east_m, double north_m) {
+                const SceneFrame& frame = opened->georeference().sceneFrame();
+                return exaggeration *
+                       opened->heightfield().heightNow(frame.toGrid({east_m, north_m, 0.0}));
+            }};
 }
 
 // "replay:file:///a.csv" and "record:file:///a.csv,DEVICE" with the paths of their files.
@@ -177,9 +197,10 @@ LoopWatch::Clock::time_point watchedUntil(double seconds)
 
 Status runLoop(const LoopOptions& options)
 {
-    FilesInUse files{.maps = {options.map.path},
-                     .read = {},
-                     .written = {options.record, options.flight, recordedFile(options.device)}};
+    FilesInUse files{
+        .maps = {options.map.path},
+        .read = {},
+        .written = {options.record, options.flight, options.plot, recordedFile(options.device)}};
     if (isReplay(options.device)) {
         files.read.push_back(replayedFile(options.device));
     }
@@ -211,6 +232,8 @@ Status runLoop(const LoopOptions& options)
     ServoLoopOptions loop_options;
     loop_options.ticks_max =
         loop_options.thread.uncounted_turns + ticksWithin(options.seconds, rate_hz);
+    loop_options.thread.lead =
+        std::chrono::nanoseconds(static_cast<std::int64_t>(options.lead_us * 1e3));
     ServoLoop loop(std::move(device).value(), loop_options);
     std::unique_ptr<SessionRecorder> recorder;
     if (!options.record.empty()) {
@@ -226,15 +249,23 @@ Status runLoop(const LoopOptions& options)
     {
         LongJob job("running");
         end.takeSignals();
-        loop.set({.map = map->map,
-                  .frame = frameFor(options, *map, loop.device()),
-                  .frame_number = 1,
-                  .stiffness_n_per_m = options.stiffness_n_per_m});
-        constexpr std::chrono::milliseconds kLook{20};
+        LoopSettings settings;
+        settings.map = map->map;
+        settings.stiffness_n_per_m = options.stiffness_n_per_m;
+        FollowedView view(reachWithin(loop.device().workspace));
+        view.setMap(followedMap(*map, options.loop.exaggeration));
+        view.beginAt(frameFor(options, *map, loop.device()), settings);
+        loop.set(settings);
+        constexpr std::chrono::milliseconds kLook{16};
         const LoopWatch::Clock::time_point give_up = watchedUntil(options.seconds);
         while (!loop.hasEnded() && !end.isAskedFor() && !watch.isSilent() &&
                LoopWatch::Clock::now() < give_up) {
             std::this_thread::sleep_for(kLook);
+            const LoopState state = loop.state();
+            if (!isReplay(options.device) &&
+                view.follow(state.seen_frame, state.frame_number, state.mode, settings)) {
+                loop.set(settings);
+            }
             watch.look(loop, LoopWatch::Clock::now());
             job.monitor().report(std::min(1.0, static_cast<double>(loop.state().tick) /
                                                    static_cast<double>(loop_options.ticks_max)));
@@ -270,6 +301,15 @@ Status runLoop(const LoopOptions& options)
     }
     if (!options.flight.empty()) {
         if (Status written = saveFlight(loop.flight(), options.flight); !written) {
+            return written;
+        }
+    }
+    if (!options.plot.empty()) {
+        const std::string title =
+            fmt::format("{} on {}, {}", options.device, options.map.path, options.model);
+        const Status written =
+            writeOutputFile(options.plot, flightPlot(loop.flight().records(), title));
+        if (!written) {
             return written;
         }
     }
@@ -328,6 +368,12 @@ void addLoopCommand(CLI::App& app, CommandAction& run)
         ->capture_default_str()
         ->check(positiveNumber());
     command
+        ->add_option("--lead", options->lead_us,
+                     "microseconds before each update at which the loop loads what it needs into "
+                     "the processor's caches; 0: not at all")
+        ->capture_default_str()
+        ->check(numberFrom(0.0, 900.0));
+    command
         ->add_option("--record", options->record,
                      "CSV file for the recording; trace --goals and replay: read it")
         ->type_name("FILE")
@@ -335,6 +381,12 @@ void addLoopCommand(CLI::App& app, CommandAction& run)
     command
         ->add_option("--flight", options->flight,
                      "CSV file for the last ten seconds of the flight recorder")
+        ->type_name("FILE")
+        ->transform(fileName());
+    command
+        ->add_option("--plot", options->plot,
+                     "SVG file for a plot of the same seconds: force, height of the hand and of "
+                     "the surface below it")
         ->type_name("FILE")
         ->transform(fileName());
     command->add_flag("--json", options->is_json, "print JSON");

@@ -151,8 +151,8 @@ Status saveFlight(const FlightRecorder& flight, const std::string& path)
 
 Status saveFlight(const std::vector<TickRecord>& records, const std::string& path)
 {
-    Result<TraceFile> file =
-        TraceFile::begin(path, fmt::format("{},hand_x,hand_y,hand_z,tick_us", kSessionColumns));
+    Result<TraceFile> file = TraceFile::begin(
+        path, fmt::format("{},hand_x,hand_y,hand_z,tick_us,surface_z", kSessionColumns));
     if (!file) {
         return std::move(file).error();
     }
@@ -163,8 +163,9 @@ Status saveFlight(const std::vector<TickRecord>& records, const std::string& pat
         }
         std::string line = sessionLine(written, records.front().time_ns);
         line.pop_back();
-        file->write(fmt::format("{},{},{},{},{:.3f}\n", line, asText(record.hand.x),
-                                asText(record.hand.y), asText(record.hand.z), record.tick_us));
+        file->write(fmt::format("{},{},{},{},{:.3f},{}\n", line, asText(record.hand.x),
+                                asText(record.hand.y), asText(record.hand.z), record.tick_us,
+                                asText(record.surface_z_m)));
     }
     return file->close();
 }

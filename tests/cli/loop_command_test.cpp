@@ -20,7 +20,9 @@ namespace marsview::test {
 namespace {
 
 using testing::AllOf;
+using testing::EndsWith;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 nlohmann::json looped(std::vector<std::string> more)
@@ -350,6 +352,7 @@ TEST(LoopCommand, DoesNotOverwriteTheReplayedFile)
     for (const std::vector<std::string>& more :
          {std::vector<std::string>{"--device", "sim:", "--record", map},
           {"--device", "sim:", "--flight", map},
+          {"--device", "sim:", "--plot", map},
           {"--device", "record:" + map + ",sim:"}}) {
         std::vector<std::string> arguments{"loop", map, "--seconds", "0.1"};
         arguments.insert(arguments.end(), more.begin(), more.end());
@@ -359,6 +362,27 @@ TEST(LoopCommand, DoesNotOverwriteTheReplayedFile)
                     HasSubstr("is an input raster or a part of one; choose another output file"));
         EXPECT_TRUE(readFile(map) == before) << more.back();
     }
+}
+
+TEST(LoopCommand, PlotsForceAndHeightsOfAFlight)
+{
+    const TempFolder folder;
+    const std::string flight = folder.file("f.csv");
+    const std::string plot = folder.file("f.svg");
+    const ProgramOutput output =
+        runCli({"loop", bundledMars(), "--device", "sim:grab_s=0.5,press=0.4,twist=90", "--seconds",
+                "1", "--flight", flight, "--plot", plot});
+    ASSERT_EQ(output.exit_status, 0) << output.err;
+    EXPECT_THAT(readFile(flight).substr(0, readFile(flight).find('\n')), EndsWith(",surface_z"));
+    const std::string svg = readFile(plot);
+    EXPECT_THAT(svg, StartsWith("<svg "));
+    EXPECT_THAT(svg, EndsWith("</svg>\n"));
+    for (const char* name : {"force on the hand, N", "upward", "height in the workspace, mm",
+                             "surface below the hand", "time, s", "twist=90"}) {
+        EXPECT_THAT(svg, HasSubstr(name));
+    }
+    EXPECT_THAT(svg, Not(HasSubstr("nan")));
+    EXPECT_THAT(svg, Not(HasSubstr("inf")));
 }
 
 TEST(LoopCommand, ReportsARecordingWithOtherContactSettings)

@@ -49,6 +49,7 @@ public:
                                {"press", &options.press_n, 0.0, 10.0},
                                {"lift_s", &options.lift_s, 0.0, 1e6},
                                {"grab_s", &options.grab_s, 0.0, 1e6},
+                               {"twist", &options.twist_deg_per_s, -720.0, 720.0},
                                {"speed", &options.speed_m_per_s, 0.0, 10.0},
                                {"swipe", &numbers.swipe_cells, 0.0, 1e6},
                                {"cell_m", &numbers.cell_m, 0.0, 1.0}});
@@ -114,8 +115,13 @@ DeviceStatus SimDevice::read(DeviceSample& sample) noexcept
 {
     wander();
     hand_.advance(1.0 / options_.rate_hz);
+    const bool is_grabbing = isTimeFor(options_.grab_s, 0.2, hand_.seconds());
+    if (is_grabbing) {
+        twist_rad_ += options_.twist_deg_per_s * std::numbers::pi / 180.0 / options_.rate_hz;
+    }
     sample = {.position = hand_.measured(),
-              .buttons = isTimeFor(options_.grab_s, 0.2, hand_.seconds()) ? 1U : 0U,
+              .twist_rad = twist_rad_,
+              .buttons = is_grabbing ? 1U : 0U,
               .time = std::chrono::steady_clock::now()};
     return DeviceStatus::Fine;
 }

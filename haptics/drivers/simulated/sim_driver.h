@@ -12,10 +12,11 @@ struct SimOptions {
     HandOptions hand;
     double force_n_peak = 3.3;
     double stiffness_n_per_m_max = 500.0;
-    double speed_m_per_s = 0.05; // of its strokes
-    double press_n = 0.7;        // onto the surface
-    double lift_s = 5.0;         // interval at which it leaves the surface for a moment; 0: never
-    double grab_s = 0.0;         // interval at which it holds the button for a moment; 0: never
+    double speed_m_per_s = 0.05;  // of its strokes
+    double press_n = 0.7;         // onto the surface
+    double lift_s = 5.0;          // interval at which it leaves the surface for a moment; 0: never
+    double grab_s = 0.0;          // interval at which it holds the button for a moment; 0: never
+    double twist_deg_per_s = 0.0; // of the stylus while it holds the button, counterclockwise
     double rate_hz = 1000.0;
 };
 
@@ -45,12 +46,13 @@ private:
     double turn_rad_per_s_ = 0.0;
     double until_turn_s_ = 0.0;
     double lift_from_m_ = 0.0; // the height at which a lift begins
+    double twist_rad_ = 0.0;
 };
 
 /// Scheme "sim". The address is a list like "mass=0.1,delay_ms=2,seed=3". Names: mass (kg), damping
 /// (N s/m), grip (N/m), tremor_mm, encoder_mm, delay_ms, seed, force (N), stiffness (N/m), press
-/// (N), lift_s, grab_s, speed (m/s); or, instead of speed, swipe (cells per update) with cell_m
-/// (width of a cell in workspace meters, which `marsview-cli loop` adds).
+/// (N), lift_s, grab_s, twist (degrees per second), speed (m/s); or, instead of speed, swipe (cells
+/// per update) with cell_m (width of a cell in workspace meters, which `marsview-cli loop` adds).
 std::unique_ptr<DeviceDriver> makeSimDriver();
 
 } // namespace marsview

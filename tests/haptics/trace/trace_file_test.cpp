@@ -109,7 +109,7 @@ TEST(SaveFlight, WritesTheLastTicksWhileMoreAreAdded)
     EXPECT_EQ(goals->back().x, 1000.0);
     EXPECT_TRUE(std::isnan((*goals)[199].x)) << "a tick without a request";
     EXPECT_THAT(readFile(path), StartsWith(std::string(kSessionColumns) + ",hand_x,hand_y,hand_z,"
-                                                                          "tick_us\n"));
+                                                                          "tick_us,surface_z\n"));
     // As the window does it, with the loop running.
     std::atomic<bool> is_stopping{false};
     std::thread servo([&] {

@@ -78,7 +78,7 @@ protected:
         EXPECT_TRUE(text.open(QIODevice::ReadOnly));
         const QList<QByteArray> lines = text.readAll().trimmed().split('\n');
         EXPECT_EQ(lines[0].toStdString(),
-                  std::string(kSessionColumns) + ",hand_x,hand_y,hand_z,tick_us");
+                  std::string(kSessionColumns) + ",hand_x,hand_y,hand_z,tick_us,surface_z");
         QList<QList<QByteArray>> rows;
         for (const QByteArray& line : lines.sliced(1)) {
             rows.append(line.split(','));
