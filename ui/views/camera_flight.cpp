@@ -22,8 +22,9 @@ CameraFlight::CameraFlight(TerrainView& view, QObject* parent)
     timer_.setInterval(kFlightFrame);
     connect(&timer_, &QTimer::timeout, this, &CameraFlight::advance);
     connect(&view_, &TerrainView::sightChanged, this, [this] {
-        if (!is_moving_) {
-            yieldToInput();
+        // A change of the window's size changes what is in sight too, but not the camera.
+        if (isPlaying() && !is_moving_ && (view_.isMoving() || view_.camera() != set_)) {
+            interrupt();
         }
     });
 }
@@ -43,25 +44,21 @@ void CameraFlight::stop()
     timer_.stop();
 }
 
-// A change of the window's size changes what is in sight too, but not the camera.
-bool CameraFlight::yieldToInput()
+void CameraFlight::interrupt()
 {
-    if (!isPlaying() || (!view_.isMoving() && view_.camera() == set_)) {
-        return false;
-    }
     stop();
     Q_EMIT interrupted();
-    return true;
 }
 
 void CameraFlight::advance()
 {
-    // A motion that has begun since the last frame would end with the next position of the path.
-    if (!yieldToInput()) {
-        show(std::min(begin_ + static_cast<double>(clock_.elapsed()) /
-                                   static_cast<double>(duration_.count()),
-                      1.0));
+    if (view_.isMoving()) { // the next position of the path would end this motion unseen
+        interrupt();
+        return;
     }
+    show(std::min(begin_ + static_cast<double>(clock_.elapsed()) /
+                               static_cast<double>(duration_.count()),
+                  1.0));
 }
 
 void CameraFlight::show(double share)

@@ -39,7 +39,7 @@ Q_SIGNALS:
 private:
     void advance();
     void show(double share);
-    bool yieldToInput(); // whether the flight has ended
+    void interrupt();
 
     TerrainView& view_;
     std::optional<CameraPath> path_;
