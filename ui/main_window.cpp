@@ -5,11 +5,14 @@
 #include "ui/commands/picture_saver.h"
 #include "ui/commands/stretch_control.h"
 #include "ui/commands/window_commands.h"
+#include "ui/controllers/annotation_controller.h"
 #include "ui/controllers/haptics/haptics_controller.h"
 #include "ui/controllers/measure_controller.h"
+#include "ui/overlay/annotation_marks.h"
 #include "ui/overlay/map_labels.h"
 #include "ui/overlay/map_overlays.h"
 #include "ui/overlay/measure_marks.h"
+#include "ui/panels/annotation_panel.h"
 #include "ui/panels/georeferencing_panel.h"
 #include "ui/panels/haptics_panel.h"
 #include "ui/panels/layers_panel.h"
@@ -95,13 +98,18 @@ MainWindow::MainWindow(const WindowOptions& options, QWidget* parent)
     , measure_(new MeasureController(*view_, controller_->undoStack(), this))
     , measure_marks_(new MeasureMarks(*measure_, view_))
     , measure_panel_(new MeasurePanel(*measure_, this))
+    , annotate_(new AnnotationController(*view_, controller_->undoStack(), this))
+    , annotation_marks_(new AnnotationMarks(*annotate_, view_))
+    , annotation_panel_(new AnnotationPanel(
+          *annotate_, *actions_->import_annotations, *actions_->export_annotations, this))
     , views_panel_(new SavedViewsPanel(this))
     , docks_(new WindowDocks(*this,
                              {.datasets = datasets_,
                               .views = views_panel_,
                               .georeferencing = georeferencing_,
                               .haptics = haptics_panel_,
-                              .measurements = measure_panel_}))
+                              .measurements = measure_panel_,
+                              .annotations = annotation_panel_}))
     , tool_bar_(new MainToolBar(*actions_, this))
     , readout_(new StatusReadout(this))
     , load_status_(new LoadStatus(this))
@@ -130,7 +138,8 @@ MainWindow::MainWindow(const WindowOptions& options, QWidget* parent)
     connect(actions_->quit, &QAction::triggered, this, &MainWindow::close);
     makeCommands();
     connectSession();
-    placeMeasureMarks();
+    placeMarks();
+    snapToEachOther();
     if (options_.isRemembered()) {
         offerHintOnce(*overlays_);
         restoreWindow(*this, *docks_, *overlays_);
@@ -147,7 +156,8 @@ MainWindow::MainWindow(const WindowOptions& options, QWidget* parent)
 MainWindow::~MainWindow()
 {
     commands_.reset();
-    delete measure_;       // it is the view's tool
+    delete measure_; // they are the view's tools
+    delete annotate_;
     delete haptics_panel_; // it looks at the controller
     delete haptics_;       // and that at the view
 }
@@ -184,6 +194,7 @@ void MainWindow::fillViewMenus()
     actions_->panels->addAction(docks_->georeferencing()->toggleViewAction());
     actions_->panels->addAction(docks_->haptics()->toggleViewAction());
     actions_->panels->addAction(docks_->measurements()->toggleViewAction());
+    actions_->panels->addAction(docks_->annotations()->toggleViewAction());
     actions_->panels->addSeparator();
     actions_->panels->addActions(overlays_->visibilityActions());
     actions_->view_menu->insertActions(actions_->panels->menuAction(), overlays_->terrainActions());
@@ -205,7 +216,9 @@ void MainWindow::makeCommands()
                             .overlays = *overlays_,
                             .haptics = *haptics_,
                             .measuring = *measure_,
+                            .annotating = *annotate_,
                             .measure_marks = *measure_marks_,
+                            .annotation_marks = *annotation_marks_,
                             .pictures = *picture_saver_,
                             .stretch = *stretch_,
                             .docks = *docks_,
@@ -213,6 +226,7 @@ void MainWindow::makeCommands()
                             .georeferencing = *georeferencing_,
                             .haptics_panel = *haptics_panel_,
                             .measure_panel = *measure_panel_,
+                            .annotation_panel = *annotation_panel_,
                             .views_panel = *views_panel_,
                             .tool_bar = *tool_bar_,
                             .light = *light_popup_,
@@ -237,12 +251,31 @@ void MainWindow::connectSession()
     connect(&commands_->haptics, &HapticsCommands::changed, this, &MainWindow::showPreparation);
 }
 
-void MainWindow::placeMeasureMarks()
+void MainWindow::placeMarks()
 {
-    measure_marks_->setObstacles(overlays_->plates());
-    measure_marks_->lower();
-    overlays_->labels()->lower(); // names give way to measurements
-    picture_saver_->setMarks(*measure_marks_);
+    for (DrawnMarks* marks :
+         {static_cast<DrawnMarks*>(measure_marks_), static_cast<DrawnMarks*>(annotation_marks_)}) {
+        marks->setObstacles(overlays_->plates());
+        marks->lower();
+    }
+    overlays_->labels()->lower(); // names give way to measurements and annotations
+    picture_saver_->addMarks(*annotation_marks_);
+    picture_saver_->addMarks(*measure_marks_);
+}
+
+// Points of one kind snap to those of both.
+void MainWindow::snapToEachOther()
+{
+    const auto to_measurements = [this](QPointF position) {
+        return measure_->vertexNear(position);
+    };
+    const auto to_annotations = [this](QPointF position) {
+        return annotate_->vertexNear(position);
+    };
+    measure_->addSnap(to_measurements);
+    measure_->addSnap(to_annotations);
+    annotate_->addSnap(to_annotations);
+    annotate_->addSnap(to_measurements);
 }
 
 void MainWindow::open(const QString& file)
@@ -275,6 +308,7 @@ void MainWindow::showSession()
     commands_->layers.showSession();
     overlays_->setSession(session());
     measure_->setSession(session());
+    annotate_->setSession(session());
     commands_->vector_files.setSession(session());
     showActive();
     commands_->progress.settleIfIdle();

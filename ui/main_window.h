@@ -11,6 +11,9 @@
 
 namespace marsview {
 
+class AnnotationController;
+class AnnotationMarks;
+class AnnotationPanel;
 class GeoreferencingPanel;
 class HapticsController;
 class HapticsPanel;
@@ -58,6 +61,8 @@ public:
     HapticsPanel* hapticsPanel() const noexcept { return haptics_panel_; }
     MeasureController* measuring() const noexcept { return measure_; }
     MeasurePanel* measurePanel() const noexcept { return measure_panel_; }
+    AnnotationController* annotating() const noexcept { return annotate_; }
+    AnnotationPanel* annotationPanel() const noexcept { return annotation_panel_; }
     SavedViewsPanel* savedViewsPanel() const noexcept { return views_panel_; }
     HapticsController& haptics() noexcept { return *haptics_; }
     WindowDocks* docks() const noexcept { return docks_; }
@@ -96,7 +101,8 @@ private:
     void fillViewMenus();
     void makeCommands();
     void connectSession();
-    void placeMeasureMarks();
+    void placeMarks();
+    void snapToEachOther();
     void showSession();
     void showActive();
     void showTitle();
@@ -118,6 +124,9 @@ private:
     MeasureController* measure_ = nullptr;
     MeasureMarks* measure_marks_ = nullptr;
     MeasurePanel* measure_panel_ = nullptr;
+    AnnotationController* annotate_ = nullptr;
+    AnnotationMarks* annotation_marks_ = nullptr;
+    AnnotationPanel* annotation_panel_ = nullptr;
     SavedViewsPanel* views_panel_ = nullptr;
     WindowDocks* docks_ = nullptr;
     WindowPlace* place_ = nullptr; // only where the window is remembered

@@ -2,6 +2,45 @@
 <!DOCTYPE TS>
 <TS version="2.1" language="de" sourcelanguage="en">
 <context>
+    <name>Annotation</name>
+    <message>
+        <source>Point</source>
+        <translation>Punkt</translation>
+    </message>
+    <message>
+        <source>Line</source>
+        <translation>Linie</translation>
+    </message>
+    <message>
+        <source>Polygon</source>
+        <translation>Polygon</translation>
+    </message>
+    <message>
+        <source>Circle</source>
+        <translation>Kreis</translation>
+    </message>
+    <message>
+        <source>Square</source>
+        <translation>Quadrat</translation>
+    </message>
+    <message>
+        <source>Triangle</source>
+        <translation>Dreieck</translation>
+    </message>
+    <message>
+        <source>Diamond</source>
+        <translation>Raute</translation>
+    </message>
+    <message>
+        <source>Star</source>
+        <translation>Stern</translation>
+    </message>
+    <message>
+        <source>Cross</source>
+        <translation>Kreuz</translation>
+    </message>
+</context>
+<context>
     <name>ColorRamp</name>
     <message>
         <source>Dawn</source>
@@ -22,6 +61,51 @@
         <source>Diverging (at 0)</source>
         <extracomment>A color ramp with different colors below and above the elevation 0</extracomment>
         <translation>Divergierend (um 0)</translation>
+    </message>
+</context>
+<context>
+    <name>Drawing</name>
+    <message>
+        <source>Remove %1</source>
+        <extracomment>A step of undo; %1 is a name</extracomment>
+        <translation>%1 entfernen</translation>
+    </message>
+    <message>
+        <source>Remove %1 Items</source>
+        <translation>%1 Objekte entfernen</translation>
+    </message>
+    <message>
+        <source>Rename</source>
+        <translation>Umbenennen</translation>
+    </message>
+    <message>
+        <source>Edit Note</source>
+        <translation>Notiz bearbeiten</translation>
+    </message>
+    <message>
+        <source>Color of %1</source>
+        <translation>Farbe von %1</translation>
+    </message>
+    <message>
+        <source>Color of %1 Items</source>
+        <translation>Farbe von %1 Objekten</translation>
+    </message>
+    <message>
+        <source>Remove Point</source>
+        <translation>Punkt entfernen</translation>
+    </message>
+    <message>
+        <source>Move Point</source>
+        <translation>Punkt verschieben</translation>
+    </message>
+    <message>
+        <source>Add Point to %1</source>
+        <extracomment>A step of undo; %1 is a name</extracomment>
+        <translation>Punkt zu %1 hinzufügen</translation>
+    </message>
+    <message>
+        <source>Insert Point</source>
+        <translation>Punkt einfügen</translation>
     </message>
 </context>
 <context>
@@ -101,21 +185,21 @@
         <translation>Dorthin fliegen</translation>
     </message>
     <message>
-        <source>Add a point to the measurement</source>
-        <translation>Der Messung einen Punkt hinzufügen</translation>
-    </message>
-    <message>
-        <source>Move a point of the measurement</source>
-        <translation>Einen Punkt der Messung verschieben</translation>
-    </message>
-    <message>
-        <source>Finish the measurement</source>
-        <translation>Die Messung abschließen</translation>
-    </message>
-    <message>
         <source>Context menu</source>
         <extracomment>Of the place on the map that is clicked</extracomment>
         <translation>Kontextmenü</translation>
+    </message>
+    <message>
+        <source>Add a point</source>
+        <translation>Einen Punkt hinzufügen</translation>
+    </message>
+    <message>
+        <source>Move a point</source>
+        <translation>Einen Punkt verschieben</translation>
+    </message>
+    <message>
+        <source>Finish the measurement or annotation</source>
+        <translation>Die Messung oder Anmerkung beenden</translation>
     </message>
 </context>
 <context>
@@ -673,8 +757,22 @@
         <translation>Ziehen mit der linken Taste dreht und neigt die Ansicht um das Gelände in der Bildmitte.</translation>
     </message>
     <message>
-        <source>A click, or Enter, places a point of the measurement; a double click, or Enter again in the same place, finishes it. Drag a point to move it, drag a line to insert one; Backspace removes the last one. Choose what to measure in the Measure menu.</source>
-        <translation>Ein Klick oder die Eingabetaste setzt einen Punkt der Messung; ein Doppelklick oder nochmals die Eingabetaste am selben Ort schließt sie ab. Ziehen Sie einen Punkt, um ihn zu verschieben, oder eine Linie, um einen einzufügen; die Rücktaste entfernt den letzten. Was gemessen wird, wählen Sie im Menü Messen.</translation>
+        <source>&amp;Annotate</source>
+        <extracomment>A tool: clicks place the points of an annotation</extracomment>
+        <translation>&amp;Anmerken</translation>
+    </message>
+    <message>
+        <source>Click to draw points, lines and polygons (%1)</source>
+        <extracomment>%1 is a key</extracomment>
+        <translation>Klicken, um Punkte, Linien und Polygone zu zeichnen (%1)</translation>
+    </message>
+    <message>
+        <source>A click, or Enter, places a point of the measurement; a double click, or Enter again in the same place, finishes it. Drag a point to move it, drag a line to insert one; Backspace removes the last one, or the one under the pointer. Choose what to measure in the Measure menu.</source>
+        <translation>Ein Klick oder die Eingabetaste setzt einen Punkt der Messung; ein Doppelklick oder die Eingabetaste noch einmal an derselben Stelle beendet sie. Einen Punkt ziehen verschiebt ihn, eine Linie ziehen fügt einen ein; die Rücktaste entfernt den letzten oder den unter dem Zeiger. Was gemessen wird, steht im Menü Messen.</translation>
+    </message>
+    <message>
+        <source>A click, or Enter, places a point of the annotation; a double click, or Enter again in the same place, finishes a line or polygon. Drag a point to move it, drag a line to insert one; Backspace removes the last one, or the one under the pointer. Choose what to draw in the Annotate menu.</source>
+        <translation>Ein Klick oder die Eingabetaste setzt einen Punkt der Anmerkung; ein Doppelklick oder die Eingabetaste noch einmal an derselben Stelle beendet eine Linie oder ein Polygon. Einen Punkt ziehen verschiebt ihn, eine Linie ziehen fügt einen ein; die Rücktaste entfernt den letzten oder den unter dem Zeiger. Was gezeichnet wird, steht im Menü Anmerken.</translation>
     </message>
 </context>
 <context>
@@ -951,6 +1049,10 @@
         <source>%1 was unplugged</source>
         <extracomment>In the status bar, for a few seconds; %1 is a device</extracomment>
         <translation>%1 wurde ausgesteckt</translation>
+    </message>
+    <message>
+        <source>Annotations</source>
+        <translation>Anmerkungen</translation>
     </message>
 </context>
 <context>
@@ -1293,6 +1395,124 @@
     </message>
 </context>
 <context>
+    <name>marsview::AnnotationCommands</name>
+    <message>
+        <source>Import Annotations</source>
+        <translation>Anmerkungen importieren</translation>
+    </message>
+    <message>
+        <source>Vector files (*.gpkg *.geojson *.json *.kml *.shp *.csv)</source>
+        <translation>Vektordateien (*.gpkg *.geojson *.json *.kml *.shp *.csv)</translation>
+    </message>
+    <message>
+        <source>All files (*)</source>
+        <translation>Alle Dateien (*)</translation>
+    </message>
+    <message>
+        <source>Import %1</source>
+        <extracomment>A step of undo; %1 is a file</extracomment>
+        <translation>%1 importieren</translation>
+    </message>
+    <message>
+        <source>%L1 annotations imported from %2</source>
+        <extracomment>In the status bar; %1 is a number, %2 a file</extracomment>
+        <translation>%L1 Anmerkungen aus %2 importiert</translation>
+    </message>
+    <message>
+        <source>%1 states longitude and latitude on the Earth, but the map is of %2. Read them as longitude and latitude on %2?</source>
+        <extracomment>%1 is a file, %2 a body</extracomment>
+        <translation>%1 nennt Länge und Breite auf der Erde, aber die Karte zeigt %2. Sollen sie als Länge und Breite auf %2 gelesen werden?</translation>
+    </message>
+    <message>
+        <source>Export Annotations</source>
+        <translation>Anmerkungen exportieren</translation>
+    </message>
+    <message>
+        <source>GeoPackage (*.gpkg)</source>
+        <translation>GeoPackage (*.gpkg)</translation>
+    </message>
+    <message>
+        <source>GeoJSON (*.geojson)</source>
+        <translation>GeoJSON (*.geojson)</translation>
+    </message>
+    <message>
+        <source>KML (*.kml)</source>
+        <translation>KML (*.kml)</translation>
+    </message>
+    <message>
+        <source>Shapefile (*.shp)</source>
+        <translation>Shapefile (*.shp)</translation>
+    </message>
+    <message>
+        <source>CSV table (*.csv)</source>
+        <translation>CSV-Tabelle (*.csv)</translation>
+    </message>
+    <message>
+        <source>annotations</source>
+        <translation>Anmerkungen</translation>
+    </message>
+</context>
+<context>
+    <name>marsview::AnnotationController</name>
+    <message>
+        <source>Point %1</source>
+        <translation>Punkt %1</translation>
+    </message>
+    <message>
+        <source>Line %1</source>
+        <translation>Linie %1</translation>
+    </message>
+    <message>
+        <source>Polygon %1</source>
+        <translation>Polygon %1</translation>
+    </message>
+    <message>
+        <source>Change Symbol</source>
+        <translation>Symbol ändern</translation>
+    </message>
+</context>
+<context>
+    <name>marsview::AnnotationList</name>
+    <message>
+        <source>Name</source>
+        <translation>Name</translation>
+    </message>
+    <message>
+        <source>Type</source>
+        <translation>Art</translation>
+    </message>
+    <message>
+        <source>Note</source>
+        <translation>Notiz</translation>
+    </message>
+    <message>
+        <source>Body</source>
+        <translation>Himmelskörper</translation>
+    </message>
+    <message>
+        <source>Annotations</source>
+        <translation>Anmerkungen</translation>
+    </message>
+    <message>
+        <source>&amp;Symbol</source>
+        <translation>&amp;Symbol</translation>
+    </message>
+</context>
+<context>
+    <name>marsview::AnnotationMarks</name>
+    <message>
+        <source>Annotations on the map</source>
+        <translation>Anmerkungen auf der Karte</translation>
+    </message>
+</context>
+<context>
+    <name>marsview::AnnotationPanel</name>
+    <message>
+        <source>Choose Point, Line or Polygon in the Annotate menu and click on the map.</source>
+        <translation>Wählen Sie im Menü Anmerken Punkt, Linie oder Polygon und klicken Sie auf die Karte.</translation>
+    </message>
+</context>
+<context>
     <name>marsview::AttitudesView</name>
     <message>
         <source>Diagram of attitudes</source>
@@ -1518,6 +1738,33 @@
         <source>%1 was lost: %2</source>
         <extracomment>%1 is a device, %2 a sentence about it</extracomment>
         <translation>%1 ging verloren: %2</translation>
+    </message>
+</context>
+<context>
+    <name>marsview::DrawnList</name>
+    <message>
+        <source>&amp;Go There</source>
+        <translation>&amp;Gehe dorthin</translation>
+    </message>
+    <message>
+        <source>Re&amp;name</source>
+        <translation>&amp;Umbenennen</translation>
+    </message>
+    <message>
+        <source>Edit No&amp;te</source>
+        <translation>&amp;Notiz bearbeiten</translation>
+    </message>
+    <message>
+        <source>&amp;Color…</source>
+        <translation>&amp;Farbe …</translation>
+    </message>
+    <message>
+        <source>&amp;Usual Color</source>
+        <translation>&amp;Übliche Farbe</translation>
+    </message>
+    <message>
+        <source>&amp;Remove</source>
+        <translation>&amp;Entfernen</translation>
     </message>
 </context>
 <context>
@@ -3205,40 +3452,8 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
 <context>
     <name>marsview::MeasureController</name>
     <message>
-        <source>Remove %1</source>
-        <translation>%1 entfernen</translation>
-    </message>
-    <message>
-        <source>Rename Measurement</source>
-        <translation>Messung umbenennen</translation>
-    </message>
-    <message>
-        <source>Edit Note</source>
-        <translation>Notiz bearbeiten</translation>
-    </message>
-    <message>
-        <source>Color of %1</source>
-        <translation>Farbe von %1</translation>
-    </message>
-    <message>
         <source>Remove All Measurements</source>
         <translation>Alle Messungen entfernen</translation>
-    </message>
-    <message>
-        <source>Remove Point</source>
-        <translation>Punkt entfernen</translation>
-    </message>
-    <message>
-        <source>Move Point</source>
-        <translation>Punkt verschieben</translation>
-    </message>
-    <message>
-        <source>Add Point to %1</source>
-        <translation>Punkt zu %1 hinzufügen</translation>
-    </message>
-    <message>
-        <source>Insert Point</source>
-        <translation>Punkt einfügen</translation>
     </message>
 </context>
 <context>
@@ -3267,30 +3482,6 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
         <source>removed</source>
         <extracomment>The layer on which a measurement was made</extracomment>
         <translation>entfernt</translation>
-    </message>
-    <message>
-        <source>&amp;Go There</source>
-        <translation>&amp;Gehe dorthin</translation>
-    </message>
-    <message>
-        <source>Re&amp;name</source>
-        <translation>&amp;Umbenennen</translation>
-    </message>
-    <message>
-        <source>Edit No&amp;te</source>
-        <translation>&amp;Notiz bearbeiten</translation>
-    </message>
-    <message>
-        <source>&amp;Color…</source>
-        <translation>&amp;Farbe …</translation>
-    </message>
-    <message>
-        <source>&amp;Usual Color</source>
-        <translation>&amp;Übliche Farbe</translation>
-    </message>
-    <message>
-        <source>&amp;Remove</source>
-        <translation>&amp;Entfernen</translation>
     </message>
 </context>
 <context>
@@ -3896,6 +4087,10 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
     <message>
         <source>The project is saved, but not the GeoPackage of its measurements: %1</source>
         <translation>Das Projekt ist gespeichert, aber nicht das GeoPackage seiner Messungen: %1</translation>
+    </message>
+    <message>
+        <source>The project is saved, but not the GeoPackage of its annotations: %1</source>
+        <translation>Das Projekt ist gespeichert, aber nicht das GeoPackage mit seinen Anmerkungen: %1</translation>
     </message>
 </context>
 <context>
@@ -5249,6 +5444,69 @@ Bewegen Sie die Karte zu einer Ansicht, die Sie behalten wollen, und drücken Si
         <source>Not available: the selected layer is not in the picture. Show it first</source>
         <translation>Nicht verfügbar: Der ausgewählte Layer ist nicht im Bild. Zeigen Sie ihn zuerst</translation>
     </message>
+    <message>
+        <source>&amp;Annotate</source>
+        <translation>&amp;Anmerken</translation>
+    </message>
+    <message>
+        <source>&amp;Point</source>
+        <extracomment>An annotation</extracomment>
+        <translation>&amp;Punkt</translation>
+    </message>
+    <message>
+        <source>Click to mark a place with a symbol and a name</source>
+        <translation>Klicken, um eine Stelle mit Symbol und Namen zu markieren</translation>
+    </message>
+    <message>
+        <source>&amp;Line</source>
+        <extracomment>An annotation</extracomment>
+        <translation>&amp;Linie</translation>
+    </message>
+    <message>
+        <source>Click along a line; a double click finishes it</source>
+        <translation>Entlang einer Linie klicken; ein Doppelklick beendet sie</translation>
+    </message>
+    <message>
+        <source>P&amp;olygon</source>
+        <extracomment>An annotation</extracomment>
+        <translation>P&amp;olygon</translation>
+    </message>
+    <message>
+        <source>Click around an area; a double click finishes it</source>
+        <translation>Um eine Fläche herum klicken; ein Doppelklick beendet sie</translation>
+    </message>
+    <message>
+        <source>&amp;Finish Annotation</source>
+        <translation>Anmerkung &amp;beenden</translation>
+    </message>
+    <message>
+        <source>The next click begins another annotation</source>
+        <translation>Der nächste Klick beginnt eine andere Anmerkung</translation>
+    </message>
+    <message>
+        <source>&amp;Remove Annotations</source>
+        <translation>Anmerkungen &amp;entfernen</translation>
+    </message>
+    <message>
+        <source>Remove the annotations that are selected in the panel; Undo brings them back</source>
+        <translation>Entfernt die Anmerkungen, die im Bedienfeld ausgewählt sind; Rückgängig holt sie zurück</translation>
+    </message>
+    <message>
+        <source>&amp;Import…</source>
+        <translation>&amp;Importieren …</translation>
+    </message>
+    <message>
+        <source>Add the points, lines and polygons of a GeoPackage, GeoJSON, KML, Shapefile or CSV file</source>
+        <translation>Punkte, Linien und Polygone einer GeoPackage-, GeoJSON-, KML-, Shapefile- oder CSV-Datei hinzufügen</translation>
+    </message>
+    <message>
+        <source>&amp;Export…</source>
+        <translation>E&amp;xportieren …</translation>
+    </message>
+    <message>
+        <source>Save the annotations as GeoPackage, GeoJSON, KML, Shapefile or CSV</source>
+        <translation>Die Anmerkungen als GeoPackage, GeoJSON, KML, Shapefile oder CSV speichern</translation>
+    </message>
 </context>
 <context>
     <name>marsview::WindowDocks</name>
@@ -5271,6 +5529,10 @@ Bewegen Sie die Karte zu einer Ansicht, die Sie behalten wollen, und drücken Si
     <message>
         <source>Views</source>
         <translation>Ansichten</translation>
+    </message>
+    <message>
+        <source>Annotations</source>
+        <translation>Anmerkungen</translation>
     </message>
 </context>
 <context>

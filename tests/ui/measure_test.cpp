@@ -393,7 +393,7 @@ TEST_F(MeasureTest, NotesAndColorsAreStepsOfUndoAndPartOfTheProject)
         const QColor seen = view().terrainPicture().pixelColor(position);
         return seen.red() > 200 && seen.green() < 80 && seen.blue() < 80;
     };
-    const std::vector<MeasureHandle> handles = measuring().handles();
+    const std::vector<DrawnHandle> handles = measuring().handles();
     ASSERT_EQ(handles.size(), 2U);
     const QPointF between = 0.5 * (handles[0].place + handles[1].place);
     EXPECT_TRUE(is_red_at((0.7 * between + 0.3 * handles[0].place).toPoint()));

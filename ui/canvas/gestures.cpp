@@ -23,7 +23,12 @@ constexpr std::array kBindings{
     GestureBinding{Gesture::Click, Qt::LeftButton, Qt::NoModifier, Tool::Measure,
                    MapAction::AddPoint},
     GestureBinding{Gesture::DoubleClick, Qt::LeftButton, Qt::NoModifier, Tool::Measure,
-                   MapAction::FinishMeasurement},
+                   MapAction::FinishDrawing},
+    GestureBinding{Gesture::Drag, Qt::LeftButton, Qt::NoModifier, Tool::Annotate, MapAction::Pan},
+    GestureBinding{Gesture::Click, Qt::LeftButton, Qt::NoModifier, Tool::Annotate,
+                   MapAction::AddPoint},
+    GestureBinding{Gesture::DoubleClick, Qt::LeftButton, Qt::NoModifier, Tool::Annotate,
+                   MapAction::FinishDrawing},
     GestureBinding{Gesture::Drag, Qt::RightButton, Qt::NoModifier, std::nullopt, MapAction::Orbit},
     GestureBinding{Gesture::Drag, Qt::MiddleButton, Qt::NoModifier, std::nullopt, MapAction::Orbit},
     GestureBinding{Gesture::WheelWhilePressing, Qt::NoButton, Qt::NoModifier, Tool::Touch,
@@ -119,11 +124,11 @@ QString actionText(MapAction action)
     case MapAction::FlyThere:
         return gestureTr(QT_TRANSLATE_NOOP("Gestures", "Fly there"));
     case MapAction::AddPoint:
-        return gestureTr(QT_TRANSLATE_NOOP("Gestures", "Add a point to the measurement"));
+        return gestureTr(QT_TRANSLATE_NOOP("Gestures", "Add a point"));
     case MapAction::MovePoint:
-        return gestureTr(QT_TRANSLATE_NOOP("Gestures", "Move a point of the measurement"));
-    case MapAction::FinishMeasurement:
-        return gestureTr(QT_TRANSLATE_NOOP("Gestures", "Finish the measurement"));
+        return gestureTr(QT_TRANSLATE_NOOP("Gestures", "Move a point"));
+    case MapAction::FinishDrawing:
+        return gestureTr(QT_TRANSLATE_NOOP("Gestures", "Finish the measurement or annotation"));
     case MapAction::OpenMenu:
         //: Of the place on the map that is clicked
         return gestureTr(QT_TRANSLATE_NOOP("Gestures", "Context menu"));

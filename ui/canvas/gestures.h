@@ -30,9 +30,9 @@ enum class MapAction {
     ZoomFinely,
     PressDeeper,
     FlyThere,
-    AddPoint,  // of a measurement
+    AddPoint,  // of a measurement or an annotation
     MovePoint, // bound to no gesture: the tool says where a drag does that
-    FinishMeasurement,
+    FinishDrawing,
     OpenMenu,
 };
 

@@ -63,6 +63,7 @@ MapCursor mapCursor(const PointerState& state)
         return MapCursor::OpenHand;
     case Tool::Touch:
     case Tool::Measure:
+    case Tool::Annotate:
         return MapCursor::Cross;
     case Tool::Orbit:
         return MapCursor::Rotate;

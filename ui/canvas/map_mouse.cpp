@@ -128,7 +128,9 @@ void MapMouse::dragTo(QPointF position)
             orbited(parts_.camera.camera(), kTurnPerPixel * moved.x(), kTurnPerPixel * -moved.y()));
         break;
     case MapAction::MovePoint:
-        place_tool_->drag(position);
+        if (PlaceTool* tool = placeTool()) {
+            tool->drag(position);
+        }
         parts_.reader.report();
         break;
     default:
@@ -165,8 +167,8 @@ void MapMouse::endDrag()
 {
     const MapAction ended = drag_;
     setDrag(MapAction::None);
-    if (ended == MapAction::MovePoint) {
-        place_tool_->release();
+    if (PlaceTool* tool = placeTool(); tool != nullptr && ended == MapAction::MovePoint) {
+        tool->release();
     }
     may_be_click_ = false;
     parts_.touch.setPressing(false);
@@ -177,7 +179,7 @@ void MapMouse::doubleClick(const QMouseEvent& event)
 {
     const MapAction action =
         actionOf(Gesture::DoubleClick, event.button(), event.modifiers(), tool_);
-    if (PlaceTool* tool = placeTool(); tool != nullptr && action == MapAction::FinishMeasurement) {
+    if (PlaceTool* tool = placeTool(); tool != nullptr && action == MapAction::FinishDrawing) {
         tool->doubleClick(event.position());
         return;
     }

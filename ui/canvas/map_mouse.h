@@ -13,6 +13,7 @@
 #include <QObject>
 #include <QPointF>
 
+#include <map>
 #include <optional>
 
 class QKeyEvent;
@@ -45,9 +46,9 @@ public:
     /// What a drag with the left button does; Pan to begin with. A drag that is under way ends.
     void setTool(Tool tool);
     Tool tool() const noexcept { return tool_; }
-    /// Hears of clicks, drags and keys while Tool::Measure is chosen. Null for none; otherwise it
-    /// outlives this or is taken back before.
-    void setPlaceTool(PlaceTool* tool) { place_tool_ = tool; }
+    /// Hears of clicks, drags and keys while `tool` is chosen. Null for none; otherwise it outlives
+    /// this or is taken back before.
+    void setPlaceTool(Tool tool, PlaceTool* place_tool) { place_tools_[tool] = place_tool; }
 
     void press(const QMouseEvent& event);
     void move(const QMouseEvent& event);
@@ -71,7 +72,11 @@ Q_SIGNALS:
     void menuRequested(QPointF position);
 
 private:
-    PlaceTool* placeTool() const noexcept { return tool_ == Tool::Measure ? place_tool_ : nullptr; }
+    PlaceTool* placeTool() const
+    {
+        const auto found = place_tools_.find(tool_);
+        return found != place_tools_.end() ? found->second : nullptr;
+    }
     void setDrag(MapAction action);
     void beginDrag(MapAction action);
     void dragTo(QPointF position);
@@ -82,7 +87,7 @@ private:
 
     MouseParts parts_;
     Tool tool_ = Tool::Pan;
-    PlaceTool* place_tool_ = nullptr;
+    std::map<Tool, PlaceTool*> place_tools_;
     MapCursor cursor_ = MapCursor::Arrow;
     MapAction drag_ = MapAction::None;
     Qt::MouseButton drag_button_ = Qt::NoButton;

@@ -32,8 +32,8 @@ class QRect;
 namespace marsview {
 
 /// Lines that are set together. The later ones are drawn over the others.
-enum class LineSet : std::uint8_t { Graticule, Overlays, Measurements };
-inline constexpr std::size_t kLineSets = 3;
+enum class LineSet : std::uint8_t { Graticule, Overlays, Annotations, Measurements };
+inline constexpr std::size_t kLineSets = 4;
 
 /// Whether a picture shows the lines on the terrain.
 enum class PictureLines : std::uint8_t { Omitted, Drawn };

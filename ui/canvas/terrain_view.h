@@ -79,11 +79,11 @@ public:
     /// What a drag with the left button does; Pan to begin with. A drag that is under way ends.
     void setTool(Tool tool) { mouse_.setTool(tool); }
     Tool tool() const noexcept { return mouse_.tool(); }
-    /// Hears of clicks, drags and keys while Tool::Measure is chosen. Null for none; otherwise it
-    /// outlives the view or is taken back before.
-    void setPlaceTool(PlaceTool* tool) { mouse_.setPlaceTool(tool); }
+    /// Hears of clicks, drags and keys while `tool` is chosen. Null for none; otherwise it outlives
+    /// the view or is taken back before.
+    void setPlaceTool(Tool tool, PlaceTool* place_tool) { mouse_.setPlaceTool(tool, place_tool); }
     /// Lines on the terrain, drawn over every picture.
-    void setLines(std::vector<DrapedLine> lines, LineSet set = LineSet::Measurements)
+    void setLines(std::vector<DrapedLine> lines, LineSet set)
     {
         canvas_.setLines(std::move(lines), set);
     }

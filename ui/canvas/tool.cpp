@@ -9,10 +9,9 @@ namespace marsview {
 namespace {
 
 constexpr std::array kTools{
-    ToolInfo{Tool::Pan, Qt::Key_P, "pan"},
-    ToolInfo{Tool::Touch, Qt::Key_T, "touch"},
-    ToolInfo{Tool::Orbit, Qt::Key_O, "orbit"},
-    ToolInfo{Tool::Measure, Qt::Key_M, "measure"},
+    ToolInfo{Tool::Pan, Qt::Key_P, "pan"},           ToolInfo{Tool::Touch, Qt::Key_T, "touch"},
+    ToolInfo{Tool::Orbit, Qt::Key_O, "orbit"},       ToolInfo{Tool::Measure, Qt::Key_M, "measure"},
+    ToolInfo{Tool::Annotate, Qt::Key_A, "annotate"},
 };
 
 QString toolText(const char* text)
@@ -42,6 +41,9 @@ QString ToolInfo::text() const
     case Tool::Measure:
         //: A tool: clicks place the points of a measurement
         return toolText(QT_TRANSLATE_NOOP("Tool", "&Measure"));
+    case Tool::Annotate:
+        //: A tool: clicks place the points of an annotation
+        return toolText(QT_TRANSLATE_NOOP("Tool", "&Annotate"));
     }
     return {};
 }
@@ -66,6 +68,10 @@ QString ToolInfo::tip() const
         //: %1 is a key
         return toolText(
                    QT_TRANSLATE_NOOP("Tool", "Click to place the points of a measurement (%1)"))
+            .arg(shortcut);
+    case Tool::Annotate:
+        //: %1 is a key
+        return toolText(QT_TRANSLATE_NOOP("Tool", "Click to draw points, lines and polygons (%1)"))
             .arg(shortcut);
     }
     return {};
@@ -96,7 +102,15 @@ QString ToolInfo::whatsThis() const
             "Tool",
             "A click, or Enter, places a point of the measurement; a double click, or Enter again "
             "in the same place, finishes it. Drag a point to move it, drag a line to insert one; "
-            "Backspace removes the last one. Choose what to measure in the Measure menu."));
+            "Backspace removes the last one, or the one under the pointer. Choose what to measure "
+            "in the Measure menu."));
+    case Tool::Annotate:
+        return toolText(QT_TRANSLATE_NOOP(
+            "Tool",
+            "A click, or Enter, places a point of the annotation; a double click, or Enter again "
+            "in the same place, finishes a line or polygon. Drag a point to move it, drag a line "
+            "to insert one; Backspace removes the last one, or the one under the pointer. Choose "
+            "what to draw in the Annotate menu."));
     }
     return {};
 }

@@ -10,10 +10,11 @@ namespace marsview {
 
 /// Exactly one is chosen. The order is that of menu and toolbar.
 enum class Tool {
-    Pan,     ///< the terrain stays under the pointer
-    Touch,   ///< the stylus presses into the terrain
-    Orbit,   ///< turns and tilts the view
-    Measure, ///< clicks place points, drags move them or pan
+    Pan,      ///< the terrain stays under the pointer
+    Touch,    ///< the stylus presses into the terrain
+    Orbit,    ///< turns and tilts the view
+    Measure,  ///< clicks place points, drags move them or pan
+    Annotate, ///< the same for annotations
 };
 
 /// How a tool is offered. Texts are translated when they are asked for.

@@ -3,7 +3,7 @@
 #include "ui/canvas/picture_drawing.h"
 #include "ui/canvas/picture_writer.h"
 #include "ui/canvas/terrain_view.h"
-#include "ui/overlay/measure_marks.h"
+#include "ui/overlay/drawn_marks.h"
 
 #include <QDir>
 #include <QFileDialog>
@@ -14,6 +14,7 @@
 #include <QStandardPaths>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace marsview {
@@ -100,9 +101,10 @@ void PictureSaver::save(const QString& file, const OrbitCamera& camera, const Pi
                                 {.has_legend = choice.has_legend,
                                  .has_scale = choice.has_scale,
                                  .has_labels = choice.has_labels});
-    if (choice.has_labels && marks_ != nullptr) {
-        for (PicturePart& part : marks_->partsFor(choice.size)) {
-            parts_.push_back(std::move(part));
+    for (const DrawnMarks* marks : marks_) {
+        if (choice.has_labels) {
+            std::vector<PicturePart> parts = marks->partsFor(choice.size);
+            std::move(parts.begin(), parts.end(), std::back_inserter(parts_));
         }
     }
     monitor_ = std::make_shared<JobMonitor>();

@@ -17,7 +17,7 @@
 namespace marsview {
 
 class PictureDrawing;
-class MeasureMarks;
+class DrawnMarks;
 class TerrainView;
 
 /// Asks for size and contents, then for a file, and writes the picture of the view at that
@@ -33,7 +33,7 @@ public:
     ~PictureSaver() override;
 
     /// Points and labels that belong to the lines on the map; outlive this.
-    void setMarks(const MeasureMarks& marks) { marks_ = &marks; }
+    void addMarks(const DrawnMarks& marks) { marks_.push_back(&marks); }
 
     /// `name` is offered for the file, without ending. Not while isSaving().
     void start(const QString& name);
@@ -62,7 +62,7 @@ private:
 
     TerrainView& view_;
     MapOverlays& overlays_;
-    const MeasureMarks* marks_ = nullptr;
+    std::vector<const DrawnMarks*> marks_;
     Memory memory_;
     QWidget* window_ = nullptr;
     QString folder_;

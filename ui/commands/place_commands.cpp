@@ -5,6 +5,7 @@
 #include "ui/commands/name_search.h"
 #include "ui/commands/preference_commands.h"
 #include "ui/commands/vector_tools.h"
+#include "ui/controllers/annotation_controller.h"
 #include "ui/controllers/measure_controller.h"
 #include "ui/controllers/session_controller.h"
 #include "ui/controllers/vector_overlays.h"
@@ -35,7 +36,10 @@ PlaceCommands::PlaceCommands(const Parts& parts)
     const WindowActions& actions = parts_.actions;
     connect(actions.go_to_place, &QAction::triggered, this, &PlaceCommands::goToPlace);
     connect(actions.find_name, &QAction::triggered, this, &PlaceCommands::findName);
-    connect(actions.add_point, &QAction::triggered, this, &PlaceCommands::addMeasuredPoint);
+    connect(actions.add_point, &QAction::triggered, this,
+            [this] { askPoint([this](GridPoint grid) { parts_.measuring.addPointAt(grid); }); });
+    connect(actions.add_annotation_point, &QAction::triggered, this,
+            [this] { askPoint([this](GridPoint grid) { parts_.annotating.addPointAt(grid); }); });
     connect(actions.copy_coordinates, &QAction::triggered, this, [this] { copyCoordinates(); });
     connectReadout();
 }
@@ -127,21 +131,19 @@ void PlaceCommands::goToPlace()
     dialog->open();
 }
 
-void PlaceCommands::addMeasuredPoint()
+void PlaceCommands::askPoint(const std::function<void(GridPoint)>& add)
 {
     if (!parts_.view.map()) {
         return;
     }
     GoToDialog* dialog = makeDialog();
     dialog->setTexts(tr("Add Point"), tr("&Add"));
-    MeasureController& measuring = parts_.measuring;
-    connect(dialog, &GoToDialog::nameChosen, this, [this](const PlaceName& place) {
+    connect(dialog, &GoToDialog::nameChosen, this, [this, add](const PlaceName& place) {
         if (const auto grid = parts_.view.map()->georeference().toGrid(place.position)) {
-            parts_.measuring.addPointAt(*grid);
+            add(*grid);
         }
     });
-    connect(dialog, &GoToDialog::placeChosen, &measuring,
-            [&measuring](GridPoint grid) { measuring.addPointAt(grid); });
+    connect(dialog, &GoToDialog::placeChosen, this, add);
     dialog->open();
 }
 

@@ -7,12 +7,15 @@
 
 #include <QObject>
 
+#include <functional>
+
 class QMainWindow;
 
 namespace marsview {
 
 class MainToolBar;
 class MapMenu;
+class AnnotationController;
 class MapOverlays;
 class MeasureController;
 class NameSearch;
@@ -39,6 +42,7 @@ public:
         MainToolBar& tool_bar;
         NameSearch& names;
         MeasureController& measuring;
+        AnnotationController& annotating;
         VectorTools& vector_files;
         const PreferenceCommands& preferences;
     };
@@ -47,8 +51,8 @@ public:
 
     /// Asks for a name or a coordinate.
     void goToPlace();
-    /// The same, for a point of the measurement.
-    void addMeasuredPoint();
+    /// The same, for a point that is drawn there.
+    void askPoint(const std::function<void(GridPoint)>& add);
     /// Focuses the search field, or asks for a name where the toolbar has no room for it.
     void findName();
     /// Puts the position that the status bar shows on the clipboard.

@@ -2,8 +2,10 @@
 
 #include "ui/canvas/terrain_view.h"
 #include "ui/commands/picture_saver.h"
+#include "ui/overlay/annotation_marks.h"
 #include "ui/overlay/map_labels.h"
 #include "ui/overlay/map_overlays.h"
+#include "ui/overlay/measure_marks.h"
 #include "ui/panels/georeferencing_panel.h"
 #include "ui/panels/haptics_panel.h"
 #include "ui/window/main_tool_bar.h"
@@ -34,6 +36,7 @@ NoticeCommands noticeCommandsOf(const WindowParts& parts)
 WindowCommands::WindowCommands(const WindowParts& parts, const WindowOptions& options)
     : project(parts.session,
               parts.measuring,
+              parts.annotating,
               parts.view,
               {.bundled = options.bundled_maps, .autosave_folder = options.autosave_folder})
     , project_menu({.window = parts.window,
@@ -114,7 +117,7 @@ WindowCommands::WindowCommands(const WindowParts& parts, const WindowOptions& op
            .after = parts.actions.save_picture,
            .view = parts.view,
            .overlays = parts.overlays,
-           .marks = parts.measure_marks,
+           .marks = {&parts.annotation_marks, &parts.measure_marks},
            .measuring = parts.measuring,
            .session = [&session = parts.session]() -> const Session& { return session.session(); },
            .unit = [this] { return preferences.preferences().height_unit; },
@@ -136,12 +139,19 @@ WindowCommands::WindowCommands(const WindowParts& parts, const WindowOptions& op
               .tool_bar = parts.tool_bar,
               .names = names,
               .measuring = parts.measuring,
+              .annotating = parts.annotating,
               .vector_files = vector_files,
               .preferences = preferences})
     , measuring({.actions = parts.actions,
                  .measuring = parts.measuring,
                  .view = parts.view,
                  .docks = parts.docks})
+    , annotating({.window = parts.window,
+                  .actions = parts.actions,
+                  .annotating = parts.annotating,
+                  .panel = parts.annotation_panel,
+                  .view = parts.view,
+                  .docks = parts.docks})
     , haptics({.actions = parts.actions,
                .session = parts.session,
                .haptics = parts.haptics,
@@ -180,6 +190,11 @@ void WindowCommands::showMessages(WindowMessages& messages)
     QObject::connect(&vector_files, &VectorTools::opened, &messages, &WindowMessages::show);
     QObject::connect(&vector_files, &VectorTools::failed, &messages,
                      report_as(tr("Cannot Open Vector File")));
+    QObject::connect(&annotating, &AnnotationCommands::imported, &messages, &WindowMessages::show);
+    QObject::connect(&annotating, &AnnotationCommands::exported, &messages,
+                     &WindowMessages::showSaved);
+    QObject::connect(&annotating, &AnnotationCommands::failed, &messages,
+                     report_as(tr("Annotations")));
     QObject::connect(&views, &SavedViews::reported, &messages, &WindowMessages::show);
     QObject::connect(&names, &NameSearch::opened, &messages, &WindowMessages::show);
     QObject::connect(&names, &NameSearch::failed, &messages, report_as(tr("Cannot Open Names")));

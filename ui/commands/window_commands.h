@@ -1,6 +1,7 @@
 // Everything that the menus and panels of a window do, one member a feature.
 #pragma once
 
+#include "ui/commands/annotation_commands.h"
 #include "ui/commands/contour_tools.h"
 #include "ui/commands/file_opening.h"
 #include "ui/commands/haptics_commands.h"
@@ -26,6 +27,7 @@
 
 namespace marsview {
 
+class AnnotationMarks;
 class NoticeCenter;
 class PictureSaver;
 struct WindowOptions;
@@ -41,7 +43,9 @@ struct WindowParts {
     MapOverlays& overlays;
     HapticsController& haptics;
     MeasureController& measuring;
+    AnnotationController& annotating;
     MeasureMarks& measure_marks;
+    AnnotationMarks& annotation_marks;
     PictureSaver& pictures;
     StretchControl& stretch;
     WindowDocks& docks;
@@ -49,6 +53,7 @@ struct WindowParts {
     GeoreferencingPanel& georeferencing;
     HapticsPanel& haptics_panel;
     MeasurePanel& measure_panel;
+    AnnotationPanel& annotation_panel;
     SavedViewsPanel& views_panel;
     MainToolBar& tool_bar;
     LightPopup& light;
@@ -79,6 +84,7 @@ public:
     WorkProgress progress;
     PlaceCommands places;
     MeasureCommands measuring;
+    AnnotationCommands annotating;
     HapticsCommands haptics;
     WindowNotices notices;
     SoundCommand sound;

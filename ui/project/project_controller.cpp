@@ -1,6 +1,8 @@
 #include "ui/project/project_controller.h"
 
+#include "core/annotations/annotation_files.h"
 #include "ui/canvas/terrain_view.h"
+#include "ui/controllers/annotation_controller.h"
 #include "ui/controllers/measure_controller.h"
 #include "ui/controllers/session_controller.h"
 
@@ -31,12 +33,14 @@ std::optional<ProjectCamera> projectCamera(const TerrainView& view)
 
 ProjectController::ProjectController(SessionController& session,
                                      MeasureController& measuring,
+                                     AnnotationController& annotating,
                                      TerrainView& view,
                                      const ProjectOptions& options,
                                      QObject* parent)
     : QObject(parent)
     , session_(session)
     , measuring_(measuring)
+    , annotating_(annotating)
     , view_(view)
     , options_(options)
     , autosave_(options.autosave_folder)
@@ -66,9 +70,9 @@ bool ProjectController::isModified() const
 bool ProjectController::isNothingToKeep() const
 {
     const Session& session = session_.session();
-    return file_.isEmpty() &&
-           (session_.undoStack().index() == 0 ||
-            (session.layers.empty() && session.missing.empty() && measuring_.saved().empty()));
+    return file_.isEmpty() && (session_.undoStack().index() == 0 ||
+                               (session.layers.empty() && session.missing.empty() &&
+                                measuring_.saved().empty() && annotating_.saved().empty()));
 }
 
 // Opening maps can be repeated as easily: opening them alone does not lead to a question.
@@ -84,6 +88,7 @@ Project ProjectController::project() const
 {
     Project project = projectOf(session_.session());
     project.measurements = measuring_.saved();
+    project.annotations = annotating_.saved();
     project.camera = camera_ ? camera_ : projectCamera(view_);
     project.others = others_;
     return project;
@@ -116,6 +121,7 @@ void ProjectController::replace(const Project& project, const QString& file)
     camera_ = project.camera;
     session_.openProject(project);
     measuring_.open(project.measurements, projectOrder(session_.session()));
+    annotating_.open(project.annotations, projectOrder(session_.session()));
     is_replacing_ = false;
     Q_EMIT changed();
 }
@@ -159,17 +165,34 @@ bool ProjectController::saveAs(const QString& file)
     session_.undoStack().setClean();
     noteChange();
     Q_EMIT saved(path);
+    writeBeside(path);
+    return true;
+}
+
+// Files for other programs.
+void ProjectController::writeBeside(const QString& path)
+{
+    const QFileInfo project_file(path);
+    const auto beside = [&project_file](const QString& ending) {
+        return project_file.dir().filePath(project_file.completeBaseName() + ending).toStdString();
+    };
     if (const auto measurements = measuring_.named(); !measurements.empty()) {
-        const QFileInfo project_file(path);
-        const QString beside = project_file.dir().filePath(project_file.completeBaseName() +
-                                                           QStringLiteral("-measurements.gpkg"));
-        if (const Status written = writeMeasurements(measurements, beside.toStdString());
-            !written) {
+        const Status written =
+            writeMeasurements(measurements, beside(QStringLiteral("-measurements.gpkg")));
+        if (!written) {
             Q_EMIT failed(tr("The project is saved, but not the GeoPackage of its measurements: %1")
                               .arg(QString::fromStdString(written.error().message)));
         }
     }
-    return true;
+    if (const auto annotations = annotating_.annotations(); !annotations.empty()) {
+        JobMonitor monitor;
+        const auto written =
+            writeAnnotations(annotations, beside(QStringLiteral("-annotations.gpkg")), monitor);
+        if (!written) {
+            Q_EMIT failed(tr("The project is saved, but not the GeoPackage of its annotations: %1")
+                              .arg(QString::fromStdString(written.error().message)));
+        }
+    }
 }
 
 std::optional<LeftoverProject> ProjectController::leftover() const

@@ -15,6 +15,7 @@
 
 namespace marsview {
 
+class AnnotationController;
 class MeasureController;
 class SessionController;
 class TerrainView;
@@ -25,15 +26,16 @@ struct ProjectOptions {
     int autosave_delay_ms = 5000;            // after a change
 };
 
-/// Reads and writes the project of the session and the measurements. Every change that can be
-/// undone is a change of the project; the camera is saved too, but is not a change. Lives in the
-/// GUI thread; all that it is made of outlives its last call.
+/// Reads and writes the project of the session, the measurements and the annotations. Every change
+/// that can be undone is a change of the project; the camera is saved too, but is not a change.
+/// Lives in the GUI thread; all that it is made of outlives its last call.
 class ProjectController final : public QObject {
     Q_OBJECT
 
 public:
     ProjectController(SessionController& session,
                       MeasureController& measuring,
+                      AnnotationController& annotating,
                       TerrainView& view,
                       const ProjectOptions& options,
                       QObject* parent = nullptr);
@@ -51,8 +53,9 @@ public:
     /// Replaces the session by that of the file. Emits failed() and changes nothing if the file
     /// cannot be read.
     bool open(const QString& file);
-    /// To file(), which is not empty. Emits failed() if it cannot be written. The measurements are
-    /// also written next to it as GeoPackages for other programs; these are never read.
+    /// To file(), which is not empty. Emits failed() if it cannot be written. Measurements and
+    /// annotations are also written next to it as GeoPackages for other programs; these are never
+    /// read.
     bool save();
     /// To another file, which becomes file(). Adds the extension if there is none.
     bool saveAs(const QString& file);
@@ -75,6 +78,7 @@ Q_SIGNALS:
     void failed(const QString& problem);
 
 private:
+    void writeBeside(const QString& path);
     void replace(const Project& project, const QString& file);
     bool isNothingToKeep() const;
     void noteOpened();
@@ -83,6 +87,7 @@ private:
 
     SessionController& session_;
     MeasureController& measuring_;
+    AnnotationController& annotating_;
     TerrainView& view_;
     ProjectOptions options_;
     QString file_;

@@ -3,8 +3,8 @@
 #include "ui/canvas/picture_drawing.h"
 #include "ui/canvas/terrain_view.h"
 #include "ui/controllers/measure_controller.h"
+#include "ui/overlay/drawn_marks.h"
 #include "ui/overlay/map_overlays.h"
-#include "ui/overlay/measure_marks.h"
 #include "ui/report/report_pdf.h"
 #include "ui/widgets/icons.h"
 
@@ -173,8 +173,10 @@ void ReportExporter::exportTo(const QString& file, const ReportChoice& choice)
                        choice, kReportPicture);
     labels_ = parts_.overlays.partsFor(
         camera, kReportPicture, {.has_legend = false, .has_scale = false, .has_labels = true});
-    for (PicturePart& part : parts_.marks.partsFor(kReportPicture)) {
-        labels_.push_back(std::move(part));
+    for (const DrawnMarks* marks : parts_.marks) {
+        for (PicturePart& part : marks->partsFor(kReportPicture)) {
+            labels_.push_back(std::move(part));
+        }
     }
     drawing_ = std::make_unique<PictureDrawing>(parts_.view, camera, kReportPicture);
     connect(drawing_.get(), &PictureDrawing::progressed, this,

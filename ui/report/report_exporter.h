@@ -21,7 +21,7 @@ class QWidget;
 namespace marsview {
 
 class MapOverlays;
-class MeasureMarks;
+class DrawnMarks;
 class PictureDrawing;
 struct PicturePart;
 
@@ -38,7 +38,7 @@ public:
         QAction* after = nullptr; // after this
         TerrainView& view;
         MapOverlays& overlays;
-        const MeasureMarks& marks;
+        std::vector<const DrawnMarks*> marks;
         const MeasureController& measuring;
         std::function<const Session&()> session;
         std::function<HeightUnit()> unit;

@@ -45,6 +45,7 @@ void setIcons(const WindowActions& actions)
              std::pair{actions.layer.remove, "remove"},
              std::pair{actions.override_georeferencing, "georeferencing"},
              std::pair{actions.remove_measurement, "remove"},
+             std::pair{actions.remove_annotations, "remove"},
              std::pair{actions.haptic_devices, "haptics"},
              std::pair{actions.record_touch, "record"},
              std::pair{actions.replay_touch, "replay"},
@@ -74,6 +75,7 @@ void setIcons(const WindowDocks& docks)
              std::pair{docks.georeferencing(), "georeferencing"},
              std::pair{docks.haptics(), "haptics"},
              std::pair{docks.measurements(), "measure"},
+             std::pair{docks.annotations(), "annotate"},
          }) {
         dock->setWindowIcon(lineIcon(QString::fromLatin1(name)));
     }

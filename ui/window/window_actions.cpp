@@ -132,6 +132,7 @@ WindowActions::WindowActions(QMainWindow& window, QWidget& map, QUndoStack& undo
     makeViewMenu(window, map);
     makeMapMenu(window);
     makeMeasureMenu(window);
+    makeAnnotateMenu(window);
     makeLayerMenu(window);
     makeHapticsMenu(window);
     makeHelpMenu(window);
@@ -481,6 +482,63 @@ void WindowActions::makeMeasureMenu(QMainWindow& window)
     remove_measurements = measure->addAction(tr("Remove A&ll Measurements"));
     measure->addSeparator();
     showTool(Tool::Pan, MeasurementKind::Profile);
+}
+
+void WindowActions::showShape(Tool tool, FeatureShape shape)
+{
+    for (QAction* action : annotation_shapes->actions()) {
+        action->setChecked(tool == Tool::Annotate &&
+                           action->data().toInt() == static_cast<int>(shape));
+    }
+}
+
+void WindowActions::makeAnnotateMenu(QMainWindow& window)
+{
+    annotate = window.menuBar()->addMenu(tr("&Annotate"));
+    annotation_shapes = new QActionGroup(&window);
+    annotation_shapes->setExclusionPolicy(QActionGroup::ExclusionPolicy::ExclusiveOptional);
+    struct Entry {
+        FeatureShape shape;
+        const char* text;
+        const char* tip;
+    };
+    for (const Entry& entry : {
+             //: An annotation
+             Entry{FeatureShape::Point, QT_TR_NOOP("&Point"),
+                   QT_TR_NOOP("Click to mark a place with a symbol and a name")},
+             //: An annotation
+             Entry{FeatureShape::Line, QT_TR_NOOP("&Line"),
+                   QT_TR_NOOP("Click along a line; a double click finishes it")},
+             //: An annotation
+             Entry{FeatureShape::Polygon, QT_TR_NOOP("P&olygon"),
+                   QT_TR_NOOP("Click around an area; a double click finishes it")},
+         }) {
+        QAction* action = annotate->addAction(tr(entry.text));
+        action->setStatusTip(tr(entry.tip));
+        action->setCheckable(true);
+        action->setData(static_cast<int>(entry.shape));
+        annotation_shapes->addAction(action);
+        for_shown_.append(action);
+    }
+    annotate->addSeparator();
+    add_annotation_point = annotate->addAction(tr("Add Point &by Coordinates…"));
+    add_annotation_point->setStatusTip(tr("Type the coordinates of the next point, or a name"));
+    for_shown_.append(add_annotation_point);
+    finish_annotation = annotate->addAction(tr("&Finish Annotation"));
+    finish_annotation->setStatusTip(tr("The next click begins another annotation"));
+    remove_annotations = annotate->addAction(tr("&Remove Annotations"));
+    remove_annotations->setStatusTip(
+        tr("Remove the annotations that are selected in the panel; Undo brings them back"));
+    annotate->addSeparator();
+    import_annotations = annotate->addAction(tr("&Import…"));
+    import_annotations->setStatusTip(
+        tr("Add the points, lines and polygons of a GeoPackage, GeoJSON, KML, Shapefile or CSV "
+           "file"));
+    for_shown_.append(import_annotations);
+    export_annotations = annotate->addAction(tr("&Export…"));
+    export_annotations->setStatusTip(
+        tr("Save the annotations as GeoPackage, GeoJSON, KML, Shapefile or CSV"));
+    annotate->addSeparator();
 }
 
 void WindowActions::showSession(const Session& session)

@@ -3,6 +3,7 @@
 
 #include "core/contact/contact_model.h"
 #include "core/session/measurement.h"
+#include "core/vector/feature.h"
 #include "core/view/terrain_look.h"
 #include "ui/canvas/tool.h"
 #include "ui/panels/layers_panel.h"
@@ -79,6 +80,14 @@ struct WindowActions {
     QAction* remove_measurements = nullptr; // all
     QMenu* measure = nullptr;               // the window adds the panel
 
+    QActionGroup* annotation_shapes = nullptr; // data(): the FeatureShape
+    QAction* add_annotation_point = nullptr;
+    QAction* finish_annotation = nullptr;
+    QAction* remove_annotations = nullptr; // those that are selected
+    QAction* import_annotations = nullptr;
+    QAction* export_annotations = nullptr;
+    QMenu* annotate = nullptr; // the window adds the panel
+
     QMenu* contact_models = nullptr;
     QActionGroup* contact_model_group = nullptr; // data(): the ContactModelKind
     QAction* contact_sound = nullptr;            // checkable
@@ -99,6 +108,8 @@ struct WindowActions {
     void showContactModel(ContactModelKind model);
     /// Checks `tool`, and with Tool::Measure `kind`.
     void showTool(Tool tool, MeasurementKind kind);
+    /// Checks `shape` with Tool::Annotate.
+    void showShape(Tool tool, FeatureShape shape);
 
 private:
     void makeFileMenu(QMainWindow& window);
@@ -108,6 +119,7 @@ private:
     void makeMapMenu(QMainWindow& window);
     void makeStretchMenu(QMainWindow& window, QMenu& map);
     void makeMeasureMenu(QMainWindow& window);
+    void makeAnnotateMenu(QMainWindow& window);
     void makeLayerMenu(QMainWindow& window);
     void makeHapticsMenu(QMainWindow& window);
     void makeHelpMenu(QMainWindow& window);

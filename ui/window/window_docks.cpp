@@ -64,18 +64,29 @@ WindowDocks::WindowDocks(QMainWindow& window, const DockContents& contents)
     window_.addDockWidget(Qt::RightDockWidgetArea, haptics_.widget);
     window_.tabifyDockWidget(georeferencing_.widget, haptics_.widget);
     haptics_.widget->hide();
-    measurements_ = new QDockWidget(tr("Measurements"), &window_);
-    measurements_->setObjectName(QStringLiteral("measurementsDock"));
-    measurements_->setAllowedAreas(Qt::BottomDockWidgetArea | Qt::TopDockWidgetArea);
-    measurements_->setWidget(contents.measurements);
-    window_.addDockWidget(Qt::BottomDockWidgetArea, measurements_);
+    measurements_ = makeDockBelow(tr("Measurements"), QStringLiteral("measurementsDock"),
+                                  contents.measurements);
+    annotations_ =
+        makeDockBelow(tr("Annotations"), QStringLiteral("annotationsDock"), contents.annotations);
+    window_.tabifyDockWidget(measurements_, annotations_);
     measurements_->hide();
+    annotations_->hide();
     for (const Dock* dock : all()) {
         connect(dock->widget, &QDockWidget::topLevelChanged, this, &WindowDocks::fit);
         connect(dock->widget, &QDockWidget::dockLocationChanged, this, &WindowDocks::fit);
     }
     datasets_.turn = ++turn_; // rather this one, where there is room for one
     fit();
+}
+
+QDockWidget* WindowDocks::makeDockBelow(const QString& title, const QString& name, QWidget* content)
+{
+    auto* dock = new QDockWidget(title, &window_);
+    dock->setObjectName(name);
+    dock->setAllowedAreas(Qt::BottomDockWidgetArea | Qt::TopDockWidgetArea);
+    dock->setWidget(content);
+    window_.addDockWidget(Qt::BottomDockWidgetArea, dock);
+    return dock;
 }
 
 void WindowDocks::makeDock(Dock& dock, const QString& title, const QString& name, QWidget* content)
@@ -113,7 +124,7 @@ void WindowDocks::moveFocus(QWidget& map, FocusStep step)
 {
     QList<QWidget*> stops = {&map};
     for (QDockWidget* dock : {datasets_.widget, views_.widget, georeferencing_.widget,
-                              haptics_.widget, measurements_}) {
+                              haptics_.widget, measurements_, annotations_}) {
         if (dock->isVisibleTo(&window_)) {
             stops.append(dock);
         }

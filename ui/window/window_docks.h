@@ -19,6 +19,7 @@ struct DockContents {
     QWidget* georeferencing = nullptr;
     QWidget* haptics = nullptr;
     QWidget* measurements = nullptr;
+    QWidget* annotations = nullptr;
 };
 
 enum class FocusStep { Next, Previous };
@@ -27,7 +28,7 @@ enum class FocusStep { Next, Previous };
 /// right, with haptics as a second tab, closed at first. Docked panels leave two thirds of the
 /// width to the map and never become too narrow to read. In a narrow window, panels are hidden, the
 /// least recently requested first; they return when the window is wide enough. Measurements are
-/// below the map, closed at first.
+/// below the map, with annotations as a second tab, closed at first.
 class WindowDocks final : public QObject {
     Q_OBJECT
 
@@ -40,12 +41,13 @@ public:
     QDockWidget* georeferencing() const noexcept { return georeferencing_.widget; }
     QDockWidget* haptics() const noexcept { return haptics_.widget; }
     QDockWidget* measurements() const noexcept { return measurements_; }
+    QDockWidget* annotations() const noexcept { return annotations_; }
 
     /// Shows a panel, whatever has to make way.
     void reveal(QDockWidget& dock);
     /// Moves the keyboard focus among the map and the open panels, in a circle: map, layers,
-    /// saved views, georeferencing, haptics, measurements. A panel gets the focus where it was
-    /// last, and comes to the front of its tabs.
+    /// saved views, georeferencing, haptics, measurements, annotations. A panel gets the focus
+    /// where it was last, and comes to the front of its tabs.
     void moveFocus(QWidget& map, FocusStep step);
     /// To be called whenever the window has another width.
     void fit();
@@ -60,6 +62,7 @@ private:
         int turn = 0;           // when it was asked for; the greater, the later
     };
 
+    QDockWidget* makeDockBelow(const QString& title, const QString& name, QWidget* content);
     void makeDock(Dock& dock, const QString& title, const QString& name, QWidget* content);
     void userToggled(Dock& dock, bool is_visible);
     std::array<Dock*, 4> all() { return {&datasets_, &views_, &georeferencing_, &haptics_}; }
@@ -70,7 +73,9 @@ private:
     Dock views_;
     Dock georeferencing_;
     Dock haptics_;
-    QDockWidget* measurements_ = nullptr; // below the map, so that it takes no width
+    // Below the map, so that they take no width.
+    QDockWidget* measurements_ = nullptr;
+    QDockWidget* annotations_ = nullptr;
     int turn_ = 0;
     bool is_fitting_ = false;
 };

@@ -192,7 +192,7 @@ TEST_F(ToolsTest, OrbitTurnsAndTilts)
     EXPECT_NEAR(view().camera().tilt.degrees() - before.tilt.degrees(), -12.0, 1e-6);
 }
 
-// A double click flies there, or finishes what is being measured.
+// A double click flies there, or finishes what is being drawn.
 TEST_F(ToolsTest, TheOtherButtonsShiftAndTheWheelAreTheSameWithEveryTool)
 {
     for (const ToolInfo& info : toolInfos()) {
@@ -207,8 +207,9 @@ TEST_F(ToolsTest, TheOtherButtonsShiftAndTheWheelAreTheSameWithEveryTool)
                   MapAction::Zoom);
         EXPECT_EQ(actionOf(Gesture::Wheel, Qt::NoButton, Qt::ControlModifier, info.tool),
                   MapAction::ZoomFinely);
+        const bool draws = info.tool == Tool::Measure || info.tool == Tool::Annotate;
         EXPECT_EQ(actionOf(Gesture::DoubleClick, Qt::LeftButton, Qt::NoModifier, info.tool),
-                  info.tool == Tool::Measure ? MapAction::FinishMeasurement : MapAction::FlyThere);
+                  draws ? MapAction::FinishDrawing : MapAction::FlyThere);
         EXPECT_EQ(actionOf(Gesture::Click, Qt::RightButton, Qt::NoModifier, info.tool),
                   MapAction::OpenMenu);
     }

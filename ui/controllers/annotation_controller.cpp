@@ -1,0 +1,186 @@
+#include "ui/controllers/annotation_controller.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace marsview {
+namespace {
+
+Annotation annotationOf(const AnnotationItem& item)
+{
+    return {.shape = item.shape,
+            .name = item.name.toStdString(),
+            .note = item.note.toStdString(),
+            .color = item.color,
+            .symbol = item.symbol,
+            .body = item.body,
+            .vertices = item.vertices,
+            .time = DrawnTime(std::chrono::milliseconds(item.time.toMSecsSinceEpoch()))};
+}
+
+AnnotationItem itemOf(const Annotation& annotation)
+{
+    AnnotationItem item;
+    item.shape = annotation.shape;
+    item.name = QString::fromStdString(annotation.name);
+    item.note = QString::fromStdString(annotation.note);
+    item.color = annotation.color;
+    item.symbol = annotation.symbol;
+    item.body = annotation.body;
+    item.vertices = annotation.vertices;
+    item.is_finished = true;
+    item.time = QDateTime::fromMSecsSinceEpoch(annotation.time.time_since_epoch().count());
+    return item;
+}
+
+} // namespace
+
+AnnotationController::AnnotationController(TerrainView& view,
+                                           QUndoStack& undo_stack,
+                                           QObject* parent)
+    : DrawingController(view, undo_stack, Tool::Annotate, LineSet::Annotations, parent)
+{}
+
+void AnnotationController::begin(FeatureShape shape)
+{
+    finishCurrent();
+    shape_ = shape;
+    view().setTool(Tool::Annotate);
+    Q_EMIT shapeChanged(shape);
+}
+
+AnnotationItem AnnotationController::newItem(std::uint32_t id) const
+{
+    AnnotationItem item;
+    item.shape = shape_;
+    item.body = bodyShown();
+    switch (shape_) {
+    case FeatureShape::Point:
+        item.name = tr("Point %1").arg(id);
+        break;
+    case FeatureShape::Line:
+        item.name = tr("Line %1").arg(id);
+        break;
+    case FeatureShape::Polygon:
+        item.name = tr("Polygon %1").arg(id);
+        break;
+    }
+    return item;
+}
+
+DrawnBody AnnotationController::bodyShown() const
+{
+    const auto& map = geometry().map();
+    return map ? drawnBody(map->georeference(), map->info().body) : DrawnBody();
+}
+
+bool AnnotationController::isShown(const AnnotationItem& item) const
+{
+    if (geometry().isEmpty() || !isSameBody(item.body, bodyShown())) {
+        return false;
+    }
+    const Layer* layer = layerOf(item);
+    return item.body.ellipsoid || (layer != nullptr && layer->is_visible);
+}
+
+// Points are their own handles; corners of lines are shown while they are edited.
+bool AnnotationController::hasHandles(const AnnotationItem& item) const
+{
+    return item.isSingle() || item.id == state().current;
+}
+
+void AnnotationController::setSymbols(const std::vector<std::uint32_t>& ids, MarkSymbol symbol)
+{
+    editAll(ids, tr("Change Symbol"), [symbol](AnnotationItem& item) {
+        if (item.shape == FeatureShape::Point) {
+            item.symbol = symbol;
+        }
+    });
+}
+
+std::vector<Annotation> AnnotationController::annotations() const
+{
+    std::vector<Annotation> all;
+    for (const AnnotationItem& item : state().items) {
+        if (item.isComplete()) {
+            all.push_back(annotationOf(item));
+        }
+    }
+    return all;
+}
+
+std::vector<Annotation>
+AnnotationController::annotations(const std::vector<std::uint32_t>& ids) const
+{
+    std::vector<Annotation> some;
+    for (const AnnotationItem& item : state().items) {
+        if (item.isComplete() && std::find(ids.begin(), ids.end(), item.id) != ids.end()) {
+            some.push_back(annotationOf(item));
+        }
+    }
+    return some;
+}
+
+std::vector<ProjectAnnotation> AnnotationController::saved() const
+{
+    const std::vector<LayerId> order = projectOrder(session());
+    std::vector<ProjectAnnotation> saved;
+    for (const AnnotationItem& item : state().items) {
+        if (item.isComplete()) {
+            const auto layer = std::find(order.begin(), order.end(), item.layer);
+            saved.push_back({.annotation = annotationOf(item),
+                             .layer = layer != order.end() ? std::optional(static_cast<std::size_t>(
+                                                                 layer - order.begin()))
+                                                           : std::nullopt});
+        }
+    }
+    return saved;
+}
+
+void AnnotationController::open(const std::vector<ProjectAnnotation>& saved,
+                                const std::vector<LayerId>& layers)
+{
+    std::vector<AnnotationItem> items;
+    for (const ProjectAnnotation& drawn : saved) {
+        AnnotationItem item = marsview::itemOf(drawn.annotation);
+        item.layer =
+            drawn.layer && *drawn.layer < layers.size() ? layers[*drawn.layer] : LayerId::None;
+        items.push_back(std::move(item));
+    }
+    replaceAll(std::move(items));
+}
+
+void AnnotationController::add(const std::vector<Annotation>& annotations, const QString& step)
+{
+    const std::vector<const Layer*> shown = shownLayers(session());
+    AnnotationState after = state();
+    for (const Annotation& annotation : annotations) {
+        AnnotationItem item = marsview::itemOf(annotation);
+        item.id = after.next_id++;
+        item.layer = shown.empty() ? LayerId::None : shown.front()->id;
+        after.items.push_back(std::move(item));
+    }
+    push(std::move(after), step);
+}
+
+void AnnotationController::setSession(const Session& session)
+{
+    noteSession(session);
+    Q_EMIT changed(); // what is shown
+}
+
+std::optional<QPointF> AnnotationController::labelPlace(const AnnotationItem& item) const
+{
+    if (!isShown(item) || item.vertices.empty()) {
+        return std::nullopt;
+    }
+    // In the middle of a line or border, where it does not hide an end.
+    const std::size_t index = item.isSingle() ? 0 : item.vertices.size() / 2;
+    const auto point = geometry().scenePoint(item.vertices[index]);
+    const auto place = point ? view().positionOfPlace(*point) : std::nullopt;
+    return place && QRectF(view().rect()).contains(*place) && !geometry().isHidden(*point)
+               ? place
+               : std::nullopt;
+}
+
+} // namespace marsview

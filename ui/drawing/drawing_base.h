@@ -1,0 +1,45 @@
+// Drawn items of any kind, for lists and marks of them.
+#pragma once
+
+#include "ui/drawing/drawn_item.h"
+
+#include <QObject>
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace marsview {
+
+/// GUI thread. Every change is a step of undo, except which item is the current one.
+class DrawingBase : public QObject {
+    Q_OBJECT
+
+public:
+    using QObject::QObject;
+
+    /// In the order in which they were begun.
+    virtual std::vector<const DrawnItem*> drawn() const = 0;
+    /// 0: none.
+    virtual std::uint32_t currentId() const = 0;
+    virtual void select(std::uint32_t id) = 0;
+    virtual void rename(std::uint32_t id, const QString& name) = 0;
+    virtual void setNote(std::uint32_t id, const QString& note) = 0;
+    /// Empty for the usual color.
+    virtual void setColors(const std::vector<std::uint32_t>& ids,
+                           const std::optional<Rgb8>& color) = 0;
+    virtual void removeItems(const std::vector<std::uint32_t>& ids) = 0;
+    /// Flies to where the whole item can be seen, and selects it.
+    virtual void show(std::uint32_t id) = 0;
+
+    /// Of the items that are shown, the current one's first.
+    virtual std::vector<DrawnHandle> handles() const = 0;
+
+Q_SIGNALS:
+    /// Items or the selection.
+    void changed();
+    /// What is on the screen moved: handles and labels.
+    void moved();
+};
+
+} // namespace marsview

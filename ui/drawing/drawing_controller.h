@@ -1,0 +1,712 @@
+// The tool that draws items of one kind on the map, and their undoable state.
+#pragma once
+
+#include "ui/canvas/place_tool.h"
+#include "ui/canvas/terrain_view.h"
+#include "ui/drawing/draped_geometry.h"
+#include "ui/drawing/drawing_base.h"
+
+#include <QCoreApplication>
+#include <QKeyEvent>
+#include <QTimer>
+#include <QUndoCommand>
+#include <QUndoStack>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <utility>
+
+namespace marsview {
+
+/// `Item` is a DrawnItem with isLine(), isClosed(), isSingle() and isComplete(): it is drawn as a
+/// line, its line is closed, one point finishes it, it has all the points it needs.
+template <typename Item>
+class DrawingController : public DrawingBase, private PlaceTool {
+public:
+    using State = DrawnState<Item>;
+    /// A vertex near a position of the view.
+    using Snap = std::function<std::optional<DrawnVertex>(QPointF)>;
+
+    /// Becomes the place tool of `view` for `tool`. View and undo stack outlive it.
+    DrawingController(
+        TerrainView& view, QUndoStack& undo_stack, Tool tool, LineSet lines, QObject* parent)
+        : DrawingBase(parent)
+        , view_(view)
+        , undo_stack_(undo_stack)
+        , geometry_(view)
+        , tool_(tool)
+        , line_set_(lines)
+    {
+        draw_timer_.setSingleShot(true);
+        draw_timer_.setInterval(0);
+        connect(&draw_timer_, &QTimer::timeout, this, [this] { drawLines(); });
+        const auto draw_soon = [this] { draw_timer_.start(); };
+        connect(&view_, &TerrainView::sightChanged, this, draw_soon);
+        connect(&view_, &TerrainView::exaggerationChanged, this, draw_soon);
+        connect(&view_, &TerrainView::layersChanged, this, draw_soon);
+        connect(&view_, &TerrainView::pictureCompleted, this, draw_soon); // finer ground has come
+        view_.setPlaceTool(tool_, this);
+    }
+    ~DrawingController() override { view_.setPlaceTool(tool_, nullptr); }
+
+    const State& state() const noexcept { return state_; }
+    const Item* current() const { return itemOf(state_.current); }
+    const Item* itemOf(std::uint32_t id) const
+    {
+        const auto hit = std::find_if(state_.items.begin(), state_.items.end(),
+                                      [id](const Item& item) { return item.id == id; });
+        return hit != state_.items.end() ? &*hit : nullptr;
+    }
+    const Layer* layerOf(const DrawnItem& item) const
+    {
+        return marsview::layerOf(session_, item.layer);
+    }
+
+    std::vector<const DrawnItem*> drawn() const override
+    {
+        std::vector<const DrawnItem*> all;
+        for (const Item& item : state_.items) {
+            all.push_back(&item);
+        }
+        return all;
+    }
+    std::uint32_t currentId() const override { return state_.current; }
+    void select(std::uint32_t id) override
+    {
+        State state = state_; // not a step of undo
+        state.current = itemOf(id) != nullptr ? id : 0;
+        if (!(state == state_)) {
+            setState(std::move(state));
+        }
+    }
+    void remove(std::uint32_t id) { removeItems({id}); }
+    void removeItems(const std::vector<std::uint32_t>& ids) override
+    {
+        State state = state_;
+        const auto is_meant = [&ids](std::uint32_t id) {
+            return std::find(ids.begin(), ids.end(), id) != ids.end();
+        };
+        std::vector<QString> names;
+        for (const Item& item : state_.items) {
+            if (is_meant(item.id)) {
+                names.push_back(item.name);
+            }
+        }
+        std::erase_if(state.items, [&](const Item& item) { return is_meant(item.id); });
+        if (is_meant(state.current)) {
+            state.current = state.items.empty() ? 0 : state.items.back().id;
+        }
+        if (!names.empty()) {
+            //: A step of undo; %1 is a name
+            push(std::move(state),
+                 names.size() == 1
+                     ? text(QT_TRANSLATE_NOOP("Drawing", "Remove %1")).arg(names.front())
+                     //: A step of undo; %1 is a number above 1
+                     : text(QT_TRANSLATE_NOOP("Drawing", "Remove %1 Items")).arg(names.size()));
+        }
+    }
+    void rename(std::uint32_t id, const QString& name) override
+    {
+        if (const QString plain = name.trimmed(); !plain.isEmpty()) {
+            edit(id, text(QT_TRANSLATE_NOOP("Drawing", "Rename")),
+                 [&](Item& item) { item.name = plain; });
+        }
+    }
+    void setNote(std::uint32_t id, const QString& note) override
+    {
+        edit(id, text(QT_TRANSLATE_NOOP("Drawing", "Edit Note")),
+             [&](Item& item) { item.note = note.trimmed(); });
+    }
+    void setColor(std::uint32_t id, const std::optional<Rgb8>& color) { setColors({id}, color); }
+    void setColors(const std::vector<std::uint32_t>& ids, const std::optional<Rgb8>& color) override
+    {
+        const Item* first = ids.empty() ? nullptr : itemOf(ids.front());
+        if (first != nullptr) {
+            editAll(ids,
+                    ids.size() == 1
+                        ? text(QT_TRANSLATE_NOOP("Drawing", "Color of %1")).arg(first->name)
+                        //: A step of undo; %1 is a number above 1
+                        : text(QT_TRANSLATE_NOOP("Drawing", "Color of %1 Items")).arg(ids.size()),
+                    [&](Item& item) { item.color = color; });
+        }
+    }
+    /// Adds a point of the topmost map, as a click there does. Nothing beyond its projection.
+    void addPointAt(GridPoint grid)
+    {
+        view_.setTool(tool_);
+        geometry_.update();
+        RayHit hit;
+        hit.grid = grid;
+        if (const auto place = placeOf(hit)) {
+            addPoint(*place);
+        }
+    }
+    /// Adds a point where the view reads one: at the crosshair, or under the stylus of a device.
+    /// The same place again finishes the item.
+    void addPointRead()
+    {
+        constexpr double kSamePlace = 3.0; // points
+        const Item* item = current();
+        const auto place = placeRead();
+        const auto here = place ? geometry_.screenPoint(place->vertex) : std::nullopt;
+        const auto last = item != nullptr && !item->is_finished
+                              ? geometry_.screenPoint(item->vertices.back())
+                              : std::optional<QPointF>();
+        if (here && last && distanceBetween(*here, *last) <= kSamePlace) {
+            finish();
+        } else if (place) {
+            addPoint(*place);
+        }
+    }
+    void removeLastPoint()
+    {
+        const Item* item = current();
+        if (item != nullptr) {
+            removePoint(item->id, item->vertices.size() - 1);
+        }
+    }
+    /// Removes the item with its last point.
+    void removePoint(std::uint32_t id, std::size_t index)
+    {
+        const Item* item = itemOf(id);
+        if (item == nullptr || index >= item->vertices.size()) {
+            return;
+        }
+        if (item->vertices.size() <= 1) {
+            remove(id);
+            return;
+        }
+        edit(id, text(QT_TRANSLATE_NOOP("Drawing", "Remove Point")), [&](Item& changed) {
+            changed.vertices.erase(changed.vertices.begin() + static_cast<std::ptrdiff_t>(index));
+        });
+    }
+    void finish()
+    {
+        State state = state_;
+        Item* item = editable(state, state.current);
+        if (item == nullptr || item->is_finished) {
+            return;
+        }
+        if (!item->isComplete()) {
+            remove(item->id);
+            return;
+        }
+        item->is_finished = true;
+        setState(std::move(state)); // with the last point, not a step of undo of its own
+    }
+    /// Moves a point to a typed place. Ignored where the item has no such point.
+    void movePoint(std::uint32_t id, std::size_t index, const DrawnVertex& vertex)
+    {
+        if (const Item* item = itemOf(id); item != nullptr && index < item->vertices.size()) {
+            edit(id, text(QT_TRANSLATE_NOOP("Drawing", "Move Point")),
+                 [&](Item& changed) { changed.vertices[index] = vertex; });
+        }
+    }
+    void show(std::uint32_t id) override
+    {
+        select(id);
+        const Item* item = itemOf(id);
+        if (item == nullptr) {
+            return;
+        }
+        constexpr double kInfinity = std::numeric_limits<double>::infinity();
+        ScenePoint low{kInfinity, kInfinity, 0.0};
+        ScenePoint high{-kInfinity, -kInfinity, 0.0};
+        for (const DrawnVertex& vertex : item->vertices) {
+            if (const auto point = geometry_.scenePoint(vertex)) {
+                low = {std::min(low.x, point->x), std::min(low.y, point->y), point->z};
+                high = {std::max(high.x, point->x), std::max(high.y, point->y), point->z};
+            }
+        }
+        if (!(low.x <= high.x)) {
+            return;
+        }
+        OrbitCamera camera = view_.cameraGoal();
+        camera.target = {0.5 * (low.x + high.x), 0.5 * (low.y + high.y), 0.5 * (low.z + high.z)};
+        const double extent_m = std::hypot(high.x - low.x, high.y - low.y);
+        if (extent_m > 0.0) {
+            constexpr double kDistanceShare = 1.8; // of the extent, for all of it to be in sight
+            camera.distance_m = kDistanceShare * extent_m;
+        }
+        view_.flyTo(camera);
+    }
+
+    std::vector<DrawnHandle> handles() const override
+    {
+        constexpr std::size_t kHiddenTestsMax = 2000; // beyond, a picture shows no single one
+        std::vector<DrawnHandle> handles;
+        for (const Item& item : state_.items) {
+            if (!isShown(item) || !hasHandles(item)) {
+                continue;
+            }
+            for (std::size_t i = 0; i < item.vertices.size(); ++i) {
+                const auto point = geometry_.scenePoint(item.vertices[i]);
+                const auto place = point ? view_.positionOfPlace(*point) : std::nullopt;
+                if (place && QRectF(view_.rect()).contains(*place)) {
+                    handles.push_back({.place = *place,
+                                       .item = item.id,
+                                       .index = i,
+                                       .is_hidden = handles.size() < kHiddenTestsMax &&
+                                                    geometry_.isHidden(*point)});
+                }
+            }
+        }
+        // The current ones are grabbed first and drawn last.
+        std::stable_partition(handles.begin(), handles.end(), [this](const DrawnHandle& handle) {
+            return handle.item == state_.current;
+        });
+        return handles;
+    }
+    /// Points that are placed near a vertex that `snap` finds take its position.
+    void addSnap(Snap snap) { snaps_.push_back(std::move(snap)); }
+    /// The vertex of an item that is shown within reach of a position of the view.
+    std::optional<DrawnVertex> vertexNear(QPointF position) const
+    {
+        std::optional<DrawnVertex> nearest;
+        double reach = kReach;
+        for (const Item& item : state_.items) {
+            const bool is_drawn_now = item.id == state_.current && !item.is_finished;
+            for (std::size_t i = 0; !is_drawn_now && isShown(item) && i < item.vertices.size();
+                 ++i) {
+                const auto place = geometry_.screenPoint(item.vertices[i]);
+                if (place && distanceBetween(*place, position) <= reach) {
+                    reach = distanceBetween(*place, position);
+                    nearest = item.vertices[i];
+                }
+            }
+        }
+        return nearest;
+    }
+
+protected:
+    /// A place on the terrain as the pointer finds it.
+    struct Place {
+        DrawnVertex vertex;
+        LayerId layer = LayerId::None;
+    };
+    /// A leg of an item as it is drawn.
+    struct Leg {
+        std::uint32_t item = 0;
+        std::size_t index = 0; // of the vertex at its beginning
+        double begin_m = 0.0;  // along the item
+        DrapedRun run;
+    };
+    static constexpr double kReach = 9.0; // points from a vertex or line, in which it is grabbed
+
+    /// An item without points and id, for a point on a layer.
+    virtual Item newItem(std::uint32_t id) const = 0;
+    /// Whether it is in the picture.
+    virtual bool isShown(const Item& item) const = 0;
+    virtual bool hasHandles(const Item& /*item*/) const { return true; }
+    /// The corners of the line that is drawn for an item; `next` is where the pointer would place
+    /// the next one.
+    virtual std::vector<GroundPosition> cornersOf(const Item& item,
+                                                  const std::optional<GroundPosition>& next) const
+    {
+        std::vector<GroundPosition> corners;
+        for (const DrawnVertex& vertex : item.vertices) {
+            if (const auto position = geometry_.positionOf(vertex)) {
+                corners.push_back(*position);
+            }
+        }
+        if (next) {
+            corners.push_back(*next);
+        }
+        return corners;
+    }
+    /// Lines beside those of the corners.
+    virtual void addLines(std::vector<DrapedLine>& /*lines*/) const {}
+    virtual void stateChanged(const State& /*before*/) {}
+    virtual void hovered(const std::optional<QPointF>& /*position*/) {}
+
+    void setState(State state)
+    {
+        const State before = std::exchange(state_, std::move(state));
+        stateChanged(before);
+        drawLines();
+        Q_EMIT changed();
+    }
+    void push(State after, const QString& step)
+    {
+        if (!(after == state_)) {
+            undo_stack_.push(new Command(*this, state_, std::move(after), step));
+        }
+    }
+    template <typename Change>
+    void edit(std::uint32_t id, const QString& step, Change change)
+    {
+        editAll({id}, step, change);
+    }
+    template <typename Change>
+    void editAll(const std::vector<std::uint32_t>& ids, const QString& step, Change change)
+    {
+        State state = state_;
+        for (const std::uint32_t id : ids) {
+            if (Item* item = editable(state, id)) {
+                change(*item);
+            }
+        }
+        push(std::move(state), step);
+    }
+    static Item* editable(State& state, std::uint32_t id)
+    {
+        const auto hit = std::find_if(state.items.begin(), state.items.end(),
+                                      [id](const Item& item) { return item.id == id; });
+        return hit != state.items.end() ? &*hit : nullptr;
+    }
+    /// Replaces everything by items that are finished. Not a step of undo.
+    void replaceAll(std::vector<Item> items)
+    {
+        State state;
+        for (Item& item : items) {
+            item.id = state.next_id++;
+            item.is_finished = true;
+            state.items.push_back(std::move(item));
+        }
+        grabbed_.reset();
+        // What is known of items that have the same numbers is not true of these.
+        setState({});
+        setState(std::move(state));
+    }
+    void noteSession(const Session& session)
+    {
+        session_ = session;
+        drawSoon();
+    }
+    void drawSoon() { draw_timer_.start(); }
+    void finishCurrent()
+    {
+        if (const Item* item = current(); item != nullptr && !item->is_finished) {
+            finish();
+        }
+    }
+    Rgb8 colorOf(const Item& item) const
+    {
+        return item.color.value_or(item.id == state_.current ? kCurrentDrawnColor : kDrawnColor);
+    }
+    static double distanceBetween(QPointF a, QPointF b)
+    {
+        return std::hypot(a.x() - b.x(), a.y() - b.y());
+    }
+    static QString text(const char* source)
+    {
+        return QCoreApplication::translate("Drawing", source);
+    }
+
+    const DrapedGeometry& geometry() const noexcept { return geometry_; }
+    const std::vector<Leg>& legs() const noexcept { return legs_; }
+    TerrainView& view() const noexcept { return view_; }
+    const Session& session() const noexcept { return session_; }
+
+private:
+    // Between two states.
+    class Command final : public QUndoCommand {
+    public:
+        Command(DrawingController& controller, State before, State after, const QString& step)
+            : QUndoCommand(step)
+            , controller_(controller)
+            , before_(std::move(before))
+            , after_(std::move(after))
+        {}
+        void undo() override { controller_.setState(before_); }
+        void redo() override { controller_.setState(after_); }
+
+    private:
+        DrawingController& controller_;
+        State before_;
+        State after_;
+    };
+    struct Grabbed {
+        std::uint32_t item = 0;
+        std::size_t index = 0;
+        State before;
+    };
+
+    // Places ----------------------------------------------------------------------------------
+
+    std::optional<Place> placeOf(const RayHit& hit) const
+    {
+        // The scene is that of the topmost map.
+        if (geometry_.isEmpty() || geometry_.map() != view_.map()) {
+            return std::nullopt;
+        }
+        const auto vertex = vertexAt(geometry_.map()->georeference(), hit.grid);
+        for (const Layer& layer : session_.layers) {
+            if (vertex && layer.map == geometry_.map()) {
+                return Place{*vertex, layer.id};
+            }
+        }
+        return std::nullopt;
+    }
+    std::optional<LayerId> layerSeenAt(QPointF position) const
+    {
+        if (const auto ground = view_.groundUnder(position)) {
+            const auto& map = view_.ground().maps()[ground->index].map;
+            for (const Layer& layer : session_.layers) {
+                if (layer.map == map) {
+                    return layer.id;
+                }
+            }
+        }
+        return std::nullopt;
+    }
+    // On the layer that is seen there, whatever layer is selected.
+    std::optional<Place> placeAt(QPointF position) const
+    {
+        const auto hit = view_.surfaceAt(position);
+        std::optional<Place> place = hit ? placeOf(*hit) : std::nullopt;
+        if (place) {
+            place->layer = layerSeenAt(position).value_or(place->layer);
+        }
+        return place;
+    }
+    // The same at a vertex that is near.
+    std::optional<Place> snappedAt(QPointF position) const
+    {
+        std::optional<Place> place = placeAt(position);
+        for (const Snap& snap : snaps_) {
+            const auto vertex = place ? snap(position) : std::nullopt;
+            if (vertex && geometry_.positionOf(*vertex)) {
+                place->vertex = *vertex;
+                break;
+            }
+        }
+        return place;
+    }
+    // By crosshair, stylus or hand.
+    std::optional<Place> placeRead() const
+    {
+        const auto hit = view_.reading();
+        std::optional<Place> place = hit ? placeOf(*hit) : std::nullopt;
+        if (const auto position = place ? geometry_.screenPoint(place->vertex) : std::nullopt) {
+            place->layer = layerSeenAt(*position).value_or(place->layer);
+        }
+        return place;
+    }
+    void addPoint(const Place& place)
+    {
+        State state = state_;
+        Item* item = editable(state, state.current);
+        if (item == nullptr || item->is_finished) {
+            Item fresh = newItem(state.next_id);
+            fresh.id = state.next_id++;
+            fresh.layer = place.layer;
+            fresh.time = QDateTime::currentDateTime();
+            state.items.push_back(std::move(fresh));
+            item = &state.items.back();
+            state.current = item->id;
+        }
+        item->vertices.push_back(place.vertex);
+        item->is_finished = item->isSingle();
+        //: A step of undo; %1 is a name
+        const QString step = text(QT_TRANSLATE_NOOP("Drawing", "Add Point to %1")).arg(item->name);
+        push(std::move(state), step);
+    }
+
+    // The tool --------------------------------------------------------------------------------
+
+    std::optional<DrawnHandle> handleAt(QPointF position) const
+    {
+        // While an item is being drawn, points of others are places to snap to.
+        const Item* item = current();
+        const bool is_drawing = item != nullptr && !item->is_finished;
+        for (const DrawnHandle& handle : handles()) {
+            if (distanceBetween(handle.place, position) <= kReach &&
+                (!is_drawing || handle.item == item->id)) {
+                return handle;
+            }
+        }
+        return std::nullopt;
+    }
+    bool grab(QPointF position) override
+    {
+        if (const auto handle = handleAt(position)) {
+            select(handle->item);
+            grabbed_ = Grabbed{handle->item, handle->index, state_};
+            return true;
+        }
+        // Between two points of the current item, once it is finished, a drag inserts one.
+        const Item* item = current();
+        if (item == nullptr || !item->is_finished || (!item->isLine() && !item->isClosed())) {
+            return false;
+        }
+        for (const Leg& leg : legs_) {
+            if (leg.item != item->id) {
+                continue;
+            }
+            for (const ScenePoint& point : leg.run.points) {
+                const auto place = view_.positionOfPlace(point);
+                const auto there = place && distanceBetween(*place, position) <= kReach
+                                       ? placeAt(position)
+                                       : std::nullopt;
+                if (there) {
+                    grabbed_ = Grabbed{item->id, leg.index + 1, state_};
+                    State state = state_;
+                    auto& vertices = editable(state, item->id)->vertices;
+                    vertices.insert(vertices.begin() + static_cast<std::ptrdiff_t>(leg.index + 1),
+                                    there->vertex);
+                    setState(std::move(state));
+                    return true;
+                }
+            }
+        }
+        return false;
+    }
+    void drag(QPointF position) override
+    {
+        const auto place = placeAt(position);
+        State state = state_;
+        Item* item = grabbed_ ? editable(state, grabbed_->item) : nullptr;
+        if (place && item != nullptr && grabbed_->index < item->vertices.size()) {
+            item->vertices[grabbed_->index] = place->vertex;
+            setState(std::move(state));
+        }
+    }
+    void release() override
+    {
+        if (!grabbed_) {
+            return;
+        }
+        const Grabbed grabbed = *std::exchange(grabbed_, std::nullopt);
+        State after = std::exchange(state_, grabbed.before);
+        const Item* was = itemOf(grabbed.item);
+        if (after == state_) {
+            // Back at its first point, a border is closed.
+            if (was != nullptr && !was->is_finished && was->isClosed() && grabbed.index == 0 &&
+                was->isComplete()) {
+                finish();
+            }
+            return;
+        }
+        const bool is_inserted =
+            was != nullptr && editable(after, grabbed.item) != nullptr &&
+            editable(after, grabbed.item)->vertices.size() != was->vertices.size();
+        push(std::move(after), is_inserted ? text(QT_TRANSLATE_NOOP("Drawing", "Insert Point"))
+                                           : text(QT_TRANSLATE_NOOP("Drawing", "Move Point")));
+    }
+    void click(QPointF position) override
+    {
+        if (const auto place = snappedAt(position)) {
+            addPoint(*place);
+        }
+    }
+    void doubleClick(QPointF /*position*/) override { finish(); }
+    void hover(std::optional<QPointF> position) override
+    {
+        pointer_ = position;
+        const Item* item = current();
+        if (item != nullptr && !item->is_finished) {
+            drawSoon(); // the line to the pointer
+            return;
+        }
+        hovered(position);
+    }
+    bool key(const QKeyEvent& event) override
+    {
+        const Item* item = current();
+        const bool is_open = item != nullptr && !item->is_finished;
+        // The point under the pointer, otherwise the last one or the whole item.
+        const auto pointed = pointer_ ? handleAt(*pointer_) : std::nullopt;
+        const bool is_point = pointed && item != nullptr && pointed->item == item->id;
+        switch (event.key()) {
+        case Qt::Key_Return:
+        case Qt::Key_Enter:
+            addPointRead();
+            return true;
+        case Qt::Key_Backspace:
+            if (is_point) {
+                removePoint(item->id, pointed->index);
+            } else {
+                removeLastPoint();
+            }
+            return true;
+        case Qt::Key_Delete:
+            if (item == nullptr) {
+                return false;
+            }
+            if (is_point && item->vertices.size() > 1) {
+                removePoint(item->id, pointed->index);
+            } else {
+                remove(item->id);
+            }
+            return true;
+        case Qt::Key_Escape:
+            if (is_open) {
+                remove(item->id);
+                return true;
+            }
+            if (item != nullptr) {
+                select(0);
+                return true;
+            }
+            return false;
+        default:
+            return false;
+        }
+    }
+
+    // The picture -----------------------------------------------------------------------------
+
+    void drawLines()
+    {
+        draw_timer_.stop();
+        geometry_.update();
+        legs_.clear();
+        if (geometry_.isEmpty()) {
+            view_.setLines({}, line_set_);
+            Q_EMIT moved();
+            return;
+        }
+        const Ground& ground = geometry_.ground();
+        const auto pointed = pointer_ && !grabbed_ ? placeAt(*pointer_) : std::nullopt;
+        for (const Item& item : state_.items) {
+            if (!isShown(item)) {
+                continue;
+            }
+            const bool is_open = item.id == state_.current && !item.is_finished;
+            const std::vector<GroundPosition> corners = cornersOf(
+                item, is_open && pointed ? geometry_.positionOf(pointed->vertex) : std::nullopt);
+            const bool is_closed = !item.isLine() && corners.size() > 2;
+            double begin_m = 0.0;
+            for (std::size_t i = 0; i + (is_closed ? 0 : 1) < corners.size(); ++i) {
+                const GroundLine line = ground.line(corners[i], corners[(i + 1) % corners.size()]);
+                for (DrapedRun& run : geometry_.draped(line)) {
+                    legs_.push_back(
+                        {.item = item.id, .index = i, .begin_m = begin_m, .run = std::move(run)});
+                }
+                begin_m += line.lengthM();
+            }
+        }
+        std::vector<DrapedLine> lines;
+        for (const bool is_current : {false, true}) { // the current one over the others
+            for (const Leg& leg : legs_) {
+                if ((leg.item == state_.current) == is_current) {
+                    const Item* item = itemOf(leg.item);
+                    lines.push_back({.points = leg.run.points,
+                                     .color = item != nullptr ? colorOf(*item) : kDrawnColor,
+                                     .width_points = is_current ? 2.5 : 1.8});
+                }
+            }
+        }
+        addLines(lines);
+        view_.setLines(std::move(lines), line_set_);
+        Q_EMIT moved();
+    }
+
+    TerrainView& view_;
+    QUndoStack& undo_stack_;
+    DrapedGeometry geometry_;
+    Tool tool_;
+    LineSet line_set_;
+    State state_;
+    Session session_;
+    std::vector<Leg> legs_;
+    std::vector<Snap> snaps_;
+    std::optional<QPointF> pointer_;
+    std::optional<Grabbed> grabbed_;
+    QTimer draw_timer_; // gathers reasons to draw the lines again
+};
+
+} // namespace marsview

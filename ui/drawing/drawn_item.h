@@ -1,0 +1,54 @@
+// What people draw on the map, as the tools hold it.
+#pragma once
+
+#include "core/annotations/drawn_vertex.h"
+#include "core/session/session.h"
+
+#include <QDateTime>
+#include <QPointF>
+#include <QString>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace marsview {
+
+/// What all kinds of items have.
+struct DrawnItem {
+    std::uint32_t id = 0;
+    QString name;
+    LayerId layer = LayerId::None; // that it was drawn on
+    std::vector<DrawnVertex> vertices;
+    bool is_finished = false; // clicks begin another one
+    QDateTime time;           // at which it was begun
+    QString note;
+    std::optional<Rgb8> color; // empty: the usual one
+
+    bool operator==(const DrawnItem&) const = default;
+};
+
+/// What the user did; undo returns to earlier ones.
+template <typename Item>
+struct DrawnState {
+    std::vector<Item> items;   // in the order in which they were begun
+    std::uint32_t current = 0; // shown in detail; 0: none
+    std::uint32_t next_id = 1;
+
+    bool operator==(const DrawnState&) const = default;
+};
+
+/// A vertex of an item on the screen.
+struct DrawnHandle {
+    QPointF place; // in the view
+    std::uint32_t item = 0;
+    std::size_t index = 0;
+    bool is_hidden = false; // by terrain in front of it
+};
+
+/// Of items that have no color.
+inline constexpr Rgb8 kDrawnColor{240, 240, 240};
+inline constexpr Rgb8 kCurrentDrawnColor{255, 221, 64};
+
+} // namespace marsview

@@ -1,0 +1,140 @@
+#include "ui/overlay/annotation_marks.h"
+
+#include "ui/controllers/annotation_controller.h"
+#include "ui/widgets/plate.h"
+
+#include <QPainter>
+#include <QPolygonF>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace marsview {
+namespace {
+
+constexpr double kSymbolRadius = 6.0; // of a symbol
+constexpr double kSymbolRim = 1.5;
+constexpr double kHiddenSymbolOpacity = 0.35;
+constexpr std::size_t kLabelsMax = 200;
+
+// With `count` corners, the first one at the top; every second one at `inner` of the radius.
+QPainterPath starPath(QPointF place, double radius, int count, double inner)
+{
+    QPolygonF corners;
+    for (int i = 0; i < count; ++i) {
+        const double angle = 2.0 * std::numbers::pi * i / count;
+        const double away = i % 2 == 0 ? radius : inner * radius;
+        corners.append(place + QPointF(away * std::sin(angle), -away * std::cos(angle)));
+    }
+    QPainterPath path;
+    path.addPolygon(corners);
+    path.closeSubpath();
+    return path;
+}
+
+} // namespace
+
+QPainterPath symbolPath(MarkSymbol symbol, QPointF place, double radius)
+{
+    QPainterPath path;
+    switch (symbol) {
+    case MarkSymbol::Circle:
+        path.addEllipse(place, radius, radius);
+        break;
+    case MarkSymbol::Square:
+        path.addRect(QRectF(place - QPointF(0.85 * radius, 0.85 * radius),
+                            QSizeF(1.7 * radius, 1.7 * radius)));
+        break;
+    case MarkSymbol::Triangle: {
+        QPolygonF corners{place + QPointF(0.0, -radius),
+                          place + QPointF(0.95 * radius, 0.75 * radius),
+                          place + QPointF(-0.95 * radius, 0.75 * radius)};
+        path.addPolygon(corners);
+        path.closeSubpath();
+        break;
+    }
+    case MarkSymbol::Diamond:
+        path = starPath(place, 1.1 * radius, 4, 1.0);
+        break;
+    case MarkSymbol::Star:
+        path = starPath(place, 1.25 * radius, 10, 0.45);
+        break;
+    case MarkSymbol::Cross:
+        path.setFillRule(Qt::WindingFill);
+        path.addRect(
+            QRectF(place - QPointF(radius, 0.25 * radius), QSizeF(2.0 * radius, 0.5 * radius)));
+        path.addRect(
+            QRectF(place - QPointF(0.25 * radius, radius), QSizeF(0.5 * radius, 2.0 * radius)));
+        path = path.simplified();
+        break;
+    }
+    return path;
+}
+
+AnnotationMarks::AnnotationMarks(AnnotationController& controller, QWidget* view)
+    : DrawnMarks(controller, view)
+    , controller_(controller)
+{
+    setAccessibleName(tr("Annotations on the map"));
+}
+
+DrawnMarks::Mark AnnotationMarks::symbolMark(const AnnotationItem& item,
+                                             const DrawnHandle& handle) const
+{
+    const bool is_current = item.id == controller_.state().current;
+    const double radius = is_current ? kSymbolRadius + 1.5 : kSymbolRadius;
+    const double opacity = handle.is_hidden ? kHiddenSymbolOpacity : 1.0;
+    return {boxAround(handle.place, 1.25 * radius + kSymbolRim + 1.0), false,
+            [path = symbolPath(item.symbol, handle.place, radius), opacity, is_current,
+             color = colorOf(controller_.colorOf(item))](QPainter& painter) {
+                painter.setOpacity(opacity);
+                if (is_current) {
+                    drawContrasting(painter, path, colorOf(kCurrentDrawnColor), 2.0);
+                }
+                painter.fillPath(path, color);
+                painter.setPen(QPen(QColor(0, 0, 0, 200), kSymbolRim));
+                painter.drawPath(path);
+                painter.setOpacity(1.0);
+            }};
+}
+
+std::vector<DrawnMarks::Mark> AnnotationMarks::marks() const
+{
+    const AnnotationState& state = controller_.state();
+    std::vector<Mark> marks;
+    if (state.items.empty()) {
+        return marks;
+    }
+    const std::vector<DrawnHandle> handles = controller_.handles();
+    for (auto handle = handles.rbegin(); handle != handles.rend(); ++handle) {
+        const AnnotationItem& item = *controller_.itemOf(handle->item);
+        marks.push_back(item.isSingle() ? symbolMark(item, *handle) : handleMark(*handle, true));
+    }
+    // The current one first, then those that were drawn last.
+    std::vector<const AnnotationItem*> named;
+    for (auto item = state.items.rbegin(); item != state.items.rend(); ++item) {
+        named.insert(item->id == state.current ? named.begin() : named.end(), &*item);
+    }
+    std::vector<QRectF> taken;
+    for (const AnnotationItem* item : named) {
+        const auto place = taken.size() < kLabelsMax ? controller_.labelPlace(*item) : std::nullopt;
+        if (!place || item->name.isEmpty()) {
+            continue;
+        }
+        const QColor color =
+            item->id == state.current ? colorOf(kCurrentDrawnColor) : overlayTextColor();
+        auto label = labelMark(*place, item->name, color);
+        const bool is_free =
+            label && std::none_of(taken.begin(), taken.end(), [&label](const QRectF& box) {
+                return box.intersects(label->box);
+            });
+        if (is_free) {
+            taken.push_back(label->box);
+            marks.push_back(std::move(*label));
+        }
+    }
+    return marks;
+}
+
+} // namespace marsview

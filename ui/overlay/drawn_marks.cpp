@@ -1,0 +1,153 @@
+#include "ui/overlay/drawn_marks.h"
+
+#include "ui/drawing/drawing_base.h"
+#include "ui/widgets/plate.h"
+
+#include <QEvent>
+#include <QFontMetricsF>
+#include <QPainter>
+#include <QPainterPath>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace marsview {
+namespace {
+
+constexpr double kHandleRadius = 4.5;
+constexpr double kHandleRim = 1.5;
+constexpr double kHiddenOpacity = 0.35;
+constexpr QPointF kLabelOffset{10.0, -10.0}; // from its place to its nearest corner
+constexpr double kLabelPadding = 4.0;
+
+} // namespace
+
+DrawnMarks::DrawnMarks(const DrawingBase& drawing, QWidget* view)
+    : QWidget(view)
+{
+    setAttribute(Qt::WA_TransparentForMouseEvents);
+    setFocusPolicy(Qt::NoFocus);
+    setGeometry(view->rect());
+    view->installEventFilter(this);
+    const auto repaint = [this] { update(); };
+    connect(&drawing, &DrawingBase::moved, this, repaint);
+    connect(&drawing, &DrawingBase::changed, this, repaint);
+}
+
+bool DrawnMarks::eventFilter(QObject* watched, QEvent* event)
+{
+    if (watched == parent() && event->type() == QEvent::Resize) {
+        setGeometry(parentWidget()->rect());
+    }
+    return QWidget::eventFilter(watched, event);
+}
+
+QColor DrawnMarks::colorOf(const Rgb8& color)
+{
+    return {color.red, color.green, color.blue};
+}
+
+QRectF DrawnMarks::boxAround(QPointF place, double radius)
+{
+    return {place - QPointF(radius, radius), QSizeF(2.0 * radius, 2.0 * radius)};
+}
+
+DrawnMarks::Mark DrawnMarks::handleMark(const DrawnHandle& handle, bool is_current)
+{
+    const double radius = is_current ? kHandleRadius : kHandleRadius - 1.0;
+    return {boxAround(handle.place, radius + kHandleRim), false,
+            [handle, is_current, radius](QPainter& painter) {
+                QPainterPath dot;
+                dot.addEllipse(handle.place, radius, radius);
+                painter.setOpacity(handle.is_hidden ? kHiddenOpacity : 1.0);
+                painter.fillPath(dot, colorOf(is_current ? kCurrentDrawnColor : kDrawnColor));
+                painter.setPen(QPen(QColor(0, 0, 0, 200), kHandleRim));
+                painter.drawPath(dot);
+                painter.setOpacity(1.0);
+            }};
+}
+
+std::optional<DrawnMarks::Mark>
+DrawnMarks::labelMark(QPointF place, const QString& text, const QColor& color) const
+{
+    const QFontMetricsF metrics(font());
+    const QSizeF size(metrics.horizontalAdvance(text) + 2.0 * kLabelPadding,
+                      metrics.height() + kLabelPadding);
+    const auto plate = labelBox(place, size);
+    if (!plate) {
+        return std::nullopt;
+    }
+    return Mark{*plate, true, [plate = *plate, text, color](QPainter& painter) {
+                    drawPlate(painter, plate);
+                    painter.setPen(color);
+                    drawText(painter, plate, Qt::AlignCenter, text);
+                }};
+}
+
+std::optional<QRectF> DrawnMarks::labelBox(QPointF place, const QSizeF& size) const
+{
+    const double x = kLabelOffset.x();
+    const double y = kLabelOffset.y();
+    const std::array<QPointF, 4> corners{place + QPointF(x, y - size.height()),
+                                         place + QPointF(-x - size.width(), y - size.height()),
+                                         place + QPointF(x, -y),
+                                         place + QPointF(-x - size.width(), -y)};
+    const QRectF room = QRectF(rect()).adjusted(2.0, 2.0, -2.0, -2.0);
+    for (const QPointF& corner : corners) {
+        const QRectF box(corner, size);
+        const bool is_clear =
+            std::none_of(obstacles_.begin(), obstacles_.end(), [&box](const QWidget* obstacle) {
+                return obstacle->isVisible() && box.intersects(obstacle->geometry());
+            });
+        if (is_clear && room.contains(box)) {
+            return box;
+        }
+    }
+    return std::nullopt;
+}
+
+std::vector<QRectF> DrawnMarks::labelBoxes() const
+{
+    std::vector<QRectF> boxes;
+    for (const Mark& mark : marks()) {
+        if (mark.is_label) {
+            boxes.push_back(mark.box);
+        }
+    }
+    return boxes;
+}
+
+void DrawnMarks::paintEvent(QPaintEvent* /*event*/)
+{
+    QPainter painter(this);
+    painter.setRenderHint(QPainter::Antialiasing);
+    for (const Mark& mark : marks()) {
+        mark.draw(painter);
+    }
+}
+
+std::vector<PicturePart> DrawnMarks::partsFor(const QSize& picture) const
+{
+    // The field of view is vertical, and the camera looks at the middle of both pictures.
+    const double scale = static_cast<double>(picture.height()) / height();
+    const QPointF corner(0.5 * (width() - picture.width() / scale), 0.0);
+    std::vector<PicturePart> parts;
+    for (const Mark& mark : marks()) {
+        const QRectF box = mark.box.adjusted(-1.0, -1.0, 1.0, 1.0);
+        QImage image((box.size() * scale).toSize(), QImage::Format_ARGB32_Premultiplied);
+        image.fill(Qt::transparent);
+        QPainter painter(&image);
+        painter.setRenderHint(QPainter::Antialiasing);
+        painter.setFont(font());
+        painter.scale(scale, scale);
+        painter.translate(-box.topLeft());
+        mark.draw(painter);
+        painter.end();
+        parts.push_back(
+            {.image = std::move(image), .at = ((box.topLeft() - corner) * scale).toPoint()});
+    }
+    return parts;
+}
+
+} // namespace marsview

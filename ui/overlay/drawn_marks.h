@@ -1,0 +1,63 @@
+// Marks over the map that keep their size on the screen: handles, symbols and labels.
+#pragma once
+
+#include "core/view/color_ramp.h"
+#include "ui/drawing/drawn_item.h"
+#include "ui/overlay/picture_part.h"
+
+#include <QColor>
+#include <QList>
+#include <QRectF>
+#include <QWidget>
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+class QPainter;
+
+namespace marsview {
+
+class DrawingBase;
+
+/// Covers its parent, the view, and is transparent to the mouse.
+class DrawnMarks : public QWidget {
+    Q_OBJECT
+
+public:
+    /// Follows the items of `drawing`, which outlives its last event.
+    DrawnMarks(const DrawingBase& drawing, QWidget* view);
+
+    /// Widgets that labels keep clear of while they are visible.
+    void setObstacles(const QList<QWidget*>& obstacles) { obstacles_ = obstacles; }
+    /// Of the labels as they are drawn now, in points.
+    std::vector<QRectF> labelBoxes() const;
+    /// For a picture of the view of any size: as large as in the view where it is as high.
+    std::vector<PicturePart> partsFor(const QSize& picture) const;
+
+protected:
+    struct Mark {
+        QRectF box; // that it fills, in points
+        bool is_label = false;
+        std::function<void(QPainter&)> draw;
+    };
+    /// In the order in which they are drawn.
+    virtual std::vector<Mark> marks() const = 0;
+
+    static QColor colorOf(const Rgb8& color);
+    static QRectF boxAround(QPointF place, double radius);
+    /// A dot with a dark rim, faint where it is hidden.
+    static Mark handleMark(const DrawnHandle& handle, bool is_current);
+    /// Beside a place, within the view and clear of the obstacles. Empty if there is no room.
+    std::optional<Mark> labelMark(QPointF place, const QString& text, const QColor& color) const;
+
+    void paintEvent(QPaintEvent* event) override;
+    bool eventFilter(QObject* watched, QEvent* event) override;
+
+private:
+    std::optional<QRectF> labelBox(QPointF place, const QSizeF& size) const;
+
+    QList<QWidget*> obstacles_;
+};
+
+} // namespace marsview
