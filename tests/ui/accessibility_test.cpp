@@ -221,13 +221,13 @@ TEST_F(AccessibilityTest, NoTwoActionsShareAKeyWhereBothCouldBeMeant)
 {
     // Keys of one widget only, such as a list, may have another meaning in another one.
     const auto could_both_be_meant = [](const QAction& a, const QAction& b) {
+        const QList<QObject*> objects = a.associatedObjects();
         return a.shortcutContext() != Qt::WidgetShortcut ||
                b.shortcutContext() != Qt::WidgetShortcut ||
-               std::any_of(a.associatedObjects().begin(), a.associatedObjects().end(),
-                           [&b](QObject* object) {
-                               return qobject_cast<QMenu*>(object) == nullptr &&
-                                      b.associatedObjects().contains(object);
-                           });
+               std::any_of(objects.begin(), objects.end(), [&b](QObject* object) {
+                   return qobject_cast<QMenu*>(object) == nullptr &&
+                          b.associatedObjects().contains(object);
+               });
     };
     QMultiMap<QString, const QAction*> owners;
     for (const QMenu* menu : window_->menuBar()->findChildren<QMenu*>()) {
