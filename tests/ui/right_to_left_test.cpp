@@ -2,12 +2,17 @@
 
 #include "tests/ui/hand_window.h"
 #include "tests/ui/widget_walk.h"
+#include "ui/commands/window_commands.h"
 #include "ui/dialogs/preferences_dialog.h"
 #include "ui/dialogs/save_picture_dialog.h"
 #include "ui/panels/haptics_panel.h"
+#include "ui/views/fly_through_dialog.h"
+#include "ui/views/fly_through_tools.h"
+#include "ui/views/saved_views.h"
 #include "ui/window/status_readout.h"
 #include "ui/window/window_actions.h"
 
+#include <QAction>
 #include <QApplication>
 #include <QProgressBar>
 #include <QRegularExpression>
@@ -76,14 +81,18 @@ TEST_F(RightToLeftTest, NumbersInDialogsAreIsolated)
     const SavePictureDialog picture({800, 600}, {}, window_.get());
     static const QRegularExpression kNumberAndUnit(QStringLiteral("\\d[\\d.,]* ?(fps|MB|GB|px)"));
     int count = 0;
-    for (const QWidget* dialog : std::initializer_list<const QWidget*>{&preferences, &picture}) {
+    window_->commands().views.actions().fly_through->trigger();
+    const QWidget* flight = window_->commands().fly_through.dialog();
+    ASSERT_NE(flight, nullptr);
+    for (const QWidget* dialog :
+         std::initializer_list<const QWidget*>{&preferences, &picture, flight}) {
         for (const FoundText& found : textsOf(*dialog)) {
             count += kNumberAndUnit.match(found.text).hasMatch() ? 1 : 0;
             EXPECT_FALSE(kNumberAndUnit.match(outsideIsolates(found.text)).hasMatch())
                 << found.place.toStdString() << ": " << found.text.toStdString();
         }
     }
-    EXPECT_GE(count, 3);
+    EXPECT_GE(count, 7);
 }
 
 } // namespace

@@ -9,6 +9,7 @@
 #include <QFormLayout>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QListView>
 #include <QPushButton>
 #include <QSignalBlocker>
 #include <QStandardItemModel>
@@ -143,10 +144,13 @@ void StretchDialog::fill()
     }
     cut_->setEnabled(is_any && content_.stretch.kind == StretchKind::Percentile);
     to_view_->setEnabled(content_.is_in_picture);
-    // What slopes can be spread over has no histogram.
-    auto* kinds = qobject_cast<QStandardItemModel*>(kind_->model());
+    // Of slopes there is no histogram to take a range or percentiles from.
+    auto* list = qobject_cast<QListView*>(kind_->view());
     for (const StretchKind kind : {StretchKind::Full, StretchKind::Percentile}) {
-        kinds->item(kind_->findData(static_cast<int>(kind)))->setEnabled(!is_slope);
+        const int row = kind_->findData(static_cast<int>(kind));
+        list->setRowHidden(row, is_slope);
+        // Keys and the wheel pass over disabled entries, not over hidden ones.
+        qobject_cast<QStandardItemModel*>(kind_->model())->item(row)->setEnabled(!is_slope);
     }
     const StretchKind kind = !is_slope                    ? content_.stretch.kind
                              : content_.are_slopes_chosen ? StretchKind::Fixed

@@ -185,13 +185,13 @@ void FlyThroughDialog::makeRecordRows(QFormLayout& form)
     }
     for (const QSize& size : kRecordingSizes) {
         //: Size of a picture: %1 × %2 pixels
-        size_->addItem(tr("%1 × %2").arg(size.width()).arg(size.height()), size);
+        size_->addItem(leftToRight(tr("%1 × %2").arg(size.width()).arg(size.height())), size);
     }
     size_->setCurrentIndex(1);
     form.addRow(tr("Si&ze"), size_);
     for (const int rate : kRecordingRates) {
         //: Frames per second
-        rate_->addItem(tr("%1 fps").arg(rate), rate);
+        rate_->addItem(leftToRight(tr("%1 fps").arg(rate)), rate);
     }
     rate_->setCurrentIndex(2);
     form.addRow(tr("Frame rat&e"), rate_);
