@@ -40,7 +40,7 @@ GraphicsCheck checkGraphics()
         return GraphicsCheck{.problem = problem, .format = mapSurfaceFormat()};
     };
     const auto tr = [](const char* text) {
-        return QCoreApplication::translate("GraphicsCheck", text);
+        return QCoreApplication::translate("marsview", text);
     };
     const QString platform = QGuiApplication::platformName();
     if (platform == QStringLiteral("offscreen") || platform == QStringLiteral("minimal")) {

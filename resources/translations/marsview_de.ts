@@ -922,105 +922,6 @@
         <extracomment>Status tip of a contact model: its behavior and its cost</extracomment>
         <translation>Tastet mit einer Kugel, so breit wie eine Zelle der Karte; rundet scharfe Grate ab, reicht aber nicht in enge Senken</translation>
     </message>
-    <message>
-        <source>Zoom &amp;In</source>
-        <translation>Ver&amp;größern</translation>
-    </message>
-    <message>
-        <source>Zoom &amp;Out</source>
-        <translation>Ver&amp;kleinern</translation>
-    </message>
-    <message>
-        <source>Pan &amp;Left</source>
-        <translation>Nach &amp;links</translation>
-    </message>
-    <message>
-        <source>Pan &amp;Right</source>
-        <translation>Nach &amp;rechts</translation>
-    </message>
-    <message>
-        <source>Pan &amp;Forward</source>
-        <translation>Nach &amp;vorn</translation>
-    </message>
-    <message>
-        <source>Pan &amp;Back</source>
-        <translation>Nach &amp;hinten</translation>
-    </message>
-    <message>
-        <source>&amp;Turn Left</source>
-        <translation>L&amp;inks drehen</translation>
-    </message>
-    <message>
-        <source>T&amp;urn Right</source>
-        <translation>R&amp;echts drehen</translation>
-    </message>
-    <message>
-        <source>Tilt U&amp;p</source>
-        <translation>Nach &amp;oben neigen</translation>
-    </message>
-    <message>
-        <source>Tilt &amp;Down</source>
-        <translation>Nach &amp;unten neigen</translation>
-    </message>
-    <message>
-        <source>&amp;Shaded Relief</source>
-        <extracomment>Colors by elevation, with light and shade</extracomment>
-        <translation>&amp;Schattiertes Relief</translation>
-    </message>
-    <message>
-        <source>&amp;Hillshade</source>
-        <extracomment>Light and shade alone</extracomment>
-        <translation>Schu&amp;mmerung</translation>
-    </message>
-    <message>
-        <source>S&amp;lope</source>
-        <extracomment>Colors by steepness</extracomment>
-        <translation>&amp;Neigung</translation>
-    </message>
-    <message>
-        <source>&amp;Automatic</source>
-        <extracomment>A color stretch: ignores the rarest elevations at either end</extracomment>
-        <translation>&amp;Automatisch</translation>
-    </message>
-    <message>
-        <source>Spread the color ramp over all but the rarest half percent of elevations at either end</source>
-        <translation>Die Farbskala über alle Höhen außer dem seltensten halben Prozent an jedem Ende spreizen</translation>
-    </message>
-    <message>
-        <source>Spread the color ramp over all but the steepest percent of the slopes</source>
-        <translation>Die Farbskala über alle Neigungen außer dem steilsten Prozent spreizen</translation>
-    </message>
-    <message>
-        <source>&amp;Full Range</source>
-        <extracomment>A color stretch</extracomment>
-        <translation>&amp;Ganzer Bereich</translation>
-    </message>
-    <message>
-        <source>Spread the color ramp from the lowest to the highest elevation of the layer</source>
-        <translation>Die Farbskala von der tiefsten bis zur höchsten Höhe des Layers spreizen</translation>
-    </message>
-    <message>
-        <source>&amp;Percentile…</source>
-        <extracomment>A color stretch: so many percent are cut off at either end</extracomment>
-        <translation>&amp;Perzentil …</translation>
-    </message>
-    <message>
-        <source>Cut off a percentage of the elevations at either end</source>
-        <translation>Einen Prozentsatz der Höhen an jedem Ende abschneiden</translation>
-    </message>
-    <message>
-        <source>&amp;Minimum and Maximum…</source>
-        <extracomment>A color stretch: minimum and maximum are typed</extracomment>
-        <translation>&amp;Minimum und Maximum …</translation>
-    </message>
-    <message>
-        <source>Enter the values at the ends of the color ramp</source>
-        <translation>Die Werte an den Enden der Farbskala eingeben</translation>
-    </message>
-    <message>
-        <source>Enter the slopes at the ends of the color ramp</source>
-        <translation>Die Neigungen an den Enden der Farbskala eingeben</translation>
-    </message>
 </context>
 <context>
     <name>WindowCommands</name>
@@ -5506,6 +5407,105 @@ Bewegen Sie die Karte zu einer Ansicht, die Sie behalten wollen, und drücken Si
     <message>
         <source>Save the annotations as GeoPackage, GeoJSON, KML, Shapefile or CSV</source>
         <translation>Die Anmerkungen als GeoPackage, GeoJSON, KML, Shapefile oder CSV speichern</translation>
+    </message>
+    <message>
+        <source>Zoom &amp;In</source>
+        <translation>Ver&amp;größern</translation>
+    </message>
+    <message>
+        <source>Zoom &amp;Out</source>
+        <translation>Ver&amp;kleinern</translation>
+    </message>
+    <message>
+        <source>Pan &amp;Left</source>
+        <translation>Nach &amp;links</translation>
+    </message>
+    <message>
+        <source>Pan &amp;Right</source>
+        <translation>Nach &amp;rechts</translation>
+    </message>
+    <message>
+        <source>Pan &amp;Forward</source>
+        <translation>Nach &amp;vorn</translation>
+    </message>
+    <message>
+        <source>Pan &amp;Back</source>
+        <translation>Nach &amp;hinten</translation>
+    </message>
+    <message>
+        <source>&amp;Turn Left</source>
+        <translation>L&amp;inks drehen</translation>
+    </message>
+    <message>
+        <source>T&amp;urn Right</source>
+        <translation>R&amp;echts drehen</translation>
+    </message>
+    <message>
+        <source>Tilt U&amp;p</source>
+        <translation>Nach &amp;oben neigen</translation>
+    </message>
+    <message>
+        <source>Tilt &amp;Down</source>
+        <translation>Nach &amp;unten neigen</translation>
+    </message>
+    <message>
+        <source>&amp;Shaded Relief</source>
+        <extracomment>Colors by elevation, with light and shade</extracomment>
+        <translation>&amp;Schattiertes Relief</translation>
+    </message>
+    <message>
+        <source>&amp;Hillshade</source>
+        <extracomment>Light and shade alone</extracomment>
+        <translation>Schu&amp;mmerung</translation>
+    </message>
+    <message>
+        <source>S&amp;lope</source>
+        <extracomment>Colors by steepness</extracomment>
+        <translation>&amp;Neigung</translation>
+    </message>
+    <message>
+        <source>&amp;Automatic</source>
+        <extracomment>A color stretch: ignores the rarest elevations at either end</extracomment>
+        <translation>&amp;Automatisch</translation>
+    </message>
+    <message>
+        <source>Spread the color ramp over all but the rarest half percent of elevations at either end</source>
+        <translation>Die Farbskala über alle Höhen außer dem seltensten halben Prozent an jedem Ende spreizen</translation>
+    </message>
+    <message>
+        <source>Spread the color ramp over all but the steepest percent of the slopes</source>
+        <translation>Die Farbskala über alle Neigungen außer dem steilsten Prozent spreizen</translation>
+    </message>
+    <message>
+        <source>&amp;Full Range</source>
+        <extracomment>A color stretch</extracomment>
+        <translation>&amp;Ganzer Bereich</translation>
+    </message>
+    <message>
+        <source>Spread the color ramp from the lowest to the highest elevation of the layer</source>
+        <translation>Die Farbskala von der tiefsten bis zur höchsten Höhe des Layers spreizen</translation>
+    </message>
+    <message>
+        <source>&amp;Percentile…</source>
+        <extracomment>A color stretch: so many percent are cut off at either end</extracomment>
+        <translation>&amp;Perzentil …</translation>
+    </message>
+    <message>
+        <source>Cut off a percentage of the elevations at either end</source>
+        <translation>Einen Prozentsatz der Höhen an jedem Ende abschneiden</translation>
+    </message>
+    <message>
+        <source>&amp;Minimum and Maximum…</source>
+        <extracomment>A color stretch: minimum and maximum are typed</extracomment>
+        <translation>&amp;Minimum und Maximum …</translation>
+    </message>
+    <message>
+        <source>Enter the values at the ends of the color ramp</source>
+        <translation>Die Werte an den Enden der Farbskala eingeben</translation>
+    </message>
+    <message>
+        <source>Enter the slopes at the ends of the color ramp</source>
+        <translation>Die Neigungen an den Enden der Farbskala eingeben</translation>
     </message>
 </context>
 <context>

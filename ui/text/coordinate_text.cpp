@@ -15,7 +15,7 @@ namespace {
 
 QString tr(const char* text)
 {
-    return QCoreApplication::translate("CoordinateText", text);
+    return QCoreApplication::translate("marsview", text);
 }
 
 bool isEarth(const RasterInfo& info)

@@ -17,7 +17,7 @@ namespace {
 
 QString tr(const char* text)
 {
-    return QCoreApplication::translate("HapticsText", text);
+    return QCoreApplication::translate("marsview", text);
 }
 
 QString bodyText(const Ellipsoid& ellipsoid)

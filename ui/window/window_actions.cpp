@@ -28,7 +28,7 @@ namespace {
 
 QString tr(const char* text)
 {
-    return QCoreApplication::translate("WindowActions", text);
+    return QCoreApplication::translate("marsview::WindowActions", text);
 }
 
 struct StepAction {
@@ -38,24 +38,25 @@ struct StepAction {
 };
 
 constexpr std::array kStepActions{
-    StepAction{NavigationStep::ZoomIn, QT_TRANSLATE_NOOP("WindowActions", "Zoom &In"),
+    StepAction{NavigationStep::ZoomIn, QT_TRANSLATE_NOOP("marsview::WindowActions", "Zoom &In"),
                Qt::Key_PageUp},
-    StepAction{NavigationStep::ZoomOut, QT_TRANSLATE_NOOP("WindowActions", "Zoom &Out"),
+    StepAction{NavigationStep::ZoomOut, QT_TRANSLATE_NOOP("marsview::WindowActions", "Zoom &Out"),
                Qt::Key_PageDown},
-    StepAction{NavigationStep::PanLeft, QT_TRANSLATE_NOOP("WindowActions", "Pan &Left"),
+    StepAction{NavigationStep::PanLeft, QT_TRANSLATE_NOOP("marsview::WindowActions", "Pan &Left"),
                Qt::Key_Left},
-    StepAction{NavigationStep::PanRight, QT_TRANSLATE_NOOP("WindowActions", "Pan &Right"),
+    StepAction{NavigationStep::PanRight, QT_TRANSLATE_NOOP("marsview::WindowActions", "Pan &Right"),
                Qt::Key_Right},
-    StepAction{NavigationStep::PanAway, QT_TRANSLATE_NOOP("WindowActions", "Pan &Forward"),
-               Qt::Key_Up},
-    StepAction{NavigationStep::PanNearer, QT_TRANSLATE_NOOP("WindowActions", "Pan &Back"),
+    StepAction{NavigationStep::PanAway,
+               QT_TRANSLATE_NOOP("marsview::WindowActions", "Pan &Forward"), Qt::Key_Up},
+    StepAction{NavigationStep::PanNearer, QT_TRANSLATE_NOOP("marsview::WindowActions", "Pan &Back"),
                Qt::Key_Down},
-    StepAction{NavigationStep::TurnLeft, QT_TRANSLATE_NOOP("WindowActions", "&Turn Left"),
+    StepAction{NavigationStep::TurnLeft, QT_TRANSLATE_NOOP("marsview::WindowActions", "&Turn Left"),
                Qt::Key_Q},
-    StepAction{NavigationStep::TurnRight, QT_TRANSLATE_NOOP("WindowActions", "T&urn Right"),
-               Qt::Key_E},
-    StepAction{NavigationStep::TiltUp, QT_TRANSLATE_NOOP("WindowActions", "Tilt U&p"), Qt::Key_R},
-    StepAction{NavigationStep::TiltDown, QT_TRANSLATE_NOOP("WindowActions", "Tilt &Down"),
+    StepAction{NavigationStep::TurnRight,
+               QT_TRANSLATE_NOOP("marsview::WindowActions", "T&urn Right"), Qt::Key_E},
+    StepAction{NavigationStep::TiltUp, QT_TRANSLATE_NOOP("marsview::WindowActions", "Tilt U&p"),
+               Qt::Key_R},
+    StepAction{NavigationStep::TiltDown, QT_TRANSLATE_NOOP("marsview::WindowActions", "Tilt &Down"),
                Qt::Key_F},
 };
 
@@ -66,11 +67,13 @@ struct ShadingAction {
 
 constexpr std::array kShadingActions{
     //: Colors by elevation, with light and shade
-    ShadingAction{ShadingMode::Tint, QT_TRANSLATE_NOOP("WindowActions", "&Shaded Relief")},
+    ShadingAction{ShadingMode::Tint,
+                  QT_TRANSLATE_NOOP("marsview::WindowActions", "&Shaded Relief")},
     //: Light and shade alone
-    ShadingAction{ShadingMode::Hillshade, QT_TRANSLATE_NOOP("WindowActions", "&Hillshade")},
+    ShadingAction{ShadingMode::Hillshade,
+                  QT_TRANSLATE_NOOP("marsview::WindowActions", "&Hillshade")},
     //: Colors by steepness
-    ShadingAction{ShadingMode::Slope, QT_TRANSLATE_NOOP("WindowActions", "S&lope")},
+    ShadingAction{ShadingMode::Slope, QT_TRANSLATE_NOOP("marsview::WindowActions", "S&lope")},
 };
 
 struct StretchAction {
@@ -83,30 +86,31 @@ struct StretchAction {
 constexpr std::array kStretchActions{
     StretchAction{StretchKind::Automatic,
                   //: A color stretch: ignores the rarest elevations at either end
-                  QT_TRANSLATE_NOOP("WindowActions", "&Automatic"),
-                  QT_TRANSLATE_NOOP("WindowActions",
+                  QT_TRANSLATE_NOOP("marsview::WindowActions", "&Automatic"),
+                  QT_TRANSLATE_NOOP("marsview::WindowActions",
                                     "Spread the color ramp over all but the rarest half percent of "
                                     "elevations at either end"),
-                  QT_TRANSLATE_NOOP("WindowActions",
+                  QT_TRANSLATE_NOOP("marsview::WindowActions",
                                     "Spread the color ramp over all but the steepest percent of "
                                     "the slopes")},
     StretchAction{StretchKind::Full,
                   //: A color stretch
-                  QT_TRANSLATE_NOOP("WindowActions", "&Full Range"),
-                  QT_TRANSLATE_NOOP("WindowActions",
+                  QT_TRANSLATE_NOOP("marsview::WindowActions", "&Full Range"),
+                  QT_TRANSLATE_NOOP("marsview::WindowActions",
                                     "Spread the color ramp from the lowest to the highest "
                                     "elevation of the layer")},
-    StretchAction{
-        StretchKind::Percentile,
-        //: A color stretch: so many percent are cut off at either end
-        QT_TRANSLATE_NOOP("WindowActions", "&Percentile…"),
-        QT_TRANSLATE_NOOP("WindowActions", "Cut off a percentage of the elevations at either end")},
-    StretchAction{
-        StretchKind::Fixed,
-        //: A color stretch: minimum and maximum are typed
-        QT_TRANSLATE_NOOP("WindowActions", "&Minimum and Maximum…"),
-        QT_TRANSLATE_NOOP("WindowActions", "Enter the values at the ends of the color ramp"),
-        QT_TRANSLATE_NOOP("WindowActions", "Enter the slopes at the ends of the color ramp")},
+    StretchAction{StretchKind::Percentile,
+                  //: A color stretch: so many percent are cut off at either end
+                  QT_TRANSLATE_NOOP("marsview::WindowActions", "&Percentile…"),
+                  QT_TRANSLATE_NOOP("marsview::WindowActions",
+                                    "Cut off a percentage of the elevations at either end")},
+    StretchAction{StretchKind::Fixed,
+                  //: A color stretch: minimum and maximum are typed
+                  QT_TRANSLATE_NOOP("marsview::WindowActions", "&Minimum and Maximum…"),
+                  QT_TRANSLATE_NOOP("marsview::WindowActions",
+                                    "Enter the values at the ends of the color ramp"),
+                  QT_TRANSLATE_NOOP("marsview::WindowActions",
+                                    "Enter the slopes at the ends of the color ramp")},
 };
 
 const StretchAction& stretchAction(StretchKind kind)
