@@ -222,16 +222,15 @@ private:
         if (!(length(felt.goal - at) <= 1e-6 * loop_.frame().scene_per_meter)) {
             note(TouchInvariant::StateIsWhatIsFelt, fmt::format("{} m", length(felt.goal - at)));
         }
-        // A gliding map has some energy. Terrain that appears above the hand lifts it by the height
-        // of the workspace at most.
-        constexpr double kGlidingJ = 0.2;
+        // A slope that glides below the hand, or terrain that appears above it, lifts the hand by
+        // the height of the workspace at most.
         constexpr double kLiftM = 0.12;
         if (has_event_ && loop_.ticks() > event_tick_ + 2000) {
             has_event_ = false;
             energy_j_ = std::min(energy_j_, 0.0);
         }
-        const double lift_j = has_event_ ? kLiftM * limits.force_n_max : 0.0;
-        if (!(energy_j_ <= kGlidingJ + lift_j) && !is_energy_noted_) {
+        const int lift_count = has_event_ ? 2 : 1;
+        if (!(energy_j_ <= lift_count * kLiftM * limits.force_n_max) && !is_energy_noted_) {
             is_energy_noted_ = true;
             note(TouchInvariant::EnergyGivenToTheHandIsBounded, fmt::format("{} J", energy_j_));
         }
@@ -267,14 +266,18 @@ private:
         if (!loop_.settings.map) {
             changeMap();
         }
-        constexpr int kRestTicks = 16000; // a map glides for up to 12 s
+        constexpr int kRestTicks = 30000; // a map glides for up to 12 s, a fit takes up to 22 s
         constexpr int kPart = 500;
         for (int i = 0; i < kRestTicks && (i < 2 * kPart || !isSettled()); i += kPart) {
             hold({0.0, 0.0, 0.055}, kPart);
         }
         const double off_m = offFit();
         const bool is_free = !loop_.last().contact.is_in_contact;
-        if (is_free && !(off_m <= kFitM)) {
+        // Near the surface the workspace rests: that is within reach.
+        const FitOptions fit;
+        const bool is_near = loop_.hand().measured().z - loop_.surfaceZ() <=
+                             fit.clearance_min_m + fit.clearance_fade_m;
+        if (is_free && !is_near && !(off_m <= kFitM)) {
             note(TouchInvariant::ViewIsReachable, fmt::format("{} mm off", off_m * 1e3));
         }
         const double z_m = loop_.surfaceZ();

@@ -67,5 +67,30 @@ TEST(HandView, TheFrameFollowsTheCameraBack)
     }
 }
 
+// Each of them alone: the position, the distance and the heading of the camera.
+TEST(HandView, ALimitOfTheCameraMovesTheMapExceptInHeight)
+{
+    const HandView followed{.camera = {.target = {10.0, 20.0, 5.0},
+                                       .distance_m = 100.0,
+                                       .azimuth = Angle::degrees(30.0),
+                                       .tilt = Angle::degrees(40.0)},
+                            .frame = {.place = {8.0, 15.0, 3.0}, .scene_per_meter = 1000.0}};
+    const auto limited = [&](auto change) {
+        OrbitCamera camera = followed.camera;
+        change(camera);
+        return limitedView(followed, camera);
+    };
+    EXPECT_FALSE(limited([](OrbitCamera&) {}).is_moved);
+    EXPECT_FALSE(limited([](OrbitCamera& c) { c.target.z = 50.0; }).is_moved);
+    EXPECT_TRUE(limited([](OrbitCamera& c) { c.distance_m = 120.0; }).is_moved);
+    EXPECT_TRUE(limited([](OrbitCamera& c) { c.azimuth = Angle::degrees(31.0); }).is_moved);
+    const LimitedView moved = limited([](OrbitCamera& c) { c.target.x = 14.0; });
+    EXPECT_TRUE(moved.is_moved);
+    // The target stays at its place in the workspace.
+    const WorkspacePoint at = moved.view.frame.toWorkspace(moved.view.camera.target);
+    EXPECT_NEAR(length(at - followed.frame.toWorkspace(followed.camera.target)), 0.0, 1e-12);
+    EXPECT_EQ(moved.view.camera.target.x, 14.0);
+}
+
 } // namespace
 } // namespace marsview::test

@@ -46,6 +46,22 @@ TEST(PanMotion, DragSlowsItDownToRest)
     EXPECT_EQ(state.velocity_m_per_s, Vec3{});
 }
 
+// m dv/dt = F - m c v: pulled with a constant force, the map reaches v = F / (m c).
+TEST(PanMotion, DragLimitsTheSpeedOfAPulledMap)
+{
+    PanOptions options;
+    options.drag_per_s = 2.0;
+    PanState state;
+    grabMap(options, state, {}, {});
+    Vec3 force_n{};
+    constexpr double kSpeed = 0.1; // of the hand, m/s
+    for (int i = 0; i < 10'000; ++i) {
+        force_n = pullMap(options, state, {kSpeed * kDt, 0.0, 0.0}, 1.0, kDt).force_n;
+    }
+    EXPECT_NEAR(state.velocity_m_per_s.x, kSpeed, 1e-6);
+    EXPECT_NEAR(-force_n.x, options.mass_kg * options.drag_per_s * kSpeed, 1e-6);
+}
+
 TEST(PanMotion, MomentumComesFromTheHand)
 {
     Random random;

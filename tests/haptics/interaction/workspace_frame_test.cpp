@@ -108,6 +108,20 @@ TEST(WorkspaceFrame, ZoomingAndTurningKeepTheirPlace)
     }
 }
 
+TEST(WorkspaceFrame, AFrameAfterItsMotionToAnotherIsThatOne)
+{
+    Random random;
+    for (int i = 0; i < 100; ++i) {
+        const WorkspaceFrame from = randomFrame(random);
+        const WorkspaceFrame to = randomFrame(random);
+        const WorkspaceFrame after = from.after(to.motionFrom(from));
+        const WorkspacePoint point = randomPoint(random);
+        const ScenePoint expected = to.toScene(point);
+        EXPECT_NEAR(length(after.toScene(point) - expected), 0.0,
+                    1e-9 * (1.0 + length(expected - ScenePoint{}) + to.scene_per_meter));
+    }
+}
+
 TEST(WorkspaceFrame, TheHandReachesWhatTheCameraSees)
 {
     Random random;

@@ -118,6 +118,41 @@ TEST(HapticTick, ARehearsalHasTheResultOfTheTickAndChangesNothing)
     }
 }
 
+TEST(HapticTick, ASmoothMotionOfTheCameraIsNoJump)
+{
+    Rig rig;
+    rig.at({});
+    rig.to({0.0, 0.0, -0.025});
+    rig.settings.frame.place.x += 1.0; // 1 mm of the workspace
+    ++rig.settings.frame_number;
+    EXPECT_FALSE(rig.at({0.0, 0.0, -0.025}).has_changed_map);
+    rig.settings.frame.place.x += 5.0; // 5 mm
+    ++rig.settings.frame_number;
+    EXPECT_TRUE(rig.at({0.0, 0.0, -0.025}).has_changed_map);
+}
+
+// The difference between the forces of a hold and of the surface fades after a release; a later
+// jump does not bring it back.
+TEST(HapticTick, NoForceOfAnEarlierHoldFollowsAJump)
+{
+    Rig rig;
+    rig.at({});
+    rig.to({0.0, 0.0, -0.022});
+    rig.settings.is_grabbing = true;
+    EXPECT_LT(rig.to({0.0, 0.0, -0.015}).force_n.z, -1.0) << "the hold pulls back";
+    rig.settings.is_grabbing = false;
+    rig.at({0.0, 0.0, -0.015});
+    EXPECT_EQ(rig.to({0.0, 0.0, 0.0}).force_n, Vec3{});
+    rig.options.limits.change_ramp_s = 0.05;
+    rig.settings.frame.place = rig.state.frame.place + Vec3{20.0, 0.0, 0.0};
+    ++rig.settings.frame_number;
+    const StepResult jumped = rig.at({});
+    EXPECT_TRUE(jumped.has_changed_map);
+    for (int i = 0; i < 50; ++i) {
+        EXPECT_EQ(rig.at({}).force_n, Vec3{}) << i;
+    }
+}
+
 TEST(HapticTick, ReportsTheHeightOfTheSurfaceBelowTheHand)
 {
     Rig rig; // 20 mm above the plane
