@@ -851,79 +851,6 @@
     </message>
 </context>
 <context>
-    <name>WindowActions</name>
-    <message>
-        <source>&amp;Continuous Walk (exact)</source>
-        <extracomment>A contact model: how the touching point (the proxy) follows the hand over the ground</extracomment>
-        <translation>&amp;Stetiger Gang (genau)</translation>
-    </message>
-    <message>
-        <source>Takes every point of the hand&apos;s way in turn, so that even fast strokes end where slow ones would; each costs a little more time</source>
-        <extracomment>Status tip of a contact model: its behavior and its cost</extracomment>
-        <translation>Nimmt jeden Punkt des Wegs der Hand der Reihe nach, sodass auch schnelle Striche enden, wo langsame es täten; jeder kostet etwas mehr Zeit</translation>
-    </message>
-    <message>
-        <source>&amp;Surface Walk</source>
-        <extracomment>A contact model: how the touching point (the proxy) follows the hand over the ground</extracomment>
-        <translation>&amp;Oberflächengang</translation>
-    </message>
-    <message>
-        <source>Slides downhill across faces, edges and corners of the ground; quick, but a fast stroke may end in a neighboring dip</source>
-        <extracomment>Status tip of a contact model: its behavior and its cost</extracomment>
-        <translation>Gleitet bergab über Flächen, Kanten und Ecken des Bodens; schnell, aber ein schneller Strich kann in einer benachbarten Senke enden</translation>
-    </message>
-    <message>
-        <source>&amp;Proxy Graph</source>
-        <extracomment>A contact model: it walks on the graph of the vertices and edges of the ground</extracomment>
-        <translation>&amp;Proxy-Graph</translation>
-    </message>
-    <message>
-        <source>Goes along edges from corner to corner and on across faces; quick, but a fast stroke ends in a neighboring dip more often</source>
-        <extracomment>Status tip of a contact model: its behavior and its cost</extracomment>
-        <translation>Geht entlang der Kanten von Ecke zu Ecke und weiter über Flächen; schnell, aber ein schneller Strich endet öfter in einer benachbarten Senke</translation>
-    </message>
-    <message>
-        <source>Proxy Graph as Published (&amp;2003)</source>
-        <extracomment>A contact model: the proxy graph exactly as its paper describes it</extracomment>
-        <translation>Proxy-Graph wie veröffentlicht (&amp;2003)</translation>
-    </message>
-    <message>
-        <source>Follows the rules of the 2003 paper to the letter, for comparison; it rests farther from the nearest point than the others do</source>
-        <extracomment>Status tip of a contact model: its behavior and its cost</extracomment>
-        <translation>Befolgt die Regeln des Artikels von 2003 wörtlich, zum Vergleich; ruht weiter vom nächsten Punkt entfernt als die anderen</translation>
-    </message>
-    <message>
-        <source>&amp;God-Object</source>
-        <extracomment>A contact model, by the name that the literature gave it</extracomment>
-        <translation>&amp;God-Object</translation>
-    </message>
-    <message>
-        <source>Stops at each face that it hits until the hand moves again; simple, but it may stick or float for a moment</source>
-        <extracomment>Status tip of a contact model: its behavior and its cost</extracomment>
-        <translation>Hält an jeder Fläche, auf die es trifft, bis sich die Hand wieder bewegt; einfach, kann aber kurz hängen bleiben oder schweben</translation>
-    </message>
-    <message>
-        <source>God-Object, Constraints &amp;Released</source>
-        <extracomment>A contact model: a god-object that releases constraints</extracomment>
-        <translation>God-Object, Bedingungen &amp;gelöst</translation>
-    </message>
-    <message>
-        <source>A god-object that releases faces as soon as they no longer hold it; it does not stick, but searches for every face that it reaches</source>
-        <extracomment>Status tip of a contact model: its behavior and its cost</extracomment>
-        <translation>Ein God-Object, das Flächen loslässt, sobald sie es nicht mehr halten; es bleibt nicht hängen, sucht aber nach jeder Fläche, die es erreicht</translation>
-    </message>
-    <message>
-        <source>&amp;Virtual Proxy (sphere)</source>
-        <extracomment>A contact model: a sphere touches the ground in place of a point</extracomment>
-        <translation>&amp;Virtueller Proxy (Kugel)</translation>
-    </message>
-    <message>
-        <source>Touches with a sphere as wide as a cell of the map; it rounds off sharp ridges, but does not reach into narrow dips</source>
-        <extracomment>Status tip of a contact model: its behavior and its cost</extracomment>
-        <translation>Tastet mit einer Kugel, so breit wie eine Zelle der Karte; rundet scharfe Grate ab, reicht aber nicht in enge Senken</translation>
-    </message>
-</context>
-<context>
     <name>WindowCommands</name>
     <message>
         <source>Project</source>
@@ -5506,6 +5433,76 @@ Bewegen Sie die Karte zu einer Ansicht, die Sie behalten wollen, und drücken Si
     <message>
         <source>Enter the slopes at the ends of the color ramp</source>
         <translation>Die Neigungen an den Enden der Farbskala eingeben</translation>
+    </message>
+    <message>
+        <source>&amp;Continuous Walk (exact)</source>
+        <extracomment>A contact model: how the touching point (the proxy) follows the hand over the ground</extracomment>
+        <translation>&amp;Stetiger Gang (genau)</translation>
+    </message>
+    <message>
+        <source>Takes every point of the hand&apos;s way in turn, so that even fast strokes end where slow ones would; each costs a little more time</source>
+        <extracomment>Status tip of a contact model: its behavior and its cost</extracomment>
+        <translation>Nimmt jeden Punkt des Wegs der Hand der Reihe nach, sodass auch schnelle Striche enden, wo langsame es täten; jeder kostet etwas mehr Zeit</translation>
+    </message>
+    <message>
+        <source>&amp;Surface Walk</source>
+        <extracomment>A contact model: how the touching point (the proxy) follows the hand over the ground</extracomment>
+        <translation>&amp;Oberflächengang</translation>
+    </message>
+    <message>
+        <source>Slides downhill across faces, edges and corners of the ground; quick, but a fast stroke may end in a neighboring dip</source>
+        <extracomment>Status tip of a contact model: its behavior and its cost</extracomment>
+        <translation>Gleitet bergab über Flächen, Kanten und Ecken des Bodens; schnell, aber ein schneller Strich kann in einer benachbarten Senke enden</translation>
+    </message>
+    <message>
+        <source>&amp;Proxy Graph</source>
+        <extracomment>A contact model: it walks on the graph of the vertices and edges of the ground</extracomment>
+        <translation>&amp;Proxy-Graph</translation>
+    </message>
+    <message>
+        <source>Goes along edges from corner to corner and on across faces; quick, but a fast stroke ends in a neighboring dip more often</source>
+        <extracomment>Status tip of a contact model: its behavior and its cost</extracomment>
+        <translation>Geht entlang der Kanten von Ecke zu Ecke und weiter über Flächen; schnell, aber ein schneller Strich endet öfter in einer benachbarten Senke</translation>
+    </message>
+    <message>
+        <source>Proxy Graph as Published (&amp;2003)</source>
+        <extracomment>A contact model: the proxy graph exactly as its paper describes it</extracomment>
+        <translation>Proxy-Graph wie veröffentlicht (&amp;2003)</translation>
+    </message>
+    <message>
+        <source>Follows the rules of the 2003 paper to the letter, for comparison; it rests farther from the nearest point than the others do</source>
+        <extracomment>Status tip of a contact model: its behavior and its cost</extracomment>
+        <translation>Befolgt die Regeln des Artikels von 2003 wörtlich, zum Vergleich; ruht weiter vom nächsten Punkt entfernt als die anderen</translation>
+    </message>
+    <message>
+        <source>&amp;God-Object</source>
+        <extracomment>A contact model, by the name that the literature gave it</extracomment>
+        <translation>&amp;God-Object</translation>
+    </message>
+    <message>
+        <source>Stops at each face that it hits until the hand moves again; simple, but it may stick or float for a moment</source>
+        <extracomment>Status tip of a contact model: its behavior and its cost</extracomment>
+        <translation>Hält an jeder Fläche, auf die es trifft, bis sich die Hand wieder bewegt; einfach, kann aber kurz hängen bleiben oder schweben</translation>
+    </message>
+    <message>
+        <source>God-Object, Constraints &amp;Released</source>
+        <extracomment>A contact model: a god-object that releases constraints</extracomment>
+        <translation>God-Object, Bedingungen &amp;gelöst</translation>
+    </message>
+    <message>
+        <source>A god-object that releases faces as soon as they no longer hold it; it does not stick, but searches for every face that it reaches</source>
+        <extracomment>Status tip of a contact model: its behavior and its cost</extracomment>
+        <translation>Ein God-Object, das Flächen loslässt, sobald sie es nicht mehr halten; es bleibt nicht hängen, sucht aber nach jeder Fläche, die es erreicht</translation>
+    </message>
+    <message>
+        <source>&amp;Virtual Proxy (sphere)</source>
+        <extracomment>A contact model: a sphere touches the ground in place of a point</extracomment>
+        <translation>&amp;Virtueller Proxy (Kugel)</translation>
+    </message>
+    <message>
+        <source>Touches with a sphere as wide as a cell of the map; it rounds off sharp ridges, but does not reach into narrow dips</source>
+        <extracomment>Status tip of a contact model: its behavior and its cost</extracomment>
+        <translation>Tastet mit einer Kugel, so breit wie eine Zelle der Karte; rundet scharfe Grate ab, reicht aber nicht in enge Senken</translation>
     </message>
 </context>
 <context>

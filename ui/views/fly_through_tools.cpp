@@ -51,6 +51,7 @@ void FlyThroughTools::open()
              .folder = [this] { return folder(); }},
             &parts_.window);
         dialog_->setAttribute(Qt::WA_DeleteOnClose);
+        refresh_timer_.stop(); // it has just read everything
         connect(
             dialog_, &FlyThroughDialog::recordRequested, this,
             [this](const CameraPath& path, const QString& file, const RecordingOptions& options) {
