@@ -224,7 +224,9 @@ QSet<QString> translatedTexts()
         } else if (xml.name() == QLatin1String("translation")) {
             const bool is_finished = !xml.attributes().hasAttribute(QLatin1String("type"));
             const QString text = xml.readElementText(QXmlStreamReader::IncludeChildElements);
-            if (is_finished && text.trimmed() != source.trimmed()) {
+            // Letters may be keys as well as directions.
+            const bool is_letter = source.trimmed().size() == 1;
+            if (is_finished && !is_letter && text.trimmed() != source.trimmed()) {
                 texts.insert(source);
             }
         }

@@ -114,7 +114,7 @@ Result<OffscreenPicture> drawOffscreen(TerrainRenderer& renderer,
         std::vector<float> window_depths(pixelCount(size));
         glReadPixels(0, 0, size.width, size.height, GL_DEPTH_COMPONENT, GL_FLOAT,
                      window_depths.data());
-        const ClipRange clip = renderer.clip(request.camera, style.exaggeration);
+        const ClipRange clip = renderer.clip(request.pose(), style.exaggeration);
         std::vector<double> depths(window_depths.size());
         std::transform(window_depths.begin(), window_depths.end(), depths.begin(), [&](float d) {
             if (d >= 1.0F) {
