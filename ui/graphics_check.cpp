@@ -39,9 +39,7 @@ GraphicsCheck checkGraphics()
     const auto failed = [](const QString& problem) {
         return GraphicsCheck{.problem = problem, .format = mapSurfaceFormat()};
     };
-    const auto tr = [](const char* text) {
-        return QCoreApplication::translate("marsview", text);
-    };
+    const auto tr = [](const char* text) { return QCoreApplication::translate("marsview", text); };
     const QString platform = QGuiApplication::platformName();
     if (platform == QStringLiteral("offscreen") || platform == QStringLiteral("minimal")) {
         // A context may exist there, but a window cannot show its pictures.

@@ -40,8 +40,8 @@ struct Graticule {
 };
 
 /// The smallest step for lines that is at least `least` (> 0): 1, 2 or 5 × 10^n degrees up to 10°,
-/// then 15°, 30°, 45° and 90°. With minutes and seconds below a degree: 1, 2, 5, 10, 20 or 30 of them, then
-/// 1, 2 or 5 × 10^n seconds.
+/// then 15°, 30°, 45° and 90°. With minutes and seconds below a degree: 1, 2, 5, 10, 20 or 30 of
+/// them, then 1, 2 or 5 × 10^n seconds.
 Angle graticuleStep(AngleNotation notation, Angle least);
 
 /// The lines in a picture, at least 90 points of the screen apart where the camera looks. They end

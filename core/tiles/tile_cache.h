@@ -34,8 +34,8 @@ struct TileCacheOptions {
 /// Counts since construction; bytes_held is the current value.
 struct TileCacheStatistics {
     std::uint64_t loaded = 0;
-    std::uint64_t failed = 0;    // attempts
-    std::uint64_t canceled = 0;  // requests canceled before a loader took them
+    std::uint64_t failed = 0;   // attempts
+    std::uint64_t canceled = 0; // requests canceled before a loader took them
     std::uint64_t evicted = 0;
     std::size_t bytes_held = 0;
 };

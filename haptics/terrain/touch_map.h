@@ -30,15 +30,14 @@ public:
     /// The map with a new model, from now on with tiles around the hand. `radius_m` is that of the
     /// model's sphere, half a cell if empty. Null for a map in memory whose voids have not been
     /// filled.
-    std::shared_ptr<ServoMap> make(ContactModelKind kind,
-                                   double exaggeration,
-                                   std::optional<double> radius_m = std::nullopt);
+    std::shared_ptr<ServoMap>
+    make(ContactModelKind kind, double exaggeration, std::optional<double> radius_m = std::nullopt);
     /// The hand is gone: loading stops.
     void release();
 
     /// For a hand without a servo loop, such as the mouse: reports its position and applies newly
-    /// loaded tiles at once, since a jump of the surface cannot be felt. Returns true if the surface
-    /// has changed: `model`, which make() returned, has been notified and needs an update.
+    /// loaded tiles at once, since a jump of the surface cannot be felt. Returns true if the
+    /// surface has changed: `model`, which make() returned, has been notified and needs an update.
     bool follow(MapContactModel& model, const ScenePoint& hand);
 
     /// Of loading tiles; empty for a map in memory.

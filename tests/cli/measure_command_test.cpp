@@ -145,7 +145,8 @@ TEST(MeasureDistance, ReadsPositionsFromVectorFiles)
 {
     const TempFolder folder;
     const std::string truth = measured("distance", bundledMars(), "226.2 18.65\n230 20\n").out;
-    const std::string wkt = folder.write("line.csv", "wkt,name\n\"LINESTRING(226.2 18.65,230 20)\",a\n");
+    const std::string wkt =
+        folder.write("line.csv", "wkt,name\n\"LINESTRING(226.2 18.65,230 20)\",a\n");
     for (const char* name : {"line.gpkg", "line.geojson", "line.shp"}) {
         const std::string file = folder.file(name);
         runTool({"ogr2ogr", "-a_srs", "IAU_2015:49900", "-nlt", "LINESTRING", file, wkt});

@@ -13,9 +13,9 @@
 #include <QProgressBar>
 #include <QScrollArea>
 #include <QSlider>
-#include <QTabBar>
 #include <QSpinBox>
 #include <QStackedWidget>
+#include <QTabBar>
 
 namespace marsview {
 namespace {

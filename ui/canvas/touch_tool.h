@@ -36,8 +36,8 @@ public:
 
     void setPressing(bool is_pressing);
     bool isPressing() const noexcept { return buttons_.is_pressing; }
-    /// The key that grabs acts for the device where one is shown as it is pressed, otherwise for the
-    /// mouse. Returns whether the device's grab begins or ends.
+    /// The key that grabs acts for the device where one is shown as it is pressed, otherwise for
+    /// the mouse. Returns whether the device's grab begins or ends.
     bool setGrabbing(bool is_grabbing);
     /// With the mouse.
     bool isGrabbing() const noexcept { return buttons_.is_grabbing; }

@@ -31,8 +31,8 @@ public:
     AttitudesView* attitudes() const noexcept { return attitudes_; }
     /// The rows of the current result, a line each: label, tab, value.
     QString resultsText() const;
-    /// Writes all measurements: as a table (csv), as features (gpkg), or the craters among them as a
-    /// count (scc, diam). Why that is not possible; empty if the file is written.
+    /// Writes all measurements: as a table (csv), as features (gpkg), or the craters among them as
+    /// a count (scc, diam). Why that is not possible; empty if the file is written.
     QString writeTable(const QString& path);
     /// Low: most of the window is for the map.
     QSize sizeHint() const override;

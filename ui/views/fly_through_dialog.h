@@ -1,8 +1,8 @@
 // Planning, playing and recording a fly-through.
 #pragma once
 
-#include "core/session/session.h"
 #include "core/flight/camera_path.h"
+#include "core/session/session.h"
 #include "ui/views/camera_flight.h"
 #include "ui/views/fly_through_recorder.h"
 

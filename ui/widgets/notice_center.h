@@ -26,9 +26,9 @@ enum class NoticeSource {
 };
 
 /// Keeps the notices of every source and which of them were closed. A closed notice about the
-/// device, the picture or a vector file returns when its condition ends and occurs again; every other stays closed
-/// as long as the window lives, because undo and other active layers make its condition come and
-/// go. GUI thread. Must not outlive the bar.
+/// device, the picture or a vector file returns when its condition ends and occurs again; every
+/// other stays closed as long as the window lives, because undo and other active layers make its
+/// condition come and go. GUI thread. Must not outlive the bar.
 class NoticeCenter final : public QObject {
     Q_OBJECT
 
