@@ -54,6 +54,7 @@ DrawnList::DrawnList(DrawingBase& drawing, const Columns& columns, QWidget* pare
     setMinimumWidth(260);
     connect(this, &QTreeWidget::currentItemChanged, this, [this](QTreeWidgetItem* row) {
         if (!is_filling_ && row != nullptr) {
+            const QScopedValueRollback notifying(is_notifying_, true);
             drawing_.select(idOf(*row));
         }
     });
@@ -66,6 +67,7 @@ DrawnList::DrawnList(DrawingBase& drawing, const Columns& columns, QWidget* pare
     });
     connect(this, &QTreeWidget::itemChanged, this, [this](QTreeWidgetItem* row, int column) {
         if (!is_filling_) {
+            const QScopedValueRollback notifying(is_notifying_, true);
             edit(*row, column);
         }
     });
@@ -94,6 +96,11 @@ std::vector<std::uint32_t> DrawnList::selectedIds() const
 
 void DrawnList::showItems()
 {
+    // While the list reports a change of its own, it still holds rows that sorting would move.
+    if (is_notifying_) {
+        QMetaObject::invokeMethod(this, &DrawnList::showItems, Qt::QueuedConnection);
+        return;
+    }
     const QScopedValueRollback filling(is_filling_, true);
     const std::vector<std::uint32_t> selected = selectedIds();
     const std::vector<const DrawnItem*> items = drawing_.drawn();

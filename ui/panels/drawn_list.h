@@ -57,6 +57,7 @@ private:
     DrawingBase& drawing_;
     Columns columns_;
     bool is_filling_ = false;
+    bool is_notifying_ = false; // of a change that the list itself made
 };
 
 } // namespace marsview
