@@ -145,7 +145,7 @@ struct StepResult {
     double damping_n_s_per_m = 0;     // added for passivity
     std::uint32_t missed_samples = 0; // terrain samples not available at full resolution
     bool has_ground_changed = false;  // the contact model was notified of a terrain change
-    /// Of the surface straight below or above the hand, in the workspace; NaN beside the map.
+    /// Of the surface straight below or above the hand, in the workspace; NaN outside the map.
     double surface_z_m = std::numeric_limits<double>::quiet_NaN();
 };
 

@@ -87,7 +87,7 @@ struct TickRecord {
     bool has_goal = false; // false: the contact model was not updated in this tick
     bool has_motion = false;
     SceneMotion motion{}; // of the map by the hand, since the last update that was recorded
-    /// Of the surface straight below or above the hand, in the workspace; NaN beside the map.
+    /// Of the surface straight below or above the hand, in the workspace; NaN outside the map.
     double surface_z_m = std::numeric_limits<double>::quiet_NaN();
     float tick_us = 0.0F;
     TouchedGround ground{};

@@ -144,7 +144,7 @@ void StretchDialog::fill()
     }
     cut_->setEnabled(is_any && content_.stretch.kind == StretchKind::Percentile);
     to_view_->setEnabled(content_.is_in_picture);
-    // Of slopes there is no histogram to take a range or percentiles from.
+    // Slopes have no histogram from which a range or percentiles could be taken.
     auto* list = qobject_cast<QListView*>(kind_->view());
     for (const StretchKind kind : {StretchKind::Full, StretchKind::Percentile}) {
         const int row = kind_->findData(static_cast<int>(kind));

@@ -28,7 +28,7 @@ public:
 
     /// Follows the view. Until it is called, positions are those of the map before.
     void update();
-    /// There is no map.
+    /// Whether there is no map.
     bool isEmpty() const noexcept { return geometry_ == nullptr; }
     /// Of update(); the view may show another one by now.
     const std::shared_ptr<const Map>& map() const noexcept { return map_; }

@@ -316,7 +316,7 @@ protected:
         }
         return corners;
     }
-    /// Lines beside those of the corners.
+    /// Lines in addition to those between the corners.
     virtual void addLines(std::vector<DrapedLine>& /*lines*/) const {}
     virtual void stateChanged(const State& /*before*/) {}
     virtual void hovered(const std::optional<QPointF>& /*position*/) {}

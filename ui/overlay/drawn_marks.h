@@ -48,7 +48,7 @@ protected:
     static QRectF boxAround(QPointF place, double radius);
     /// A dot with a dark rim, faint where it is hidden.
     static Mark handleMark(const DrawnHandle& handle, bool is_current);
-    /// Beside a place, within the view and clear of the obstacles. Empty if there is no room.
+    /// Next to a place, within the view and clear of the obstacles. Empty if it does not fit.
     std::optional<Mark> labelMark(QPointF place, const QString& text, const QColor& color) const;
 
     void paintEvent(QPaintEvent* event) override;

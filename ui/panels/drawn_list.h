@@ -35,7 +35,7 @@ public:
     void removeSelected();
 
 protected:
-    /// The columns beside name and note.
+    /// The columns other than name and note.
     virtual void fill(QTreeWidgetItem& row, const DrawnItem& item) = 0;
     /// Whether row `a` comes before row `b` where the list is sorted by `column`.
     virtual bool isBefore(const QTreeWidgetItem& a, const QTreeWidgetItem& b, int column) const;

@@ -173,12 +173,12 @@ bool ProjectController::saveAs(const QString& file)
 void ProjectController::writeBeside(const QString& path)
 {
     const QFileInfo project_file(path);
-    const auto beside = [&project_file](const QString& ending) {
+    const auto file_for = [&project_file](const QString& ending) {
         return project_file.dir().filePath(project_file.completeBaseName() + ending).toStdString();
     };
     if (const auto measurements = measuring_.named(); !measurements.empty()) {
         const Status written =
-            writeMeasurements(measurements, beside(QStringLiteral("-measurements.gpkg")));
+            writeMeasurements(measurements, file_for(QStringLiteral("-measurements.gpkg")));
         if (!written) {
             Q_EMIT failed(tr("The project is saved, but not the GeoPackage of its measurements: %1")
                               .arg(QString::fromStdString(written.error().message)));
@@ -187,7 +187,7 @@ void ProjectController::writeBeside(const QString& path)
     if (const auto annotations = annotating_.annotations(); !annotations.empty()) {
         JobMonitor monitor;
         const auto written =
-            writeAnnotations(annotations, beside(QStringLiteral("-annotations.gpkg")), monitor);
+            writeAnnotations(annotations, file_for(QStringLiteral("-annotations.gpkg")), monitor);
         if (!written) {
             Q_EMIT failed(tr("The project is saved, but not the GeoPackage of its annotations: %1")
                               .arg(QString::fromStdString(written.error().message)));

@@ -161,7 +161,7 @@ TEST(HapticTick, ReportsTheHeightOfTheSurfaceBelowTheHand)
     rig.settings.frame.scene_per_meter = 4000.0; // the edge of the map is at 25 mm
     ++rig.settings.frame_number;
     rig.to({0.02, 0.0, 0.02});
-    EXPECT_TRUE(std::isnan(rig.to({0.03, 0.0, 0.02}).surface_z_m)) << "beside the map";
+    EXPECT_TRUE(std::isnan(rig.to({0.03, 0.0, 0.02}).surface_z_m)) << "outside the map";
 }
 
 TEST(HapticTick, FeelsASlopeAtARightAngleHoweverTheMapIsTurned)
@@ -222,7 +222,7 @@ TEST(HapticTick, BesideTheMapThereIsNothingToTouch)
 {
     Rig rig;
     rig.settings.frame.scene_per_meter = 4000.0;
-    rig.at({0.04, 0.0, 0.0}); // begins beside the map
+    rig.at({0.04, 0.0, 0.0}); // begins outside the map
     const StepResult below = rig.to({0.04, 0.0, -0.02});
     EXPECT_FALSE(below.contact.is_in_contact);
     EXPECT_FALSE(below.is_at_edge);
