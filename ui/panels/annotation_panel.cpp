@@ -38,6 +38,7 @@ AnnotationPanel::AnnotationPanel(AnnotationController& controller,
         line->addWidget(button);
     }
     line->addWidget(hint_, 1);
+    line->addStretch(); // without the hint, the buttons keep their width
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(6, 4, 6, 6);
     layout->addWidget(list_, 1);
