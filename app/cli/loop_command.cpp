@@ -134,16 +134,21 @@ Result<std::string> withLocalPath(const std::string& uri)
                 : Result<std::string>(path.error());
 }
 
-// The URI of an available driver. The device's presence is only known once it is opened.
+// The URI of an available driver, of the form that the driver accepts. Whether the device is there
+// is only known once it is opened.
 CLI::Validator knownDevice()
 {
     return {[](std::string& uri) {
-                const std::vector<std::string> schemes = DeviceRegistry(builtInDrivers()).schemes();
+                const DeviceRegistry registry(builtInDrivers());
+                const std::vector<std::string> schemes = registry.schemes();
                 const std::size_t colon = uri.find(':');
                 const std::string scheme = uri.substr(0, colon);
                 const bool is_known =
                     std::find(schemes.begin(), schemes.end(), scheme) != schemes.end();
                 if (is_known && colon != std::string::npos) {
+                    if (const Status checked = registry.check(uri); !checked) {
+                        return checked.error().message;
+                    }
                     Result<std::string> local = withLocalPath(uri);
                     if (!local) {
                         return local.error().message;
@@ -154,7 +159,7 @@ CLI::Validator knownDevice()
                 return is_known ? fmt::format("\"{}\" has no colon; write \"{}:\"", uri, uri)
                                 : fmt::format(
                                       "unknown device \"{}\"; a device is written "
-                                      "SCHEME:ADDRESS, where SCHEME is one of {}.{}",
+                                      "SCHEME:ADDRESS, where SCHEME is one of {}{}",
                                       uri, fmt::join(schemes, ", "), didYouMean(scheme, schemes));
             },
             ""};

@@ -29,7 +29,7 @@ CLI::Validator knownBody()
                 for (const Body& body : knownBodies()) {
                     names.emplace_back(body.name);
                 }
-                return fmt::format("unknown body \"{}\".{}", name, didYouMean(name, names));
+                return fmt::format("unknown body \"{}\"{}", name, didYouMeanOrKnown(name, names));
             },
             ""};
 }

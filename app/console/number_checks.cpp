@@ -99,7 +99,7 @@ CLI::Validator oneOf(std::vector<std::string> words)
     return {[words = std::move(words), all](std::string& text) {
                 return std::find(words.begin(), words.end(), text) != words.end()
                            ? std::string()
-                           : fmt::format("\"{}\" is not one of {}.{}", text, all,
+                           : fmt::format("\"{}\" is not one of {}{}", text, all,
                                          didYouMean(text, words));
             },
             description};

@@ -130,8 +130,8 @@ public:
                 const std::string within = command_->get_parent() != nullptr
                                                ? fmt::format(" of {}", command_->get_name())
                                                : std::string();
-                return usage(word,
-                             fmt::format("unknown command{}.{}", within, didYouMean(word, names)));
+                return usage(word, fmt::format("unknown command{}{}", within,
+                                               didYouMeanOrKnown(word, names)));
             }
             words_.push_back(word);
             command_ = next;
@@ -191,7 +191,7 @@ private:
         const std::string of = command_->get_parent() != nullptr
                                    ? fmt::format(" of {}", command_->get_name())
                                    : std::string();
-        return usage(name, fmt::format("unknown option{}.{}", of, didYouMean(name, optionNames())));
+        return usage(name, fmt::format("unknown option{}{}", of, didYouMean(name, optionNames())));
     }
 
     std::optional<Error> takeOption()

@@ -176,7 +176,7 @@ private:
         const QtOption* const of_qt = is_style ? nullptr : qtOption(withoutDashes(name));
         if (name != "--screenshot" && name != "--size" && !is_geometry && !is_style &&
             of_qt == nullptr) {
-            return usage(name, "unknown option." + didYouMean(name, knownNames()));
+            return usage(name, "unknown option" + didYouMean(name, knownNames()));
         }
         if (of_qt != nullptr) {
             arguments_.for_qt.push_back(word);

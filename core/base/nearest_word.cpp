@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <vector>
 
 namespace marsview {
@@ -70,7 +72,13 @@ std::string nearestWord(std::string_view word, std::span<const std::string> know
 std::string didYouMean(std::string_view word, std::span<const std::string> known)
 {
     const std::string nearest = nearestWord(word, known);
-    return nearest.empty() ? std::string() : " Did you mean \"" + nearest + "\"?";
+    return nearest.empty() ? std::string() : ". Did you mean \"" + nearest + "\"?";
+}
+
+std::string didYouMeanOrKnown(std::string_view word, std::span<const std::string> known)
+{
+    const std::string nearest = didYouMean(word, known);
+    return nearest.empty() ? fmt::format("; known ones are {}", fmt::join(known, ", ")) : nearest;
 }
 
 } // namespace marsview

@@ -13,7 +13,11 @@ namespace marsview {
 /// is always allowed) would change.
 std::string nearestWord(std::string_view word, std::span<const std::string> known);
 
-/// ` Did you mean "X"?` for the nearest word, with a leading space; empty if no word is near.
+/// The end of a message about an unknown word: `. Did you mean "X"?` with the nearest word; empty
+/// if no word is near.
 std::string didYouMean(std::string_view word, std::span<const std::string> known);
+
+/// The same; if no word is near, `; known ones are X, Y`.
+std::string didYouMeanOrKnown(std::string_view word, std::span<const std::string> known);
 
 } // namespace marsview

@@ -37,7 +37,10 @@ public:
     virtual std::string_view scheme() const noexcept = 0;
     /// All devices connected now, usable or not. May take as long as a scan of the bus.
     virtual std::vector<FoundDevice> find() = 0;
-    /// `address` is the URI without scheme and colon. The error names the URI.
+    /// Whether `address`, the URI without scheme and colon, has the form that open() accepts. Looks
+    /// for no device and no file. The error names the URI.
+    virtual Status checkAddress(std::string_view /*address*/) const { return Done{}; }
+    /// Opens the device with that address. The error names the URI.
     virtual Result<std::unique_ptr<HapticDevice>> open(std::string_view address) = 0;
 
 protected:

@@ -38,7 +38,22 @@ std::vector<FoundDevice> DeviceRegistry::find()
     return all;
 }
 
+Status DeviceRegistry::check(std::string_view uri) const
+{
+    const Result<DeviceDriver*> driver = driverOf(uri);
+    return driver ? (*driver)->checkAddress(uri.substr(uri.find(':') + 1)) : driver.error();
+}
+
 Result<std::unique_ptr<HapticDevice>> DeviceRegistry::open(std::string_view uri)
+{
+    const Result<DeviceDriver*> driver = driverOf(uri);
+    if (!driver) {
+        return driver.error();
+    }
+    return (*driver)->open(uri.substr(uri.find(':') + 1));
+}
+
+Result<DeviceDriver*> DeviceRegistry::driverOf(std::string_view uri) const
 {
     const auto colon = uri.find(':');
     const std::string known = fmt::format("{}", fmt::join(schemes(), ", "));
@@ -57,7 +72,7 @@ Result<std::unique_ptr<HapticDevice>> DeviceRegistry::open(std::string_view uri)
                      fmt::format("{}: no driver has the scheme \"{}\"; the known schemes are {}",
                                  uri, scheme, known)};
     }
-    return (*driver)->open(uri.substr(colon + 1));
+    return driver->get();
 }
 
 std::vector<std::string> DeviceRegistry::schemes() const

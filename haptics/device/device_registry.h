@@ -20,6 +20,10 @@ public:
     /// May take as long as a scan of the buses.
     std::vector<FoundDevice> find();
 
+    /// Whether `uri` has the form "scheme:address" of a known driver and the driver accepts the
+    /// form of the address. Looks for no device and no file.
+    Status check(std::string_view uri) const;
+
     /// Opens "scheme:address". Unsupported, listing the known schemes, if no driver has the scheme;
     /// otherwise the driver's result.
     Result<std::unique_ptr<HapticDevice>> open(std::string_view uri);
@@ -28,6 +32,8 @@ public:
     std::vector<std::string> schemes() const;
 
 private:
+    Result<DeviceDriver*> driverOf(std::string_view uri) const;
+
     std::vector<std::unique_ptr<DeviceDriver>> drivers_;
 };
 

@@ -32,11 +32,15 @@ class NullDriver final : public DeviceDriver {
 public:
     std::string_view scheme() const noexcept override { return "null"; }
     std::vector<FoundDevice> find() override { return {{"null:", "No device", ""}}; }
+    Status checkAddress(std::string_view address) const override
+    {
+        return readUriParameters(fmt::format("null:{}", address), address, {});
+    }
     Result<std::unique_ptr<HapticDevice>> open(std::string_view address) override
     {
-        const Status read = readUriParameters(fmt::format("null:{}", address), address, {});
-        if (!read) {
-            return read.error();
+        const Status checked = checkAddress(address);
+        if (!checked) {
+            return checked.error();
         }
         return std::unique_ptr<HapticDevice>(new NullDevice);
     }

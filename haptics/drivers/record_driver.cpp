@@ -144,7 +144,7 @@ class RecordDriver final : public DeviceDriver {
 public:
     std::string_view scheme() const noexcept override { return "record"; }
     std::vector<FoundDevice> find() override { return {}; }
-    Result<std::unique_ptr<HapticDevice>> open(std::string_view address) override
+    Status checkAddress(std::string_view address) const override
     {
         const std::size_t comma = address.find(',');
         if (comma == 0 || comma == std::string_view::npos || comma + 1 == address.size()) {
@@ -153,6 +153,14 @@ public:
                                      "record:touch.csv,sim:",
                                      address)};
         }
+        return DeviceRegistry(builtInDrivers()).check(address.substr(comma + 1));
+    }
+    Result<std::unique_ptr<HapticDevice>> open(std::string_view address) override
+    {
+        if (const Status checked = checkAddress(address); !checked) {
+            return checked.error();
+        }
+        const std::size_t comma = address.find(',');
         const std::string path(address.substr(0, comma));
         Result<std::unique_ptr<HapticDevice>> device =
             DeviceRegistry(builtInDrivers()).open(address.substr(comma + 1));

@@ -34,15 +34,23 @@ class ReplayDriver final : public DeviceDriver {
 public:
     std::string_view scheme() const noexcept override { return "replay"; }
     std::vector<FoundDevice> find() override { return {}; }
-    Result<std::unique_ptr<HapticDevice>> open(std::string_view address) override
+    Status checkAddress(std::string_view address) const override
     {
-        const bool is_loop = address.ends_with(kLoop);
-        const std::string path(withoutLoop(address));
+        const std::string_view path = withoutLoop(address);
         if (path.empty() || path == "-") {
             return Error{ErrorCode::Invalid, fmt::format("replay:{}: needs a file of goals, as in "
                                                          "replay:goals.csv",
                                                          path)};
         }
+        return Done{};
+    }
+    Result<std::unique_ptr<HapticDevice>> open(std::string_view address) override
+    {
+        if (const Status checked = checkAddress(address); !checked) {
+            return checked.error();
+        }
+        const bool is_loop = address.ends_with(kLoop);
+        const std::string path(withoutLoop(address));
         const Result<std::string> text = readGoalText(path);
         if (!text) {
             return Error{text.error().code, "replay:" + text.error().message};

@@ -18,6 +18,7 @@
 namespace marsview::test {
 namespace {
 
+using testing::EndsWith;
 using testing::HasSubstr;
 using testing::StartsWith;
 using Words = std::vector<std::string>;
@@ -46,7 +47,9 @@ TEST(Usage, NamesUnknownCommandsAndSuggestsTheNearest)
               "marsview-cli: inof: unknown command. Did you mean \"info\"?");
     EXPECT_EQ(refusal({"bench", "contcat"}),
               "marsview-cli: contcat: unknown command of bench. Did you mean \"contact\"?");
-    EXPECT_EQ(refusal({"juggle"}), "marsview-cli: juggle: unknown command.");
+    EXPECT_EQ(refusal({"juggle"}),
+              "marsview-cli: juggle: unknown command; known ones are info, sample, measure, trace, "
+              "loop, prepare, render, devices, bench");
     EXPECT_THAT(refusal({}), StartsWith("marsview-cli: a command is missing; known ones are info"));
     EXPECT_THAT(refusal({"bench"}), StartsWith("marsview-cli: bench: a command is missing; known "
                                                "ones are view"));
@@ -59,7 +62,7 @@ TEST(Usage, NamesUnknownOptionsAndSuggestsTheNearest)
     EXPECT_EQ(refusal({"render", bundledMars(), "-o", "x.png", "--exagerration=3"}),
               "marsview-cli: --exagerration: unknown option of render. Did you mean "
               "\"--exaggeration\"?");
-    EXPECT_EQ(refusal({"--frobnicate"}), "marsview-cli: --frobnicate: unknown option.");
+    EXPECT_EQ(refusal({"--frobnicate"}), "marsview-cli: --frobnicate: unknown option");
     EXPECT_THAT(refusal({"info", bundledMars(), "-x"}), HasSubstr("-x: unknown option of info"));
     EXPECT_THAT(refusal({"devices", "everything"}),
                 HasSubstr("everything: unexpected argument of devices"));
@@ -173,6 +176,11 @@ TEST(Usage, SuggestsTheNearestOfAListOfValues)
                 HasSubstr("Did you mean \"tint\"?"));
     EXPECT_THAT(refusal({"info", bundledMars(), "--body", "Marz"}),
                 HasSubstr("Did you mean \"Mars\"?"));
+    EXPECT_THAT(
+        refusal({"info", bundledMars(), "--body", "Vulcan"}),
+        StartsWith("marsview-cli: --body: unknown body \"Vulcan\"; known ones are Mercury, Venus"));
+    EXPECT_THAT(refusal({"info", bundledMars(), "--latitude", "magnetic"}),
+                EndsWith("is not one of planetocentric, planetographic"));
 }
 
 TEST(Usage, AcceptsCommasOrBlanksBetweenNumbers)

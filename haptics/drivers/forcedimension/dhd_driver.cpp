@@ -94,16 +94,24 @@ std::vector<FoundDevice> DhdDriver::find()
     return found;
 }
 
+Status DhdDriver::checkAddress(std::string_view address) const
+{
+    if (!numberOf(address)) {
+        return Error{ErrorCode::Invalid,
+                     fmt::format("{0}:{1}: is not the number of a device; expected {0}:0 for the "
+                                 "first, {0}:1 for the second",
+                                 scheme(), address)};
+    }
+    return Done{};
+}
+
 Result<std::unique_ptr<HapticDevice>> DhdDriver::open(std::string_view address)
 {
+    if (const Status checked = checkAddress(address); !checked) {
+        return checked.error();
+    }
     const std::string uri = fmt::format("{}:{}", scheme(), address);
     const std::optional<int> number = numberOf(address);
-    if (!number) {
-        return Error{ErrorCode::Invalid,
-                     fmt::format("{}: is not the number of a device; expected {}:0 for the first, "
-                                 "{}:1 for the second",
-                                 uri, scheme(), scheme())};
-    }
     const auto api = load();
     if (!api) {
         return Error{api.error().code, fmt::format("{}: {}", uri, api.error().message)};

@@ -31,6 +31,7 @@ public:
     std::string_view scheme() const noexcept override { return "forcedimension"; }
     /// The connected devices; which models they are is known only when they are opened.
     std::vector<FoundDevice> find() override;
+    Status checkAddress(std::string_view address) const override;
     Result<std::unique_ptr<HapticDevice>> open(std::string_view address) override;
 
 private:

@@ -131,6 +131,12 @@ std::vector<FoundDevice> PolhemDriver::find()
     return found;
 }
 
+Status PolhemDriver::checkAddress(std::string_view address) const
+{
+    const Result<Address> parsed = parseAddress(fmt::format("{}:{}", scheme(), address), address);
+    return parsed ? Status(Done{}) : parsed.error();
+}
+
 Result<std::unique_ptr<HapticDevice>> PolhemDriver::open(std::string_view address)
 {
     const std::string uri = fmt::format("{}:{}", scheme(), address);

@@ -33,6 +33,7 @@ public:
 
     std::string_view scheme() const noexcept override { return "polhem"; }
     std::vector<FoundDevice> find() override;
+    Status checkAddress(std::string_view address) const override;
     Result<std::unique_ptr<HapticDevice>> open(std::string_view address) override;
 
 private:

@@ -26,33 +26,44 @@ struct UriNumbers {
     double cell_m = 0.0;
 };
 
+Status readAddress(std::string_view address, SimOptions& options, UriNumbers& numbers)
+{
+    return readUriParameters(fmt::format("sim:{}", address), address,
+                             {{"mass", &options.hand.mass_kg, 0.001, 10.0},
+                              {"damping", &options.hand.damping_n_s_per_m, 0.0, 1000.0},
+                              {"grip", &options.hand.grip_n_per_m, 0.0, 1e5},
+                              {"tremor_mm", &numbers.tremor_mm, 0.0, 10.0},
+                              {"encoder_mm", &numbers.encoder_mm, 0.0, 10.0},
+                              {"delay_ms", &numbers.delay_ms, 0.0, HandOptions::kDelayMaxS * 1e3},
+                              {"seed", &numbers.seed, 0.0, 1e15},
+                              {"force", &options.force_n_peak, 0.0, 40.0},
+                              {"stiffness", &options.stiffness_n_per_m_max, 0.0, 1e5},
+                              {"press", &options.press_n, 0.0, 10.0},
+                              {"lift_s", &options.lift_s, 0.0, 1e6},
+                              {"grab_s", &options.grab_s, 0.0, 1e6},
+                              {"twist", &options.twist_deg_per_s, -720.0, 720.0},
+                              {"speed", &options.speed_m_per_s, 0.0, 10.0},
+                              {"swipe", &numbers.swipe_cells, 0.0, 1e6},
+                              {"cell_m", &numbers.cell_m, 0.0, 1.0}});
+}
+
 class SimDriver final : public DeviceDriver {
 public:
     std::string_view scheme() const noexcept override { return "sim"; }
     std::vector<FoundDevice> find() override { return {{"sim:", "Simulated hand", ""}}; }
+    // The width of a cell, which a swipe needs, may be added later.
+    Status checkAddress(std::string_view address) const override
+    {
+        SimOptions options;
+        UriNumbers numbers;
+        return readAddress(address, options, numbers);
+    }
     Result<std::unique_ptr<HapticDevice>> open(std::string_view address) override
     {
         const std::string uri = fmt::format("sim:{}", address);
         SimOptions options;
         UriNumbers numbers;
-        const Status read =
-            readUriParameters(uri, address,
-                              {{"mass", &options.hand.mass_kg, 0.001, 10.0},
-                               {"damping", &options.hand.damping_n_s_per_m, 0.0, 1000.0},
-                               {"grip", &options.hand.grip_n_per_m, 0.0, 1e5},
-                               {"tremor_mm", &numbers.tremor_mm, 0.0, 10.0},
-                               {"encoder_mm", &numbers.encoder_mm, 0.0, 10.0},
-                               {"delay_ms", &numbers.delay_ms, 0.0, HandOptions::kDelayMaxS * 1e3},
-                               {"seed", &numbers.seed, 0.0, 1e15},
-                               {"force", &options.force_n_peak, 0.0, 40.0},
-                               {"stiffness", &options.stiffness_n_per_m_max, 0.0, 1e5},
-                               {"press", &options.press_n, 0.0, 10.0},
-                               {"lift_s", &options.lift_s, 0.0, 1e6},
-                               {"grab_s", &options.grab_s, 0.0, 1e6},
-                               {"twist", &options.twist_deg_per_s, -720.0, 720.0},
-                               {"speed", &options.speed_m_per_s, 0.0, 10.0},
-                               {"swipe", &numbers.swipe_cells, 0.0, 1e6},
-                               {"cell_m", &numbers.cell_m, 0.0, 1.0}});
+        const Status read = readAddress(address, options, numbers);
         if (!read) {
             return read.error();
         }

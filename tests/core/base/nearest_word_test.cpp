@@ -32,8 +32,11 @@ TEST(NearestWord, SuggestsNothingForOtherWords)
 
 TEST(NearestWord, IsQuotedInTheQuestion)
 {
-    EXPECT_EQ(didYouMean("inof", kWords), " Did you mean \"info\"?");
+    EXPECT_EQ(didYouMean("inof", kWords), ". Did you mean \"info\"?");
     EXPECT_EQ(didYouMean("fly", kWords), "");
+    EXPECT_EQ(didYouMeanOrKnown("inof", kWords), ". Did you mean \"info\"?");
+    EXPECT_EQ(didYouMeanOrKnown("fly", kWords),
+              "; known ones are --exaggeration, --azimuth, --json, info, Mars");
 }
 
 } // namespace marsview::test
