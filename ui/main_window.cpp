@@ -8,6 +8,7 @@
 #include "ui/controllers/annotation_controller.h"
 #include "ui/controllers/haptics/haptics_controller.h"
 #include "ui/controllers/measure_controller.h"
+#include "ui/globe/globe_view.h"
 #include "ui/overlay/annotation_marks.h"
 #include "ui/overlay/map_labels.h"
 #include "ui/overlay/map_overlays.h"
@@ -85,6 +86,7 @@ MainWindow::MainWindow(const WindowOptions& options, QWidget* parent)
     : QMainWindow(parent)
     , options_(withTileCache(options))
     , view_(new TerrainView(this))
+    , globe_(new GlobeView(this))
     , overlays_(new MapOverlays(*view_))
     , controller_(new SessionController(*view_, this))
     , actions_(std::make_unique<WindowActions>(*this, *view_, controller_->undoStack()))
@@ -169,6 +171,8 @@ void MainWindow::makeCenter()
     auto* layout = new QGridLayout(center);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->addWidget(view_, 0, 0);
+    layout->addWidget(globe_, 0, 0);
+    globe_->hide();
     layout->addWidget(notice_bar_, 0, 0, Qt::AlignTop);
     notice_bar_->raise();
     connect(notice_bar_, &NoticeBar::coverChanged, this,
@@ -213,6 +217,7 @@ void MainWindow::makeCommands()
                             .notices = *notice_center_,
                             .session = *controller_,
                             .view = *view_,
+                            .globe = *globe_,
                             .overlays = *overlays_,
                             .haptics = *haptics_,
                             .measuring = *measure_,
@@ -235,6 +240,7 @@ void MainWindow::makeCommands()
     commands_ = std::make_unique<WindowCommands>(parts, options_);
     commands_->views.menu()->installEventFilter(this);
     connect(&commands_->progress, &WorkProgress::settled, this, &MainWindow::settled);
+    connect(&commands_->scene, &SceneCommands::shownChanged, this, &MainWindow::showActive);
 }
 
 // What the window shows of the session, and when it may have changed.
@@ -330,8 +336,9 @@ void MainWindow::showActive()
     const auto& scene = view_->map();
     const bool is_scene_current = std::any_of(
         shown.begin(), shown.end(), [&](const Layer* layer) { return layer->map == scene; });
-    readout_->setMaps(shown.empty() ? nullptr : scene,
-                      is_shown && is_scene_current ? map : nullptr);
+    // The globe shows the topmost layer alone.
+    const bool is_active_read = is_shown && is_scene_current && globe_->isHidden();
+    readout_->setMaps(shown.empty() ? nullptr : scene, is_active_read ? map : nullptr);
 }
 
 // The project, or a layer of a session that was never saved.
@@ -403,8 +410,9 @@ void MainWindow::keyPressEvent(QKeyEvent* event)
     const QWidget* focus = focusWidget();
     if (event->key() != Qt::Key_Escape || event->modifiers() != Qt::NoModifier) {
         QMainWindow::keyPressEvent(event);
-    } else if (focus != nullptr && focus != view_ && !view_->isAncestorOf(focus)) {
-        view_->setFocus(Qt::ShortcutFocusReason);
+    } else if (QWidget* map = globe_->isHidden() ? static_cast<QWidget*>(view_) : globe_;
+               focus != nullptr && focus != map && !map->isAncestorOf(focus)) {
+        map->setFocus(Qt::ShortcutFocusReason);
     } else if (isFullScreen()) {
         actions_->full_screen->trigger();
     } else if (overlays_->isPlaceMarked()) {

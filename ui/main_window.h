@@ -15,6 +15,7 @@ class AnnotationController;
 class AnnotationMarks;
 class AnnotationPanel;
 class GeoreferencingPanel;
+class GlobeView;
 class HapticsController;
 class HapticsPanel;
 class LayersPanel;
@@ -55,6 +56,7 @@ public:
     void openSample(const QString& file);
 
     TerrainView* view() const noexcept { return view_; }
+    GlobeView* globe() const noexcept { return globe_; }
     StatusReadout* readout() const noexcept { return readout_; }
     LayersPanel* datasetPanel() const noexcept { return datasets_; }
     GeoreferencingPanel* georeferencingPanel() const noexcept { return georeferencing_; }
@@ -110,6 +112,7 @@ private:
 
     WindowOptions options_;
     TerrainView* view_ = nullptr;
+    GlobeView* globe_ = nullptr;
     MapOverlays* overlays_ = nullptr;
     SessionController* controller_ = nullptr;
     std::unique_ptr<WindowActions> actions_;

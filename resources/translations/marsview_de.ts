@@ -2148,6 +2148,26 @@ y %2</translation>
     </message>
 </context>
 <context>
+    <name>marsview::GlobeView</name>
+    <message>
+        <source>Globe</source>
+        <translation>Globus</translation>
+    </message>
+    <message>
+        <source>The terrain on its body; the status bar shows the position and elevation under the pointer, or in the middle while the keyboard is used</source>
+        <translation>Das Gelände auf seinem Himmelskörper; die Statusleiste zeigt Position und Höhe unter dem Zeiger oder, während die Tastatur benutzt wird, in der Mitte</translation>
+    </message>
+    <message>
+        <source>Placing the layer on its body…</source>
+        <translation>Der Layer wird auf seinen Himmelskörper gelegt …</translation>
+    </message>
+    <message>
+        <source>This layer has no place on the globe: it %1</source>
+        <extracomment>In the middle of the globe; %1 says why</extracomment>
+        <translation>Dieser Layer hat keinen Platz auf dem Globus: %1</translation>
+    </message>
+</context>
+<context>
     <name>marsview::GoToDialog</name>
     <message>
         <source>x, y (%1)</source>
@@ -4351,6 +4371,38 @@ Bewegen Sie die Karte zu einer Ansicht, die Sie behalten wollen, und drücken Si
     </message>
 </context>
 <context>
+    <name>marsview::SceneCommands</name>
+    <message>
+        <source>Cannot Show Globe</source>
+        <translation>Der Globus kann nicht gezeigt werden</translation>
+    </message>
+    <message>
+        <source>Open a map first</source>
+        <translation>Öffnen Sie zuerst eine Karte</translation>
+    </message>
+    <message>
+        <source>Not available: the body of the topmost layer is not known. Set it with Layer › Set Body, CRS…</source>
+        <translation>Nicht verfügbar: Der Himmelskörper des obersten Layers ist unbekannt. Legen Sie ihn mit Layer › Himmelskörper, KBS festlegen … fest</translation>
+    </message>
+    <message>
+        <source>Not available: a haptic device cannot touch the globe yet. Disconnect it first</source>
+        <translation>Nicht verfügbar: Ein haptisches Gerät kann den Globus noch nicht berühren. Trennen Sie es zuerst</translation>
+    </message>
+    <message>
+        <source>Show the topmost layer where it lies on its body</source>
+        <translation>Den obersten Layer dort zeigen, wo er auf seinem Himmelskörper liegt</translation>
+    </message>
+    <message>
+        <source>The globe shows the topmost layer only.</source>
+        <translation>Der Globus zeigt nur den obersten Layer.</translation>
+    </message>
+    <message>
+        <source>Not available on the globe yet. Choose View › Scene › Flat Map first</source>
+        <extracomment>Why an entry of the menu cannot be chosen</extracomment>
+        <translation>Auf dem Globus noch nicht verfügbar. Wählen Sie zuerst Ansicht › Szene › Ebene Karte</translation>
+    </message>
+</context>
+<context>
     <name>marsview::SessionController</name>
     <message>
         <source>Remove %1</source>
@@ -5392,7 +5444,9 @@ Bewegen Sie die Karte zu einer Ansicht, die Sie behalten wollen, und drücken Si
     </message>
     <message>
         <source>&amp;Automatic</source>
-        <extracomment>A color stretch: ignores the rarest elevations at either end</extracomment>
+        <extracomment>A color stretch: ignores the rarest elevations at either end
+----------
+A scene: the one that suits the layers</extracomment>
         <translation>&amp;Automatisch</translation>
     </message>
     <message>
@@ -5503,6 +5557,33 @@ Bewegen Sie die Karte zu einer Ansicht, die Sie behalten wollen, und drücken Si
         <source>Touches with a sphere as wide as a cell of the map; it rounds off sharp ridges, but does not reach into narrow dips</source>
         <extracomment>Status tip of a contact model: its behavior and its cost</extracomment>
         <translation>Tastet mit einer Kugel, so breit wie eine Zelle der Karte; rundet scharfe Grate ab, reicht aber nicht in enge Senken</translation>
+    </message>
+    <message>
+        <source>Sc&amp;ene</source>
+        <extracomment>How the terrain is laid out: in a plane, or on its body</extracomment>
+        <translation>Sz&amp;ene</translation>
+    </message>
+    <message>
+        <source>The flat map, as long as the globe lacks some of its functions</source>
+        <translation>Die ebene Karte, solange dem Globus einige ihrer Funktionen fehlen</translation>
+    </message>
+    <message>
+        <source>&amp;Flat Map</source>
+        <extracomment>A scene</extracomment>
+        <translation>&amp;Ebene Karte</translation>
+    </message>
+    <message>
+        <source>Lay the topmost layer out in the plane of its CRS</source>
+        <translation>Den obersten Layer in der Ebene seines KBS zeigen</translation>
+    </message>
+    <message>
+        <source>&amp;Globe</source>
+        <extracomment>A scene: the topmost layer where it lies on its body</extracomment>
+        <translation>&amp;Globus</translation>
+    </message>
+    <message>
+        <source>Show the topmost layer where it lies on its body</source>
+        <translation>Den obersten Layer dort zeigen, wo er auf seinem Himmelskörper liegt</translation>
     </message>
 </context>
 <context>

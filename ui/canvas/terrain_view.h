@@ -91,7 +91,13 @@ public:
     void step(NavigationStep step);
     /// Moves as a cap is pushed, for the time since it was asked last: once a frame while the cap
     /// is pushed, and once at rest to end with. Draws nothing where the camera stays where it is.
-    void steer(const CapRates& rates, double seconds) { camera_.steer(rates, seconds); }
+    /// Without effect while the view is hidden.
+    void steer(const CapRates& rates, double seconds)
+    {
+        if (!isHidden()) {
+            camera_.steer(rates, seconds);
+        }
+    }
     void goHome();
     void turnNorthUp();
     /// Flies to a place of the topmost layer; `distance_m` of 0 keeps the distance.

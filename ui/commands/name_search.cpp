@@ -2,6 +2,7 @@
 
 #include "core/view/feature_view.h"
 #include "ui/canvas/terrain_view.h"
+#include "ui/globe/globe_view.h"
 #include "ui/overlay/map_overlays.h"
 #include "ui/text/core_text.h"
 #include "ui/text/number_text.h"
@@ -142,13 +143,18 @@ void NameSearch::goTo(const PlaceName& place)
     if (!extent) {
         return;
     }
-    parts_.view.setFocus(Qt::OtherFocusReason);
     // A feature smaller than the map's resolution is shown with its surroundings.
     const double across_m =
         std::max(extent->across_m, kPixelsLeast * parts_.view.ground().pixelMeters());
-    parts_.view.flyTo(extent->center,
-                      distanceShowing(across_m, kFilledShare, parts_.view.camera().field_of_view,
-                                      parts_.view.viewport()));
+    const double distance_m = distanceShowing(
+        across_m, kFilledShare, parts_.view.camera().field_of_view, parts_.view.viewport());
+    if (!parts_.globe.isHidden()) {
+        parts_.globe.setFocus(Qt::OtherFocusReason);
+        parts_.globe.flyTo(place.position, distance_m);
+        return;
+    }
+    parts_.view.setFocus(Qt::OtherFocusReason);
+    parts_.view.flyTo(extent->center, distance_m);
     parts_.overlays.markPlace(extent->center);
 }
 

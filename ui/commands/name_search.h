@@ -14,6 +14,7 @@ class QMainWindow;
 
 namespace marsview {
 
+class GlobeView;
 class MapOverlays;
 class TerrainView;
 
@@ -26,6 +27,7 @@ public:
     struct Parts {
         QMainWindow& window;
         TerrainView& view;
+        GlobeView& globe;
         MapOverlays& overlays;
         QLineEdit& field;
         QAction& open_names;

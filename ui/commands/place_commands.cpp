@@ -9,6 +9,7 @@
 #include "ui/controllers/measure_controller.h"
 #include "ui/controllers/session_controller.h"
 #include "ui/controllers/vector_overlays.h"
+#include "ui/globe/globe_view.h"
 #include "ui/overlay/map_overlays.h"
 #include "ui/widgets/coordinate_field.h"
 #include "ui/window/main_tool_bar.h"
@@ -50,7 +51,10 @@ void PlaceCommands::connectReadout()
     TerrainView* view = &parts_.view;
     StatusReadout* readout = &parts_.readout;
     connect(view, &TerrainView::pointerMoved, readout,
-            [view, readout](const std::optional<RayHit>& hit) {
+            [view, readout, globe = &parts_.globe](const std::optional<RayHit>& hit) {
+                if (!globe->isHidden()) {
+                    return; // it is read instead
+                }
                 readout->setSource(view->readingSource());
                 readout->setPlace(
                     hit ? std::optional(
@@ -125,6 +129,12 @@ void PlaceCommands::goToPlace()
     GoToDialog* dialog = makeDialog();
     connect(dialog, &GoToDialog::nameChosen, &parts_.names, &NameSearch::goTo);
     connect(dialog, &GoToDialog::placeChosen, this, [this](GridPoint grid) {
+        if (!parts_.globe.isHidden()) {
+            if (const auto place = parts_.view.map()->georeference().toGeographic(grid)) {
+                parts_.globe.flyTo(*place, 0.0);
+            }
+            return;
+        }
         parts_.view.goTo(grid);
         parts_.overlays.markPlace(grid);
     });

@@ -13,6 +13,7 @@ class QMainWindow;
 
 namespace marsview {
 
+class GlobeView;
 class MainToolBar;
 class MapMenu;
 class AnnotationController;
@@ -37,6 +38,7 @@ public:
         const WindowActions& actions;
         const SessionController& session;
         TerrainView& view;
+        GlobeView& globe;
         MapOverlays& overlays;
         StatusReadout& readout;
         MainToolBar& tool_bar;

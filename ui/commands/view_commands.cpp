@@ -2,6 +2,7 @@
 
 #include "ui/canvas/map_keys.h"
 #include "ui/canvas/terrain_view.h"
+#include "ui/globe/globe_view.h"
 #include "ui/panels/layers_panel.h"
 #include "ui/window/window_actions.h"
 #include "ui/window/window_docks.h"
@@ -24,24 +25,32 @@ ViewCommands::ViewCommands(const Parts& parts)
     (new MapKeys(*view, this))->addTo(*parts_.layers.list());
     connect(actions.tools, &QActionGroup::triggered, view,
             [view](QAction* action) { view->setTool(static_cast<Tool>(action->data().toInt())); });
-    connect(actions.home, &QAction::triggered, view, &TerrainView::goHome);
-    connect(actions.north, &QAction::triggered, view, &TerrainView::turnNorthUp);
+    GlobeView* globe = &parts_.globe;
+    connect(actions.home, &QAction::triggered, view,
+            [view, globe] { globe->isHidden() ? view->goHome() : globe->goHome(); });
+    connect(actions.north, &QAction::triggered, view,
+            [view, globe] { globe->isHidden() ? view->turnNorthUp() : globe->turnNorthUp(); });
     for (QAction* action : std::as_const(actions.steps)) {
         connect(action, &QAction::triggered, view,
-                [view, step = static_cast<NavigationStep>(action->data().toInt())] {
-                    view->step(step);
+                [view, globe, step = static_cast<NavigationStep>(action->data().toInt())] {
+                    globe->isHidden() ? view->step(step) : globe->step(step);
                 });
     }
     connect(actions.next_panel, &QAction::triggered, this,
-            [this] { parts_.docks.moveFocus(parts_.view, FocusStep::Next); });
+            [this] { parts_.docks.moveFocus(shownMap(), FocusStep::Next); });
     connect(actions.previous_panel, &QAction::triggered, this,
-            [this] { parts_.docks.moveFocus(parts_.view, FocusStep::Previous); });
+            [this] { parts_.docks.moveFocus(shownMap(), FocusStep::Previous); });
     connect(actions.full_screen, &QAction::triggered, this, [this](bool is_full) {
         QMainWindow& window = parts_.window;
         window.setWindowState(window.windowState().setFlag(Qt::WindowFullScreen, is_full));
     });
     connect(view, &TerrainView::unavailable, this,
             [this](const QString& reason) { parts_.messages.report(tr("Cannot Draw"), reason); });
+}
+
+QWidget& ViewCommands::shownMap()
+{
+    return parts_.globe.isHidden() ? static_cast<QWidget&>(parts_.view) : parts_.globe;
 }
 
 } // namespace marsview

@@ -4,9 +4,11 @@
 #include <QObject>
 
 class QMainWindow;
+class QWidget;
 
 namespace marsview {
 
+class GlobeView;
 class LayersPanel;
 class TerrainView;
 class WindowDocks;
@@ -22,6 +24,7 @@ public:
         QMainWindow& window;
         const WindowActions& actions;
         TerrainView& view;
+        GlobeView& globe;
         WindowDocks& docks;
         /// Its list takes the keys of the map too.
         LayersPanel& layers;
@@ -31,6 +34,8 @@ public:
     explicit ViewCommands(const Parts& parts);
 
 private:
+    QWidget& shownMap();
+
     Parts parts_;
 };
 

@@ -8,6 +8,7 @@
 #include "ui/overlay/measure_marks.h"
 #include "ui/panels/georeferencing_panel.h"
 #include "ui/panels/haptics_panel.h"
+#include "ui/panels/measure_panel.h"
 #include "ui/window/main_tool_bar.h"
 #include "ui/window/window_actions.h"
 #include "ui/window/window_docks.h"
@@ -29,6 +30,14 @@ NoticeCommands noticeCommandsOf(const WindowParts& parts)
                 },
             .show_haptics = [&docks = parts.docks] { docks.reveal(*docks.haptics()); },
             .save_diagnostic_log = [&panel = parts.haptics_panel] { panel.chooseFlightRecord(); }};
+}
+
+QList<QAction*>
+flatActions(const MapOverlays& overlays, const SavedViews& views, const ReportExporter& reports)
+{
+    return overlays.visibilityActions() + overlays.terrainActions() +
+           QList<QAction*>{views.menu()->menuAction(), views.actions().fly_through,
+                           reports.action()};
 }
 
 } // namespace
@@ -60,6 +69,7 @@ WindowCommands::WindowCommands(const WindowParts& parts, const WindowOptions& op
                     .files = *parts.actions.vector_files})
     , names({.window = parts.window,
              .view = parts.view,
+             .globe = parts.globe,
              .overlays = parts.overlays,
              .field = parts.tool_bar.searchField(),
              .open_names = *parts.actions.open_names,
@@ -87,6 +97,7 @@ WindowCommands::WindowCommands(const WindowParts& parts, const WindowOptions& op
     , view({.window = parts.window,
             .actions = parts.actions,
             .view = parts.view,
+            .globe = parts.globe,
             .docks = parts.docks,
             .layers = parts.layers,
             .messages = parts.messages})
@@ -134,6 +145,7 @@ WindowCommands::WindowCommands(const WindowParts& parts, const WindowOptions& op
               .actions = parts.actions,
               .session = parts.session,
               .view = parts.view,
+              .globe = parts.globe,
               .overlays = parts.overlays,
               .readout = parts.readout,
               .tool_bar = parts.tool_bar,
@@ -172,6 +184,14 @@ WindowCommands::WindowCommands(const WindowParts& parts, const WindowOptions& op
              .is_remembered = options.isRemembered()})
     , spacemouse(parts.view, options.spacemouse)
     , help(parts.window, parts.view, parts.actions)
+    , scene({.actions = parts.actions,
+             .view = parts.view,
+             .globe = parts.globe,
+             .device = parts.haptics.device(),
+             .readout = parts.readout,
+             .messages = parts.messages,
+             .flat_actions = flatActions(parts.overlays, views, reports),
+             .flat_widgets = {&parts.haptics_panel, &parts.measure_panel, &parts.views_panel}})
 {
     showMessages(parts.messages);
     showNames(parts.overlays);

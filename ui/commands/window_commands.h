@@ -11,6 +11,7 @@
 #include "ui/commands/name_search.h"
 #include "ui/commands/place_commands.h"
 #include "ui/commands/preference_commands.h"
+#include "ui/commands/scene_commands.h"
 #include "ui/commands/sound_command.h"
 #include "ui/commands/vector_tools.h"
 #include "ui/commands/view_commands.h"
@@ -28,6 +29,7 @@
 namespace marsview {
 
 class AnnotationMarks;
+class GlobeView;
 class NoticeCenter;
 class PictureSaver;
 struct WindowOptions;
@@ -40,6 +42,7 @@ struct WindowParts {
     NoticeCenter& notices;
     SessionController& session;
     TerrainView& view;
+    GlobeView& globe;
     MapOverlays& overlays;
     HapticsController& haptics;
     MeasureController& measuring;
@@ -90,6 +93,7 @@ public:
     SoundCommand sound;
     SpaceMouseController spacemouse;
     HelpCommands help;
+    SceneCommands scene;
 
 private:
     void showMessages(WindowMessages& messages);

@@ -61,9 +61,9 @@ BodyAtlas::BodyAtlas(std::size_t slot_columns, std::size_t slot_rows)
     : slots_(slot_columns, slot_rows)
 {
     constexpr std::array<GLint, kTextures> kFormats{GL_RGBA32F, GL_RGBA16I, GL_RGB16F, GL_RGB16F};
-    bind(GL_TEXTURE0);
+    glActiveTexture(GL_TEXTURE0);
     for (unsigned i = 0; i < kTextures; ++i) {
-        glActiveTexture(GL_TEXTURE0 + i);
+        glBindTexture(GL_TEXTURE_2D, textures_[i].id());
         const bool is_whole = kFormats[i] == GL_RGBA16I;
         glTexImage2D(GL_TEXTURE_2D, 0, kFormats[i], static_cast<GLsizei>(slot_columns * kNodeSide),
                      static_cast<GLsizei>(slot_rows * kNodeSide), 0,
@@ -135,19 +135,20 @@ BodyAtlas::fill(const DetailNode& node, const BodySubject& subject, std::vector<
     return state;
 }
 
+// Through the first unit alone: the others have what the picture is drawn with.
 void BodyAtlas::send(const NodeSlots::Place& place) const
 {
-    bind(GL_TEXTURE0);
+    glActiveTexture(GL_TEXTURE0);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    const auto send_to = [&place](GLenum unit, GLenum format, GLenum type, const void* texels) {
-        glActiveTexture(unit);
+    const auto send_to = [&](std::size_t texture, GLenum format, GLenum type, const void* texels) {
+        glBindTexture(GL_TEXTURE_2D, textures_[texture].id());
         glTexSubImage2D(GL_TEXTURE_2D, 0, place.x, place.y, static_cast<GLsizei>(kNodeSide),
                         static_cast<GLsizei>(kNodeSide), format, type, texels);
     };
-    send_to(GL_TEXTURE0, GL_RGBA, GL_FLOAT, within_.data());
-    send_to(GL_TEXTURE1, GL_RGBA_INTEGER, GL_SHORT, cubes_.data());
-    send_to(GL_TEXTURE2, GL_RGB, GL_FLOAT, east_.data());
-    send_to(GL_TEXTURE3, GL_RGB, GL_FLOAT, north_.data());
+    send_to(0, GL_RGBA, GL_FLOAT, within_.data());
+    send_to(1, GL_RGBA_INTEGER, GL_SHORT, cubes_.data());
+    send_to(2, GL_RGB, GL_FLOAT, east_.data());
+    send_to(3, GL_RGB, GL_FLOAT, north_.data());
 }
 
 void BodyAtlas::bind(GLenum first) const

@@ -35,6 +35,7 @@ GovernedPicture::paint(const PictureRequest& request, const DrawStyle& style, un
 {
     DrawRequest draw;
     draw.camera = request.camera;
+    draw.body_pose = request.body_pose;
     draw.viewport = request.viewport;
     draw.is_kept = request.is_kept;
     draw.is_hasty = request.stage == PictureStage::Moving;

@@ -5,6 +5,7 @@
 #include "ui/render/terrain_renderer.h"
 
 #include <chrono>
+#include <optional>
 
 namespace marsview {
 
@@ -29,6 +30,7 @@ struct PictureRequest {
     PictureStage last_stage = PictureStage::Smooth; // after which no better one follows
     bool is_touching = false;                       // see FrameRequest
     bool is_kept = false;                           // for TerrainRenderer::present()
+    std::optional<CameraPose> body_pose{}; // replaces `camera` where layers lie on their body
 };
 
 /// Chooses the detail of each picture by what the ones before took (core/view/frame_governor.h).

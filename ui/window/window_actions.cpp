@@ -237,6 +237,7 @@ void WindowActions::makeViewMenu(QMainWindow& window, QWidget& map)
     find_name->setShortcut(QKeySequence::Find);
     coordinate_format = menu->addMenu(tr("Coordinate &Format"));
     menu->addSeparator();
+    makeSceneMenu(window, *menu);
     makeToolMenu(window, *menu, map);
     QMenu* move = menu->addMenu(tr("&Move"));
     for (const StepAction& entry : kStepActions) {
@@ -262,6 +263,29 @@ void WindowActions::makeViewMenu(QMainWindow& window, QWidget& map)
     full_screen = menu->addAction(tr("Full &Screen"));
     full_screen->setShortcut(Qt::Key_F11);
     full_screen->setCheckable(true);
+}
+
+void WindowActions::makeSceneMenu(QMainWindow& window, QMenu& view)
+{
+    //: How the terrain is laid out: in a plane, or on its body
+    QMenu* menu = view.addMenu(tr("Sc&ene"));
+    menu->setToolTipsVisible(true);
+    scenes = new QActionGroup(&window);
+    const auto add = [&](const QString& text, const QString& tip) {
+        QAction* action = menu->addAction(text);
+        action->setCheckable(true);
+        action->setChecked(scenes->actions().isEmpty());
+        action->setData(static_cast<int>(scenes->actions().size()));
+        action->setToolTip(tip);
+        action->setStatusTip(tip);
+        scenes->addAction(action);
+    };
+    //: A scene: the one that suits the layers
+    add(tr("&Automatic"), tr("The flat map, as long as the globe lacks some of its functions"));
+    //: A scene
+    add(tr("&Flat Map"), tr("Lay the topmost layer out in the plane of its CRS"));
+    //: A scene: the topmost layer where it lies on its body
+    add(tr("&Globe"), tr("Show the topmost layer where it lies on its body"));
 }
 
 void WindowActions::makeToolMenu(QMainWindow& window, QMenu& view, QWidget& map)

@@ -41,7 +41,8 @@ struct WindowActions {
     QAction* quit = nullptr;
     QAction* preferences = nullptr;
 
-    QActionGroup* tools = nullptr; // data(): the Tool
+    QActionGroup* scenes = nullptr; // data(): the SceneChoice
+    QActionGroup* tools = nullptr;  // data(): the Tool
     QAction* home = nullptr;
     QAction* north = nullptr;
     QAction* go_to_place = nullptr;
@@ -115,6 +116,7 @@ private:
     void makeFileMenu(QMainWindow& window);
     void makeEditMenu(QMainWindow& window, QUndoStack& undo_stack);
     void makeViewMenu(QMainWindow& window, QWidget& map);
+    void makeSceneMenu(QMainWindow& window, QMenu& view);
     void makeToolMenu(QMainWindow& window, QMenu& view, QWidget& map);
     void makeMapMenu(QMainWindow& window);
     void makeStretchMenu(QMainWindow& window, QMenu& map);

@@ -1,0 +1,241 @@
+// The globe in the window: View › Scene, navigation, readout, and what it disables.
+#include "core/globe/body_motion.h"
+#include "tests/support/random.h"
+#include "tests/support/shared_data.h"
+#include "tests/ui/map_window.h"
+#include "ui/commands/window_commands.h"
+#include "ui/globe/globe_view.h"
+#include "ui/window/status_readout.h"
+#include "ui/window/window_actions.h"
+
+#include <QAction>
+#include <QActionGroup>
+#include <QImage>
+#include <QWheelEvent>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace marsview {
+namespace {
+
+class GlobeTest : public MapWindowTest {
+protected:
+    void SetUp() override
+    {
+        makeWindow(kSmall);
+        ASSERT_TRUE(openAndWait(*window_, QString::fromStdString(test::bundledMars())));
+    }
+    QAction* scene(int index) { return window_->actionSet().scenes->actions().at(index); }
+    bool showGlobe()
+    {
+        scene(2)->trigger();
+        return waitFor([this] { return globe().terrain() != nullptr; });
+    }
+    GlobeView& globe() { return *window_->globe(); }
+    QPointF globeMiddle() { return QRectF(globe().rect()).center(); }
+    const Ellipsoid& body() { return globe().terrain()->grid()->ellipsoid(); }
+
+    void wheel(QPointF at, int notches)
+    {
+        QWheelEvent event(at, globe().mapToGlobal(at), {}, {0, 120 * notches}, Qt::NoButton,
+                          Qt::NoModifier, Qt::NoScrollPhase, false);
+        QApplication::sendEvent(&globe(), &event);
+    }
+    bool rests()
+    {
+        return waitFor([this] { return !globe().isMoving(); });
+    }
+    GeographicPoint placeAt(QPointF at)
+    {
+        const auto hit = globe().hitAt(at);
+        EXPECT_TRUE(hit);
+        return hit ? *globe().terrain()->map()->georeference().toGeographic(hit->grid)
+                   : GeographicPoint{};
+    }
+    // In the body-fixed frame, in meters.
+    ScenePoint pointAt(QPointF at)
+    {
+        const auto hit = globe().hitAt(at);
+        const CameraPose pose = poseOf(globe().camera(), body());
+        const Ray ray = pickRay(pose, globe().viewport(), {at.x(), at.y()});
+        EXPECT_TRUE(hit);
+        return hit ? ray.at(hit->distance_m) : ScenePoint{};
+    }
+};
+
+TEST_F(GlobeTest, ReplacesTheFlatMapAndHandsTheCameraOverBothWays)
+{
+    view().flyTo(GridPoint{400.0, 350.0}, 2e6);
+    ASSERT_TRUE(waitFor([this] { return !view().isMoving(); }));
+    const OrbitCamera before = view().camera();
+    const auto place = view().map()->georeference().toGeographic(
+        view().map()->georeference().sceneFrame().toGrid(before.target));
+    ASSERT_TRUE(showGlobe());
+    EXPECT_TRUE(view().isHidden());
+    EXPECT_FALSE(globe().isHidden());
+    EXPECT_NEAR(globe().camera().target.latitude.degrees(), place->latitude.degrees(), 1e-6);
+    EXPECT_NEAR(globe().camera().distance_m, before.distance_m, 1e-6 * before.distance_m);
+    ASSERT_TRUE(waitFor([this] { return globe().isPictureComplete(); }));
+    scene(1)->trigger();
+    EXPECT_FALSE(view().isHidden());
+    EXPECT_TRUE(globe().isHidden());
+    EXPECT_NEAR(view().camera().target.x, before.target.x, 1.0);
+    EXPECT_NEAR(view().camera().target.y, before.target.y, 1.0);
+    EXPECT_NEAR(view().camera().distance_m, before.distance_m, 1e-6 * before.distance_m);
+}
+
+TEST_F(GlobeTest, ShowsABallBeforeTheSky)
+{
+    ASSERT_TRUE(showGlobe());
+    globe().goHome();
+    ASSERT_TRUE(rests());
+    ASSERT_TRUE(waitFor([this] { return globe().isPictureComplete(); }));
+    const QImage picture = globe().grabFramebuffer();
+    const auto brightness = [&](double x, double y) {
+        return qGray(picture.pixel(static_cast<int>(x * picture.width()),
+                                   static_cast<int>(y * picture.height())));
+    };
+    EXPECT_GT(brightness(0.5, 0.5), 60);
+    EXPECT_LT(brightness(0.01, 0.02), 60);
+    EXPECT_LT(brightness(0.99, 0.98), 60);
+    EXPECT_FALSE(globe().hitAt({1.0, 1.0}));
+    EXPECT_TRUE(globe().hitAt(globeMiddle()));
+}
+
+TEST_F(GlobeTest, TheFirstPictureHasItsColors)
+{
+    QImage first;
+    QObject::connect(&globe(), &GlobeView::placed, &globe(), [&] {
+        if (globe().terrain() != nullptr && first.isNull()) {
+            first = globe().grabFramebuffer();
+        }
+    });
+    ASSERT_TRUE(showGlobe());
+    ASSERT_FALSE(first.isNull());
+    EXPECT_GT(qGray(first.pixel(first.rect().center())), 30);
+}
+
+TEST_F(GlobeTest, ADragHoldsTheGroundUnderThePointer)
+{
+    ASSERT_TRUE(showGlobe());
+    globe().setCamera({.target = {.longitude = Angle::degrees(179.5), .latitude = {}},
+                       .distance_m = 3e6,
+                       .tilt = Angle::degrees(30.0)});
+    const QPoint from = globeMiddle().toPoint() + QPoint(40, 30);
+    const QPoint to = from + QPoint(-130, 60);
+    const ScenePoint held = pointAt(from);
+    QTest::mousePress(&globe(), Qt::LeftButton, Qt::NoModifier, from);
+    for (int i = 1; i <= 10; ++i) {
+        QTest::mouseMove(&globe(), from + (to - from) * i / 10);
+    }
+    QTest::mouseRelease(&globe(), Qt::LeftButton, Qt::NoModifier, to);
+    const auto pixel = project(poseOf(globe().camera(), body()), globe().viewport(), held);
+    ASSERT_TRUE(pixel);
+    EXPECT_NEAR(pixel->x, to.x(), 0.1);
+    EXPECT_NEAR(pixel->y, to.y(), 0.1);
+}
+
+TEST_F(GlobeTest, TheWheelZoomsToThePointerAndTheKeysMove)
+{
+    ASSERT_TRUE(showGlobe());
+    globe().goHome();
+    ASSERT_TRUE(rests());
+    const QPointF at = globeMiddle() + QPointF(60.0, -40.0);
+    const ScenePoint held = pointAt(at);
+    const double before_m = globe().camera().distance_m;
+    for (int i = 0; i < 12; ++i) {
+        wheel(at, 1);
+    }
+    ASSERT_TRUE(rests());
+    EXPECT_LT(globe().camera().distance_m, 0.2 * before_m);
+    const auto pixel = project(poseOf(globe().camera(), body()), globe().viewport(), held);
+    ASSERT_TRUE(pixel);
+    EXPECT_NEAR(pixel->x, at.x(), 1.0);
+    EXPECT_NEAR(pixel->y, at.y(), 1.0);
+
+    const BodyCamera start = globe().camera();
+    for (QAction* step : window_->actionSet().steps) {
+        step->trigger();
+        ASSERT_TRUE(rests());
+    }
+    EXPECT_NE(globe().camera(), start);
+    window_->actionSet().north->trigger();
+    ASSERT_TRUE(rests());
+    EXPECT_NEAR(globe().camera().azimuth.degrees(), 0.0, 1e-9);
+}
+
+TEST_F(GlobeTest, ReadsTheFullResolutionElevationOfTheMapUnderThePointer)
+{
+    ASSERT_TRUE(showGlobe());
+    globe().setCamera(
+        {.target = {.longitude = Angle::degrees(-134.0), .latitude = Angle::degrees(18.6)},
+         .distance_m = 1.2e6,
+         .tilt = Angle::degrees(20.0)});
+    const QPoint at = globeMiddle().toPoint() + QPoint(21, 13);
+    QTest::mouseMove(&globe(), at);
+    const auto reading = globe().reading();
+    ASSERT_TRUE(reading);
+    const GeographicPoint place = placeAt(at);
+    EXPECT_NEAR(reading->height_m, globe().terrain()->map()->height(place), 0.5);
+    ASSERT_TRUE(waitFor([this] { return !window_->readout()->heightLabel().isEmpty(); }));
+    EXPECT_FALSE(window_->readout()->coordinateLabel().isEmpty());
+}
+
+TEST_F(GlobeTest, DisablesWithAReasonWhatItLacksAndGivesItBack)
+{
+    const WindowActions& actions = window_->actionSet();
+    const QList<QAction*> lacking{actions.save_picture, actions.haptic_devices,
+                                  actions.measure_kinds->actions().front(),
+                                  actions.tools->actions().at(static_cast<int>(Tool::Touch))};
+    for (const QAction* action : lacking) {
+        ASSERT_TRUE(action->isEnabled()) << action->text().toStdString();
+    }
+    ASSERT_TRUE(showGlobe());
+    for (const QAction* action : lacking) {
+        EXPECT_FALSE(action->isEnabled()) << action->text().toStdString();
+        EXPECT_TRUE(action->statusTip().contains(QStringLiteral("Flat Map")));
+    }
+    actions.contours->trigger(); // a change of the session
+    EXPECT_FALSE(actions.save_picture->isEnabled());
+    scene(0)->trigger();
+    for (const QAction* action : lacking) {
+        EXPECT_TRUE(action->isEnabled()) << action->text().toStdString();
+        EXPECT_FALSE(action->statusTip().contains(QStringLiteral("Flat Map")));
+    }
+}
+
+// Through the widget: the motions of core/globe have a hundred thousand inputs of their own.
+TEST_F(GlobeTest, RandomInputNeverTakesTheCameraUnderTheGround)
+{
+    ASSERT_TRUE(showGlobe());
+    test::Random random(81);
+    const auto any = [&] {
+        return QPoint(static_cast<int>(random.uniform(0.0, globe().width())),
+                      static_cast<int>(random.uniform(0.0, globe().height())));
+    };
+    for (int i = 0; i < 400; ++i) {
+        const QPoint from = any();
+        if (i % 3 == 0) {
+            const auto button = i % 2 == 0 ? Qt::LeftButton : Qt::RightButton;
+            QTest::mousePress(&globe(), button, Qt::NoModifier, from);
+            QTest::mouseMove(&globe(), any());
+            QTest::mouseRelease(&globe(), button, Qt::NoModifier, any());
+        } else if (i % 3 == 1) {
+            wheel(from, random.uniform(0.0, 1.0) < 0.55 ? 2 : -2);
+            QTest::qWait(20);
+        } else {
+            window_->actionSet().steps.at(static_cast<int>(random.uniform(0.0, 9.99)))->trigger();
+        }
+        const CameraPose pose = poseOf(globe().camera(), body());
+        ASSERT_TRUE(isFinite(pose.eye)) << i;
+        const BodyPlace eye = placeOf(pose.eye, body());
+        ASSERT_GT(eye.height_m,
+                  globe().terrain()->height(eye.foot) * window_->view()->exaggeration())
+            << i;
+    }
+}
+
+} // namespace
+} // namespace marsview

@@ -1,0 +1,82 @@
+// The scene of the window: the flat map, or the globe in its place.
+#pragma once
+
+#include <QHash>
+#include <QList>
+#include <QObject>
+#include <QString>
+
+class QAction;
+class QWidget;
+
+namespace marsview {
+
+class DeviceSession;
+class GlobeView;
+class MainToolBar;
+class StatusReadout;
+class TerrainView;
+class WindowMessages;
+struct WindowActions;
+
+/// What View › Scene offers. Automatic is the flat map so far: the globe lacks some of its
+/// functions.
+enum class SceneChoice { Automatic, Flat, Globe };
+
+/// Shows the globe in place of the flat map, which stays as it is behind it: layers, look and
+/// exaggeration are the flat map's, and the camera is handed over both ways. While the globe is
+/// shown, actions that it does not have yet are disabled and say why. GUI thread; must not outlive
+/// its parts.
+class SceneCommands final : public QObject {
+    Q_OBJECT
+
+public:
+    struct Parts {
+        const WindowActions& actions;
+        TerrainView& view;
+        GlobeView& globe;
+        const DeviceSession& device;
+        StatusReadout& readout;
+        WindowMessages& messages;
+        /// Further actions and widgets of the flat map alone.
+        QList<QAction*> flat_actions;
+        QList<QWidget*> flat_widgets;
+    };
+
+    explicit SceneCommands(const Parts& parts);
+
+    SceneChoice choice() const noexcept { return choice_; }
+    void choose(SceneChoice choice);
+    bool isGlobeShown() const noexcept { return is_globe_shown_; }
+
+Q_SIGNALS:
+    /// The globe or the flat map is shown now.
+    void shownChanged(bool is_globe);
+
+private:
+    void connectParts();
+    void showChoices();
+    void setGlobeShown(bool is_shown);
+    void follow();
+    void handToGlobe();
+    void handToMap();
+    void readOnGlobe();
+    void withhold(QAction& action);
+    void release(QAction& action);
+    /// Why the globe cannot be shown; empty where it can.
+    QString whyNoGlobe() const;
+
+    struct Tips {
+        bool was_enabled = true;
+        QString tool_tip;
+        QString status_tip;
+    };
+
+    Parts parts_;
+    SceneChoice choice_ = SceneChoice::Automatic;
+    bool is_globe_shown_ = false;
+    bool is_withholding_ = false; // this changes an action, not its feature
+    QHash<QAction*, Tips> withheld_;
+};
+
+} // namespace marsview
