@@ -8,9 +8,11 @@
 #include "app/console/text_output.h"
 #include "core/measure/attitude.h"
 #include "core/measure/crater.h"
+#include "core/measure/hypsometry.h"
 #include "core/measure/line_measures.h"
 #include "core/measure/terrain_area.h"
 #include "core/measure/terrain_slope.h"
+#include "core/session/measurement_tables.h"
 
 #include <CLI/CLI.hpp>
 #include <cmath>
@@ -180,15 +182,18 @@ Status runAttitude(const AttitudeCommand& options)
 struct AreaCommand {
     MeasureOptions common;
     std::string base;
+    bool has_hypsometry = false;
+    std::optional<double> step_m;
 
     AreaOptions options() const
     {
-        if (base.empty()) {
-            return {};
+        AreaOptions options{.hypsometry_step_m = step_m};
+        if (!base.empty()) {
+            const std::optional<double> elevation_m = parseNumber(base);
+            options.base = elevation_m ? VolumeBase::Elevation : VolumeBase::BorderPlane;
+            options.base_m = elevation_m.value_or(0.0);
         }
-        const std::optional<double> elevation_m = parseNumber(base);
-        return elevation_m ? AreaOptions{VolumeBase::Elevation, *elevation_m}
-                           : AreaOptions{VolumeBase::BorderPlane, 0.0};
+        return options;
     }
 };
 
@@ -241,6 +246,13 @@ void printForPeople(const TerrainArea& area)
     }
 }
 
+// The classes as chosen, or some fifty of them.
+Hypsometry printedHypsometry(const AreaCommand& options, const TerrainArea& area)
+{
+    constexpr std::size_t kClassesMax = 50;
+    return options.step_m ? area.hypsometry : withFewerClasses(area.hypsometry, kClassesMax);
+}
+
 Status runArea(const AreaCommand& options)
 {
     Result<MeasureInput> input = openMeasureInput(options.common);
@@ -253,8 +265,15 @@ Status runArea(const AreaCommand& options)
     if (!area) {
         return measureError(options.common, area.error());
     }
+    const Hypsometry hypsometry = printedHypsometry(options, *area);
     if (options.common.is_json) {
-        printJson(withSchema(reportOf(*area)));
+        Json json = reportOf(*area);
+        if (options.has_hypsometry) {
+            json["hypsometry"] = reportOf(hypsometry);
+        }
+        printJson(withSchema(json));
+    } else if (options.has_hypsometry) {
+        std::fputs(hypsometryCsv(hypsometry).c_str(), stdout);
     } else {
         printForPeople(*area);
     }
@@ -383,6 +402,16 @@ void addArea(CLI::App& measure, CommandAction& run)
                      "below the best plane through the terrain along the border (plane)")
         ->type_name("H|plane")
         ->check(volumeBase());
+    CLI::Option* hypsometry = command->add_flag(
+        "--hypsometry", options->has_hypsometry,
+        "print the area by classes of elevation as CSV, with the area above each of them: "
+        "histogram and hypsometric curve");
+    command
+        ->add_option("--step", options->step_m,
+                     "width of the classes in meters; by default a round one, with at most fifty "
+                     "classes")
+        ->check(positiveNumber())
+        ->needs(hypsometry);
     command->callback([options, &run] {
         options->common.checkSource();
         run = [options] { return runArea(*options); };

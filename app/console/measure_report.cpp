@@ -2,6 +2,8 @@
 
 #include "app/console/text_output.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <limits>
 #include <utility>
 
@@ -82,6 +84,20 @@ Json reportOf(const TerrainArea& area)
         json["volume_below_m3"] = asJson(*area.volume_below_m3);
     }
     return json;
+}
+
+Json reportOf(const Hypsometry& hypsometry)
+{
+    Json classes = Json::array();
+    double above_m2 = hypsometry.totalM2();
+    for (std::size_t i = 0; i < hypsometry.area_m2.size(); ++i) {
+        classes.push_back({{"from_m", asJson(hypsometry.boundM(i))},
+                           {"to_m", asJson(hypsometry.boundM(i + 1))},
+                           {"area_m2", asJson(hypsometry.area_m2[i])},
+                           {"area_above_m2", asJson(above_m2)}});
+        above_m2 = std::max(0.0, above_m2 - hypsometry.area_m2[i]);
+    }
+    return classes;
 }
 
 Json reportOf(const Crater& crater, GroundPosition center, MapPoint map)

@@ -18,7 +18,10 @@ double wholeSurface(double surface_m, double void_m);
 
 nlohmann::ordered_json reportOf(const Distance& distance);
 nlohmann::ordered_json reportOf(const Attitude& attitude, GroundPosition center);
+/// Without the hypsometry.
 nlohmann::ordered_json reportOf(const TerrainArea& area);
+/// An array of classes.
+nlohmann::ordered_json reportOf(const Hypsometry& hypsometry);
 /// `map` is the center in the CRS of the map; NaN outside its projection.
 nlohmann::ordered_json reportOf(const Crater& crater, GroundPosition center, MapPoint map);
 

@@ -56,26 +56,36 @@ struct LinearOnCell {
     double operator()(const UvPoint& p) const { return at_corner + p.u * per_u + p.v * per_v; }
 };
 
-struct PartSum {
-    double area_m2 = 0.0;
-    double first = 0.0; // integral of a linear function over that area
-};
-
-/// Over the part; exact for a linear `value`. `cell_m2` is the area of a cell as the ground around
-/// a point has it. It changes across a cell, by a quarter next to a pole of a map in degrees.
-template <typename Value>
-PartSum sumOver(const CellPart& part, const LinearOnCell& cell_m2, const Value& value)
+/// Calls `visit` with the triangles of a part, each with its area. `cell_m2` is the area of a cell
+/// as the ground around a point has it. It changes across a cell, by a quarter next to a pole of a
+/// map in degrees.
+template <typename Visit>
+void forEachTriangle(const CellPart& part, const LinearOnCell& cell_m2, const Visit& visit)
 {
-    PartSum sum;
     for (std::size_t i = 1; i + 1 < part.count; ++i) {
         const UvPoint& o = part.points[0];
         const UvPoint& a = part.points[i];
         const UvPoint& b = part.points[i + 1];
         const double cells = 0.5 * std::abs((a.u - o.u) * (b.v - o.v) - (b.u - o.u) * (a.v - o.v));
-        const double area_m2 = cells * cell_m2({(o.u + a.u + b.u) / 3.0, (o.v + a.v + b.v) / 3.0});
-        sum.area_m2 += area_m2;
-        sum.first += area_m2 * (value(o) + value(a) + value(b)) / 3.0;
+        visit(o, a, b, cells * cell_m2({(o.u + a.u + b.u) / 3.0, (o.v + a.v + b.v) / 3.0}));
     }
+}
+
+struct PartSum {
+    double area_m2 = 0.0;
+    double first = 0.0; // integral of a linear function over that area
+};
+
+/// Over the part; exact for a linear `value`. For `cell_m2` see forEachTriangle().
+template <typename Value>
+PartSum sumOver(const CellPart& part, const LinearOnCell& cell_m2, const Value& value)
+{
+    PartSum sum;
+    forEachTriangle(part, cell_m2,
+                    [&](const UvPoint& o, const UvPoint& a, const UvPoint& b, double area_m2) {
+                        sum.area_m2 += area_m2;
+                        sum.first += area_m2 * (value(o) + value(a) + value(b)) / 3.0;
+                    });
     return sum;
 }
 

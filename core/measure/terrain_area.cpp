@@ -11,6 +11,7 @@
 #include "core/measure/cell_part.h"
 #include "core/measure/column_coverage.h"
 #include "core/measure/grid_field.h"
+#include "core/measure/hypsometry.h"
 #include "core/measure/line_measures.h"
 #include "core/measure/metric_field.h"
 #include "core/measure/polygon_outline.h"
@@ -34,8 +35,12 @@ constexpr double kBorderShare = 0.1; // of the time
 
 class AreaSummer {
 public:
-    AreaSummer(MeasuredTerrain& terrain, MetricField& metric, const VolumeSurface& base)
-        : terrain_(terrain)
+    AreaSummer(MeasuredTerrain& terrain,
+               MetricField& metric,
+               const VolumeSurface& base,
+               std::optional<double> hypsometry_step_m)
+        : hypsometry(hypsometry_step_m)
+        , terrain_(terrain)
         , metric_(metric)
         , base_(base)
     {}
@@ -85,6 +90,7 @@ public:
     double min_m = kNan;
     double max_m = kNan;
     bool crosses_itself = false;
+    HypsometrySum hypsometry;
 
 private:
     Status runChunk(std::size_t first,
@@ -133,6 +139,12 @@ private:
             }
             if (monitor.isCanceled()) {
                 return Error{ErrorCode::Canceled, "measuring was canceled"};
+            }
+            if (hypsometry.isOverfull()) {
+                return Error{ErrorCode::OutOfRange,
+                             fmt::format("elevation classes of {:g} m are too many, more than {}; "
+                                         "use wider ones",
+                                         hypsometry.stepM(), HypsometrySum::kClassesMax)};
             }
             ++row;
             monitor.report(static_cast<double>(row) / static_cast<double>(rows));
@@ -262,6 +274,7 @@ private:
             covered_m2 += area_m2;
             surface_m2 += area_m2 * t.stretch;
             height_m3 += area_m2 * (z[0] + z[1] + z[2]) / 3.0;
+            hypsometry.add(z, area_m2);
             (above[i] >= 0.0 ? above_m3 : below_m3) += area_m2 * std::abs(above[i]);
         }
         return true;
@@ -351,6 +364,11 @@ private:
         covered_m2 += weight * sum.area_m2;
         surface_m2 += weight * sum.area_m2 * t.stretch;
         height_m3 += weight * sum.first;
+        forEachTriangle(part, t.cell_m2,
+                        [&](const UvPoint& o, const UvPoint& a, const UvPoint& b, double area_m2) {
+                            const LinearOnCell& z = t.elevation_m;
+                            hypsometry.add({z(o), z(a), z(b)}, weight * area_m2);
+                        });
         if (base_.kind == VolumeBase::None) {
             return;
         }
@@ -512,7 +530,7 @@ Result<TerrainArea> measureArea(MeasuredTerrain& terrain,
         }
     }
     const std::unique_ptr<MetricField> metric = MetricField::of(terrain, from, to);
-    AreaSummer sum(terrain, *metric, base);
+    AreaSummer sum(terrain, *metric, base, options.hypsometry_step_m);
     const JobPart part(monitor, kBorderShare, 1.0);
     if (Status status = sum.run(std::move(outline.parts), sides.outside, sides.sign, monitor);
         !status) {
@@ -523,6 +541,7 @@ Result<TerrainArea> measureArea(MeasuredTerrain& terrain,
     area.mean_m = sum.covered_m2 != 0.0 ? sum.height_m3 / sum.covered_m2 : kNan;
     area.min_m = std::fmin(sum.min_m, border.min_m);
     area.max_m = std::fmax(sum.max_m, border.max_m);
+    area.hypsometry = sum.hypsometry.result(area.min_m, area.max_m);
     area.crosses_itself = sum.crosses_itself;
     if (options.base != VolumeBase::None) {
         area.volume_above_m3 = sum.above_m3;

@@ -3,6 +3,7 @@
 
 #include "core/base/job_monitor.h"
 #include "core/base/result.h"
+#include "core/measure/hypsometry.h"
 #include "core/measure/measured_terrain.h"
 
 #include <optional>
@@ -20,6 +21,8 @@ enum class VolumeBase {
 struct AreaOptions {
     VolumeBase base = VolumeBase::None;
     double base_m = 0.0; // of VolumeBase::Elevation
+    /// Width of the classes of the hypsometry; see HypsometrySum.
+    std::optional<double> hypsometry_step_m{};
 };
 
 struct TerrainArea {
@@ -34,6 +37,7 @@ struct TerrainArea {
     // Between the terrain and the base; positive.
     std::optional<double> volume_above_m3;
     std::optional<double> volume_below_m3;
+    Hypsometry hypsometry; // of covered_m2
     /// Edges cross, so that parts enclosed in opposite directions cancel.
     bool crosses_itself = false;
     bool is_approximate = false;
@@ -45,8 +49,8 @@ struct TerrainArea {
 /// over east and north in the local frame, so it follows the curvature of the body.
 ///
 /// Invalid for fewer than three vertices and coordinates that are none; OutOfRange if the edges
-/// leave the map's projection, or a plane is asked for across more than a sixth of the body's
-/// circumference; Canceled; errors of reading.
+/// leave the map's projection, a plane is asked for across more than a sixth of the body's
+/// circumference, or the hypsometry has too many classes; Canceled; errors of reading.
 Result<TerrainArea> measureArea(MeasuredTerrain& terrain,
                                 std::span<const GroundPosition> vertices,
                                 const AreaOptions& options,

@@ -60,6 +60,22 @@ std::string profileCsv(const NamedMeasurement& profile)
     return text;
 }
 
+std::string hypsometryCsv(const Hypsometry& hypsometry)
+{
+    std::string text = "from_m,to_m,area_m2,share,area_above_m2,share_above\n";
+    const double total_m2 = hypsometry.totalM2();
+    double above_m2 = total_m2;
+    for (std::size_t i = 0; i < hypsometry.area_m2.size(); ++i) {
+        const double area_m2 = hypsometry.area_m2[i];
+        fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{}\n",
+                       digits(hypsometry.boundM(i)), digits(hypsometry.boundM(i + 1)),
+                       digits(area_m2), digits(area_m2 / total_m2), digits(above_m2),
+                       digits(above_m2 / total_m2));
+        above_m2 = std::max(0.0, above_m2 - area_m2);
+    }
+    return text;
+}
+
 std::string attitudesCsv(std::span<const NamedMeasurement> measurements)
 {
     std::string text =

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/measure/ground.h"
+#include "core/measure/hypsometry.h"
 #include "core/session/measurement_features.h"
 
 #include <span>
@@ -16,6 +17,10 @@ MapPoint tablePosition(const NamedMeasurement& measurement, GroundPosition posit
 /// The points of a profile: distance_m, lon, lat and elevation_m, with full precision; "nan" in
 /// gaps. Only the header without such a result.
 std::string profileCsv(const NamedMeasurement& profile);
+
+/// The classes of elevation, upward: bounds, area, and the area above the lower bound, both also as
+/// shares of the whole. Only the header without terrain.
+std::string hypsometryCsv(const Hypsometry& hypsometry);
 
 /// A line for each attitude with a result, with the columns that programs for structural geology
 /// read: name, lon, lat, strike, dip, dip_direction, and the errors in degrees and meters.

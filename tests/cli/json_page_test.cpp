@@ -127,6 +127,9 @@ TEST(JsonPage, ListsTheFieldsOfMeasurements)
     expectDocumented("measure area", printed({"measure", "area", bundledMars(), "--points", "-",
                                               "--base", "plane", "--json"},
                                              line));
+    expectDocumented("measure area", printed({"measure", "area", bundledMars(), "--points", "-",
+                                              "--hypsometry", "--json"},
+                                             line));
     expectDocumented(
         "measure slope",
         printed({"measure", "slope", bundledMars(), "--points", "-", "--json"}, "226 18"));

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -275,6 +276,34 @@ TEST(MeasureArea, IsThatOfPlanimeterWithVolumesOnRequest)
     const ProgramOutput crossed =
         measured("area", bundledMars(), "220 10\n230 20\n230 10\n220 18\n");
     EXPECT_THAT(crossed.err, HasSubstr("edges of the polygon cross"));
+}
+
+TEST(MeasureArea, HypsometryAddsUpToTheArea)
+{
+    const std::string polygon = "220 10\n235 12\n230 28\n";
+    const nlohmann::json area =
+        measuredJson("area", bundledMars(), polygon, {"--hypsometry", "--step", "500"});
+    const nlohmann::json& classes = area["hypsometry"];
+    double sum_m2 = 0.0;
+    double above_m2 = area["covered_m2"].get<double>();
+    for (const nlohmann::json& each : classes) {
+        EXPECT_EQ(each["to_m"].get<double>() - each["from_m"].get<double>(), 500.0);
+        EXPECT_NEAR(each["area_above_m2"].get<double>(), above_m2, 1e-9 * above_m2 + 1.0);
+        above_m2 -= each["area_m2"].get<double>();
+        sum_m2 += each["area_m2"].get<double>();
+    }
+    EXPECT_NEAR(sum_m2, area["covered_m2"].get<double>(), 1e-9 * sum_m2);
+    EXPECT_LE(classes.front()["from_m"].get<double>(), area["min_m"].get<double>());
+    EXPECT_GT(classes.back()["to_m"].get<double>(), area["max_m"].get<double>());
+    const ProgramOutput table = measured("area", bundledMars(), polygon, {"--hypsometry"});
+    EXPECT_THAT(table.out, testing::StartsWith("from_m,to_m,area_m2,share,area_above_m2,share_above"
+                                               "\n-2000,-1500,"));
+    EXPECT_EQ(std::count(table.out.begin(), table.out.end(), '\n'), 1 + 47) << table.out;
+    EXPECT_EQ(measured("area", bundledMars(), polygon, {"--step", "500"}).exit_status, 2);
+    const ProgramOutput fine =
+        measured("area", bundledMars(), polygon, {"--hypsometry", "--step", "0.001"});
+    EXPECT_EQ(fine.exit_status, 1);
+    EXPECT_THAT(fine.err, HasSubstr("use wider ones"));
 }
 
 TEST(MeasureCrater, FindsTheCalderaOfOlympusMons)
