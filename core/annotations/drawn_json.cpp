@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kPointsMax = 10000000;
 
-constexpr std::array kShapes{
+constexpr std::array kShapeNames{
     Named<FeatureShape>{FeatureShape::Point, "point"},
     Named<FeatureShape>{FeatureShape::Line, "line"},
     Named<FeatureShape>{FeatureShape::Polygon, "polygon"},
@@ -180,7 +180,7 @@ Json annotationJson(const Annotation& annotation)
     if (annotation.color) {
         json["color"] = colorText(*annotation.color);
     }
-    json["shape"] = nameIn(kShapes, annotation.shape);
+    json["shape"] = nameIn(kShapeNames, annotation.shape);
     if (annotation.shape == FeatureShape::Point) {
         json["symbol"] = symbolName(annotation.symbol);
     }
@@ -202,7 +202,7 @@ Annotation annotationFrom(Members& members)
     members.text("name", annotation.name);
     members.text("note", annotation.note);
     annotation.color = colorFrom(members);
-    members.choice("shape", kShapes, annotation.shape);
+    members.choice("shape", kShapeNames, annotation.shape);
     if (std::string name; members.has("symbol")) {
         members.text("symbol", name);
         const auto symbol = symbolNamed(name);

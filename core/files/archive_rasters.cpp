@@ -23,7 +23,7 @@
 namespace marsview {
 namespace {
 
-constexpr std::size_t kEntriesMax = 64;
+constexpr std::size_t kProbedMax = 64;
 constexpr std::size_t kEntriesSizedMax = 2000;
 
 // Files that accompany rasters and are opened only through them.
@@ -47,7 +47,7 @@ struct Candidate {
 };
 
 // The size of the archive; 0 if it is not on a disk.
-std::size_t bytesOf(const std::string& archive)
+std::size_t archiveBytes(const std::string& archive)
 {
     struct stat status {};
     const std::string file = archive.substr(std::string_view("/vsizip/").size());
@@ -77,7 +77,7 @@ std::vector<std::string> largestFilesIn(const std::string& archive)
     }
     std::stable_sort(files.begin(), files.end(),
                      [](const File& a, const File& b) { return a.bytes > b.bytes; });
-    files.resize(std::min(files.size(), kEntriesMax));
+    files.resize(std::min(files.size(), kProbedMax));
     std::vector<std::string> names;
     names.reserve(files.size());
     for (File& file : files) {
@@ -89,7 +89,7 @@ std::vector<std::string> largestFilesIn(const std::string& archive)
 std::vector<Candidate> candidatesIn(const std::string& archive)
 {
     const std::vector<std::string> names = largestFilesIn(archive);
-    const auto probed = probeEach(names, bytesOf(archive), OpeningJob::current());
+    const auto probed = probeEach(names, archiveBytes(archive), OpeningJob::current());
     if (!probed) {
         return {};
     }

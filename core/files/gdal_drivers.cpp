@@ -81,11 +81,12 @@ constexpr std::array kLeftOut{
 };
 
 // OpenGuard checks the ways in which files of these formats refer to other files.
-constexpr std::array<const char*, 15> kPlain{
+constexpr std::array<const char*, 15> kPlainDrivers{
     "GTiff", "SRTMHGT", "DTED", "USGSDEM", "AAIGrid", "GRASSASCIIGrid", "EHdr", "ENVI",
     "ISIS3", "ISIS2",   "PDS",  "PDS4",    "VICAR",   "GSBG",           nullptr};
 
-// In addition to kPlain. HDF4, HDF5, netCDF, GRIB, FITS and others have crashed on damaged files.
+// In addition to kPlainDrivers. HDF4, HDF5, netCDF, GRIB, FITS and others have crashed on damaged
+// files.
 constexpr std::array kWellTested{"HFA", "JP2OpenJPEG", "PNG", "JPEG", "COG"};
 
 std::vector<GDALDriver*>& leftOut()
@@ -110,13 +111,13 @@ void leaveOutDrivers()
 
 const char* const* plainDrivers()
 {
-    return kPlain.data();
+    return kPlainDrivers.data();
 }
 
 bool isWellTested(const std::string& driver)
 {
     const auto is_it = [&driver](const char* name) { return name != nullptr && driver == name; };
-    return std::any_of(kPlain.begin(), kPlain.end(), is_it) ||
+    return std::any_of(kPlainDrivers.begin(), kPlainDrivers.end(), is_it) ||
            std::any_of(kWellTested.begin(), kWellTested.end(), is_it);
 }
 

@@ -89,7 +89,7 @@ bool isOnDisk(const std::string& name)
     return !name.starts_with("/vsi") && fs::is_regular_file(name, none);
 }
 
-std::uintmax_t bytesOf(const std::string& path)
+std::uintmax_t fileBytes(const std::string& path)
 {
     std::error_code failure;
     const std::uintmax_t bytes = fs::file_size(path, failure);
@@ -110,13 +110,13 @@ Status checkTextHolds(GDALDataset& dataset, const std::string& path)
         return checkTextGrid(path, columns * rows);
     }
     const std::uint64_t bytes = 144 * columns; // a header for each profile
-    if (driver != "USGSDEM" || !isOnDisk(path) || bytesOf(path) >= bytes) {
+    if (driver != "USGSDEM" || !isOnDisk(path) || fileBytes(path) >= bytes) {
         return Done{};
     }
     return Error{ErrorCode::Unreadable,
                  fmt::format("is cut short or damaged: its {} profiles take {} bytes or more, the "
                              "file has {}; fetch it again",
-                             columns, bytes, bytesOf(path))};
+                             columns, bytes, fileBytes(path))};
 }
 
 // ENVI and EHdr open any file that has a header of its name next to it, even a netCDF file, which
@@ -223,7 +223,7 @@ Result<GuardedDataset> openAfterProbe(const std::vector<std::string>& names)
 {
     std::uintmax_t bytes = 0;
     for (const std::string& name : names) {
-        bytes = std::max(bytes, bytesOf(name));
+        bytes = std::max(bytes, fileBytes(name));
     }
     std::optional<ProbeAnswer> answer = cachedProbe(names);
     if (!answer) {

@@ -65,7 +65,7 @@ struct Remembered {
     std::string stamp; // of answer.files
 };
 
-std::mutex mutex;
+std::mutex cache_mutex;
 std::map<std::string, Remembered>& held()
 {
     static std::map<std::string, Remembered> answers;
@@ -151,7 +151,7 @@ std::optional<ProbeAnswer> cachedProbe(const std::vector<std::string>& names)
     const std::string key = keyOf(names);
     std::optional<Remembered> found;
     {
-        const std::lock_guard lock(mutex);
+        const std::lock_guard lock(cache_mutex);
         if (const auto at = held().find(key); at != held().end()) {
             found = at->second;
         }
@@ -162,7 +162,7 @@ std::optional<ProbeAnswer> cachedProbe(const std::vector<std::string>& names)
             stampTextOf(found->answer.files) != found->stamp) {
             return std::nullopt;
         }
-        const std::lock_guard lock(mutex);
+        const std::lock_guard lock(cache_mutex);
         held().insert_or_assign(key, *found);
     }
     return found->answer;
@@ -186,7 +186,7 @@ void cacheProbe(const std::vector<std::string>& names, const ProbeAnswer& answer
     }
     const std::string key = keyOf(names);
     save(key, remembered);
-    const std::lock_guard lock(mutex);
+    const std::lock_guard lock(cache_mutex);
     if (held().size() >= kHeldMax) {
         held().clear();
     }

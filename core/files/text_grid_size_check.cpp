@@ -1,6 +1,7 @@
 #include "core/files/text_grid_size_check.h"
 
 #include "core/files/file_stamp.h"
+#include "core/files/gdal_file.h"
 #include "core/files/opening_job.h"
 
 #include <cpl_vsi.h>
@@ -63,8 +64,7 @@ vsi_l_offset endOfHeader(VSILFILE& file)
 // Up to `count`; empty if the job was canceled.
 std::optional<std::uint64_t> wordsIn(const std::string& path, std::uint64_t count)
 {
-    const std::unique_ptr<VSILFILE, decltype(&VSIFCloseL)> file(VSIFOpenL(path.c_str(), "rb"),
-                                                                &VSIFCloseL);
+    const GdalFile file = openGdalFile(path);
     if (!file) {
         return 0;
     }
@@ -93,7 +93,7 @@ std::optional<std::uint64_t> wordsIn(const std::string& path, std::uint64_t coun
     return std::min(words, count);
 }
 
-std::mutex mutex;
+std::mutex answer_mutex;
 // Stamps of files known to be complete.
 std::map<std::string, std::string>& complete()
 {
@@ -112,7 +112,7 @@ Status checkTextGrid(const std::string& path, std::uint64_t count)
 {
     const std::string stamp = fmt::format("{} {}", count, stampTextOf({path}));
     {
-        const std::lock_guard lock(mutex);
+        const std::lock_guard lock(answer_mutex);
         if (const auto known = complete().find(path);
             known != complete().end() && known->second == stamp) {
             return Done{};
@@ -133,7 +133,7 @@ Status checkTextGrid(const std::string& path, std::uint64_t count)
                                  "file has {}{}; fetch it again",
                                  count, bytes / 2 + 1 < count ? "at most " : "", *words)};
     }
-    const std::lock_guard lock(mutex);
+    const std::lock_guard lock(answer_mutex);
     if (complete().size() >= kRememberedMax) {
         complete().clear();
     }

@@ -82,8 +82,9 @@ std::optional<std::uint64_t> growthOf(std::uint64_t compression)
 
 bool isPlainCompression(std::uint64_t compression)
 {
-    constexpr std::array<std::uint64_t, 7> kPlain{1, 5, 8, 32946, 32773, 34925, 50000};
-    return std::find(kPlain.begin(), kPlain.end(), compression) != kPlain.end();
+    constexpr std::array<std::uint64_t, 7> kPlainCompressions{1, 5, 8, 32946, 32773, 34925, 50000};
+    return std::find(kPlainCompressions.begin(), kPlainCompressions.end(), compression) !=
+           kPlainCompressions.end();
 }
 
 struct Entry {

@@ -1,5 +1,7 @@
 #include "core/formats/netcdf_extent.h"
 
+#include "core/files/gdal_file.h"
+
 #include <cpl_vsi.h>
 
 #include <algorithm>
@@ -82,13 +84,9 @@ private:
     bool has_failed_ = false;
 };
 
-struct FileCloser {
-    void operator()(VSILFILE* file) const { VSIFCloseL(file); }
-};
-
 std::vector<unsigned char> headerOf(const std::string& path)
 {
-    const std::unique_ptr<VSILFILE, FileCloser> file(VSIFOpenL(path.c_str(), "rb"));
+    const GdalFile file = openGdalFile(path);
     std::vector<unsigned char> bytes(file ? kHeaderBytesMax : 0);
     if (file) {
         bytes.resize(VSIFReadL(bytes.data(), 1, bytes.size(), file.get()));

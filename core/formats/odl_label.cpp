@@ -1,5 +1,7 @@
 #include "core/formats/odl_label.h"
 
+#include "core/files/gdal_file.h"
+
 #include <cpl_vsi.h>
 
 #include <algorithm>
@@ -206,10 +208,6 @@ private:
     std::size_t at_ = 0;
 };
 
-struct FileCloser {
-    void operator()(VSILFILE* file) const { VSIFCloseL(file); }
-};
-
 } // namespace
 
 std::optional<OdlStatement> parseOdl(std::string_view text)
@@ -220,7 +218,7 @@ std::optional<OdlStatement> parseOdl(std::string_view text)
 
 std::optional<OdlStatement> readOdlLabel(const std::string& path)
 {
-    const std::unique_ptr<VSILFILE, FileCloser> file(VSIFOpenL(path.c_str(), "rb"));
+    const GdalFile file = openGdalFile(path);
     if (!file) {
         return std::nullopt;
     }

@@ -1,5 +1,6 @@
 #include "core/measure/attitude.h"
 
+#include "core/measure/constants.h"
 #include "core/measure/line_measures.h"
 
 #include <algorithm>
@@ -13,8 +14,6 @@
 namespace marsview {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr double kConfidence = 0.95;
 constexpr double kCollinear = 1e-4;
 constexpr double kPoleErrorDegMax = 45.0;
@@ -96,7 +95,7 @@ Vec3 sumOf(const std::vector<Vec3>& points)
 
 double azimuthOf(double east, double north)
 {
-    const double azimuth = std::atan2(east, north) * kDegrees;
+    const double azimuth = std::atan2(east, north) * kDegreesPerRadian;
     return azimuth < 0.0 ? azimuth + 360.0 : azimuth;
 }
 
@@ -123,10 +122,10 @@ PoleAxis poleAxis(Vec3 direction, double tangent)
     if (direction.z > 0.0) {
         direction = -direction;
     }
-    return {.half_angle_deg = std::atan(tangent) * kDegrees,
+    return {.half_angle_deg = std::atan(tangent) * kDegreesPerRadian,
             .trend_deg = azimuthOf(direction.x, direction.y),
             .plunge_deg =
-                std::atan2(-direction.z, std::hypot(direction.x, direction.y)) * kDegrees};
+                std::atan2(-direction.z, std::hypot(direction.x, direction.y)) * kDegreesPerRadian};
 }
 
 // The errors of dip and strike on the ellipse normal + a·e1 + b·e2.
@@ -154,8 +153,8 @@ void setErrors(const Vec3& normal,
         strike_error_rad = std::max(strike_error_rad, std::abs(turn));
     }
     uncertainty.dip_error_deg =
-        (can_be_level ? std::max(dip_error_rad, dip_rad) : dip_error_rad) * kDegrees;
-    uncertainty.strike_error_deg = can_be_level ? 180.0 : strike_error_rad * kDegrees;
+        (can_be_level ? std::max(dip_error_rad, dip_rad) : dip_error_rad) * kDegreesPerRadian;
+    uncertainty.strike_error_deg = can_be_level ? 180.0 : strike_error_rad * kDegreesPerRadian;
 }
 
 } // namespace
@@ -230,10 +229,10 @@ Result<Attitude> fitAttitude(const Ground& ground,
     }
     const Vec3 normal = axes.direction[2].z < 0.0 ? -axes.direction[2] : axes.direction[2];
     attitude.normal = normal;
-    attitude.dip_deg = std::atan2(std::hypot(normal.x, normal.y), normal.z) * kDegrees;
+    attitude.dip_deg = std::atan2(std::hypot(normal.x, normal.y), normal.z) * kDegreesPerRadian;
     const bool is_level = normal.x == 0.0 && normal.y == 0.0;
-    attitude.dip_direction_deg = is_level ? kNan : azimuthOf(normal.x, normal.y);
-    attitude.strike_deg = is_level ? kNan : turned(attitude.dip_direction_deg, -90.0);
+    attitude.dip_direction_deg = is_level ? kNoMeasure : azimuthOf(normal.x, normal.y);
+    attitude.strike_deg = is_level ? kNoMeasure : turned(attitude.dip_direction_deg, -90.0);
     double squares = 0.0;
     for (const Vec3& place : places) {
         attitude.residuals_m.push_back(dot(frame.toLocal(place), normal));

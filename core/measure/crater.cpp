@@ -67,10 +67,10 @@ firstCenter(const Ground& ground, GroundPosition origin, std::span<const GroundP
         np += o.north_m * p;
     }
     // The ratio of the variances across and along, as for attitudes.
-    constexpr double kCollinear = 1e-4;
+    constexpr double kFlattestTriangle = 1e-4;
     const double half_sum = 0.5 * (ee + nn);
     const double root = std::hypot(0.5 * (ee - nn), en);
-    if (!(half_sum - root >= kCollinear * (half_sum + root)) || half_sum == 0.0) {
+    if (!(half_sum - root >= kFlattestTriangle * (half_sum + root)) || half_sum == 0.0) {
         return nearlyOnALine();
     }
     const double determinant = ee * nn - en * en;

@@ -1,5 +1,6 @@
 #include "core/measure/line_measures.h"
 
+#include "core/measure/constants.h"
 #include "core/measure/terrain_path.h"
 
 #include <algorithm>
@@ -9,8 +10,6 @@
 
 namespace marsview {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 // Progress in proportion to lengths.
 class LegProgress {
@@ -82,7 +81,7 @@ public:
             return;
         }
         if (!piece.has_terrain && std::isfinite(points_.back().elevation_m)) {
-            add(0.5 * (piece.begin_m + piece.end_m), kNan);
+            add(0.5 * (piece.begin_m + piece.end_m), kNoMeasure);
         }
         // Outside the map, one point at the end of a gap is enough.
         const bool is_outside = !piece.is_on_map && points_.size() > offset_index_ + 1 &&

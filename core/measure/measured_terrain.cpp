@@ -1,13 +1,13 @@
 #include "core/measure/measured_terrain.h"
 
+#include "core/measure/constants.h"
+
 #include <algorithm>
 #include <limits>
 #include <utility>
 
 namespace marsview {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 bool isOnBody(const Georeference& georeference)
 {
@@ -156,7 +156,7 @@ double MeasuredTerrain::elevation(GroundPosition position)
 {
     const auto grid = toGrid(position);
     const auto place = grid ? placeOf(*grid) : std::nullopt;
-    return place ? elevation(*place) : kNan;
+    return place ? elevation(*place) : kNoMeasure;
 }
 
 } // namespace marsview

@@ -1,17 +1,14 @@
 #include "core/measure/profile_statistics.h"
 
+#include "core/measure/constants.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 namespace marsview {
-namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kDegrees = 180.0 / std::numbers::pi;
-
-} // namespace
+namespace {} // namespace
 
 ProfileStatistics profileStatistics(const Profile& profile, double begin_m, double end_m)
 {
@@ -20,8 +17,8 @@ ProfileStatistics profileStatistics(const Profile& profile, double begin_m, doub
     statistics.max_m = -statistics.min_m;
     double sum = 0.0;
     double covered_m = 0.0;
-    double first_m = kNan;
-    double last_m = kNan;
+    double first_m = kNoMeasure;
+    double last_m = kNoMeasure;
     double first_at_m = 0.0;
     double last_at_m = 0.0;
     const auto& points = profile.points;
@@ -56,16 +53,18 @@ ProfileStatistics profileStatistics(const Profile& profile, double begin_m, doub
         covered_m += to_m - from_m;
         statistics.surface_m += std::hypot(to_m - from_m, rise_m);
         (rise_m > 0.0 ? statistics.climb_m : statistics.descent_m) += std::abs(rise_m);
-        statistics.steepest_deg = std::max(statistics.steepest_deg,
-                                           std::atan2(std::abs(rise_m), to_m - from_m) * kDegrees);
+        statistics.steepest_deg =
+            std::max(statistics.steepest_deg,
+                     std::atan2(std::abs(rise_m), to_m - from_m) * kDegreesPerRadian);
     }
     if (!(covered_m > 0.0)) {
-        statistics.min_m = statistics.max_m = statistics.mean_m = kNan;
-        statistics.mean_slope_deg = statistics.steepest_deg = kNan;
+        statistics.min_m = statistics.max_m = statistics.mean_m = kNoMeasure;
+        statistics.mean_slope_deg = statistics.steepest_deg = kNoMeasure;
         return statistics;
     }
     statistics.mean_m = sum / covered_m;
-    statistics.mean_slope_deg = std::atan2(last_m - first_m, last_at_m - first_at_m) * kDegrees;
+    statistics.mean_slope_deg =
+        std::atan2(last_m - first_m, last_at_m - first_at_m) * kDegreesPerRadian;
     return statistics;
 }
 

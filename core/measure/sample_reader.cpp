@@ -1,5 +1,7 @@
 #include "core/measure/sample_reader.h"
 
+#include "core/measure/constants.h"
+
 #include <algorithm>
 #include <bit>
 #include <fmt/format.h>
@@ -9,8 +11,6 @@
 
 namespace marsview {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 // For samples in memory: the last that has more than the outermost samples.
 std::size_t coarsestLevel(const Heightfield& heightfield)
@@ -60,7 +60,7 @@ public:
                         .row = static_cast<std::uint32_t>(j / kTileSide)};
         const Tile* tile = tileOf(id);
         if (tile == nullptr || tile->samples.isVoid(i % kTileSide, j % kTileSide)) {
-            return kNan;
+            return kNoMeasure;
         }
         return scale_.height(tile->samples.raw(i % kTileSide, j % kTileSide));
     }
@@ -118,7 +118,7 @@ public:
             last_place_ = place;
         }
         if (last_ == nullptr || last_->isVoid(column % kTileSide, row % kTileSide)) {
-            return kNan;
+            return kNoMeasure;
         }
         return scale_.height(last_->raw(column % kTileSide, row % kTileSide));
     }

@@ -10,6 +10,7 @@
 
 #include "core/measure/cell_part.h"
 #include "core/measure/column_coverage.h"
+#include "core/measure/constants.h"
 #include "core/measure/grid_field.h"
 #include "core/measure/hypsometry.h"
 #include "core/measure/line_measures.h"
@@ -30,7 +31,6 @@
 namespace marsview {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kBorderShare = 0.1; // of the time
 
 class AreaSummer {
@@ -87,8 +87,8 @@ public:
     double height_m3 = 0.0; // ∫ elevation
     double above_m3 = 0.0;
     double below_m3 = 0.0;
-    double min_m = kNan;
-    double max_m = kNan;
+    double min_m = kNoMeasure;
+    double max_m = kNoMeasure;
     bool crosses_itself = false;
     HypsometrySum hypsometry;
 
@@ -538,7 +538,7 @@ Result<TerrainArea> measureArea(MeasuredTerrain& terrain,
     }
     area.covered_m2 = sum.covered_m2;
     area.surface_m2 = sum.surface_m2;
-    area.mean_m = sum.covered_m2 != 0.0 ? sum.height_m3 / sum.covered_m2 : kNan;
+    area.mean_m = sum.covered_m2 != 0.0 ? sum.height_m3 / sum.covered_m2 : kNoMeasure;
     area.min_m = std::fmin(sum.min_m, border.min_m);
     area.max_m = std::fmax(sum.max_m, border.max_m);
     area.hypsometry = sum.hypsometry.result(area.min_m, area.max_m);

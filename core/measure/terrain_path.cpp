@@ -1,13 +1,13 @@
 #include "core/measure/terrain_path.h"
 
+#include "core/measure/constants.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace marsview {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 constexpr double kFitTolerance = 1e-7;     // samples; times a steep 10 m a sample: a micrometer
 constexpr double kProjectionNoiseM = 2e-7; // several times that of Crs
@@ -350,7 +350,7 @@ public:
     Status trace(const GridCurve& curve, JobMonitor& monitor)
     {
         if (!curve.is_on_map) {
-            visitor_.visit({curve.begin_m, curve.end_m, false, false, kNan, kNan});
+            visitor_.visit({curve.begin_m, curve.end_m, false, false, kNoMeasure, kNoMeasure});
             return Done{};
         }
         findCellCuts(terrain_, curve, cuts_);
@@ -496,7 +496,8 @@ private:
         };
         const bool has_terrain = middle_m != nullptr && std::isfinite(*middle_m);
         visitor_.visit({distance(begin_t), distance(end_t), has_terrain, middle_m != nullptr,
-                        middle_m != nullptr ? begin_m : kNan, middle_m != nullptr ? end_m : kNan});
+                        middle_m != nullptr ? begin_m : kNoMeasure,
+                        middle_m != nullptr ? end_m : kNoMeasure});
     }
 
     MeasuredTerrain& terrain_;

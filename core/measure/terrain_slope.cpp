@@ -1,5 +1,6 @@
 #include "core/measure/terrain_slope.h"
 
+#include "core/measure/constants.h"
 #include "core/measure/grid_steps.h"
 #include "core/measure/line_measures.h"
 
@@ -11,12 +12,9 @@
 namespace marsview {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kDegrees = 180.0 / std::numbers::pi;
-
 struct Gradient {
-    double east = kNan;
-    double north = kNan;
+    double east = kNoMeasure;
+    double north = kNoMeasure;
 };
 
 Gradient ofTriangle(MeasuredTerrain& terrain, GroundPosition position)
@@ -77,15 +75,17 @@ Result<std::vector<TerrainSlope>> measureSlopes(MeasuredTerrain& terrain,
         if (monitor.isCanceled()) {
             return Error{ErrorCode::Canceled, "measuring was canceled"};
         }
-        TerrainSlope slope{
-            .elevation_m = terrain.elevation(position), .slope_deg = kNan, .aspect_deg = kNan};
+        TerrainSlope slope{.elevation_m = terrain.elevation(position),
+                           .slope_deg = kNoMeasure,
+                           .aspect_deg = kNoMeasure};
         const Gradient gradient = baseline_m ? overBaseline(terrain, position, *baseline_m)
                                              : ofTriangle(terrain, position);
         const double steepness = std::hypot(gradient.east, gradient.north);
         if (std::isfinite(steepness) && std::isfinite(slope.elevation_m)) {
-            slope.slope_deg = std::atan(steepness) * kDegrees;
+            slope.slope_deg = std::atan(steepness) * kDegreesPerRadian;
             if (steepness > 0.0) {
-                const double downhill = std::atan2(-gradient.east, -gradient.north) * kDegrees;
+                const double downhill =
+                    std::atan2(-gradient.east, -gradient.north) * kDegreesPerRadian;
                 slope.aspect_deg = downhill < 0.0 ? downhill + 360.0 : downhill;
             }
         }

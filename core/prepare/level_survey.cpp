@@ -1,5 +1,6 @@
 #include "core/prepare/level_survey.h"
 
+#include "core/prepare/tile_counts.h"
 #include "core/prepare/tile_rows.h"
 #include "core/terrain/detail_measure.h"
 
@@ -9,9 +10,6 @@
 
 namespace marsview {
 namespace {
-
-constexpr std::size_t kTileBlocks = kTileSide / BlockMeans::kBlock;
-constexpr std::size_t kTileRanges = kTileSide / RawRanges::kBlock;
 
 // A block is at most as large as a tile, so that tiles can be measured separately.
 BlockExtent surveyedBlocks(const TileLayout& layout, std::size_t blocks_max)

@@ -1,5 +1,6 @@
 #include "core/prepare/prepare_map.h"
 
+#include "core/base/elapsed.h"
 #include "core/base/file_lock.h"
 #include "core/files/remote_raster.h"
 #include "core/levels/level_file.h"
@@ -32,11 +33,6 @@ using Clock = std::chrono::steady_clock;
 constexpr double kCopyingShare = 0.7;
 
 constexpr std::chrono::milliseconds kLockPoll{100};
-
-double secondsSince(Clock::time_point start)
-{
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 // An upper bound, before the raster is tiled.
 std::uint64_t levelBytesFor(const RasterInfo& info)

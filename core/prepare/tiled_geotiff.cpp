@@ -34,7 +34,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t kTileRowsPerCheckpoint = 8;
 
 // Of the time, if the tiles are put in another order afterwards.
-constexpr double kCopyingShare = 0.9;
+constexpr double kWritingShare = 0.9;
 
 // Upper bound even for noise; overviews add a third.
 constexpr double kBytesPerRawByte = 1.34;
@@ -457,7 +457,7 @@ Result<TiledGeoTiffReport> writeTiledGeoTiff(const TiledGeoTiffJob& job, JobMoni
     }
     Status copied = preparation.begin();
     if (copied) {
-        const JobPart copying(monitor, 0.0, is_reordered ? kCopyingShare : 1.0);
+        const JobPart copying(monitor, 0.0, is_reordered ? kWritingShare : 1.0);
         copied = preparation.copy(monitor);
     }
     if (!copied) {
@@ -484,7 +484,7 @@ Result<TiledGeoTiffReport> writeTiledGeoTiff(const TiledGeoTiffJob& job, JobMoni
                 job.source)};
     }
     if (is_reordered) {
-        const JobPart ordering(monitor, kCopyingShare, 1.0);
+        const JobPart ordering(monitor, kWritingShare, 1.0);
         const std::string& part = preparation.partPath();
         if (Status ordered = putOverviewsFirst(part, part + ".ordered", monitor); !ordered) {
             preparation.discard();

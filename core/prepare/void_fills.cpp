@@ -2,6 +2,7 @@
 
 #include "core/base/deflate.h"
 #include "core/base/durable_file.h"
+#include "core/prepare/tile_counts.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -12,8 +13,6 @@
 
 namespace marsview {
 namespace {
-
-constexpr std::size_t kTileBlocks = kTileSide / BlockMeans::kBlock;
 
 Error failed(const std::string& name, const char* what)
 {

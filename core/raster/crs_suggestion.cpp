@@ -14,7 +14,7 @@ namespace {
 constexpr double kTurn = 360.0;
 constexpr double kPole = 90.0;
 
-struct Extent {
+struct MapExtent {
     double west, east, south, north; // map units
     double width() const { return east - west; }
     MapPoint center() const { return {0.5 * (west + east), 0.5 * (south + north)}; }
@@ -22,7 +22,7 @@ struct Extent {
 
 // Of the positions from half a sample before the first to half a sample behind the last, or of
 // those `inset` samples further in.
-Extent extentOf(const RasterInfo& info, double inset = 0.0)
+MapExtent extentOf(const RasterInfo& info, double inset = 0.0)
 {
     const GeoTransform transform = info.transform.value_or(GeoTransform{});
     const double right = static_cast<double>(info.columns) - 0.5 - inset;
@@ -40,7 +40,7 @@ Extent extentOf(const RasterInfo& info, double inset = 0.0)
     return {west->x, east->x, south->y, north->y};
 }
 
-Extent sampleExtentOf(const RasterInfo& info)
+MapExtent sampleExtentOf(const RasterInfo& info)
 {
     return extentOf(info, 0.5);
 }
@@ -48,7 +48,7 @@ Extent sampleExtentOf(const RasterInfo& info)
 // A full turn of longitude, over most latitudes or up to a pole.
 bool isGlobal(const RasterInfo& info)
 {
-    const Extent extent = extentOf(info);
+    const MapExtent extent = extentOf(info);
     const double pixel = info.transform->pixelWidth();
     constexpr double kLatitudesMin = 100.0; // global maps may omit the poles
     const double to_pole = kPole - std::max(std::abs(extent.south), std::abs(extent.north));
@@ -63,7 +63,7 @@ bool hasTinyPixels(const RasterInfo& info)
     return std::min(info.transform->pixelWidth(), info.transform->pixelHeight()) <= kFinePixel;
 }
 
-bool isWhole(double value)
+bool isNearlyWhole(double value)
 {
     constexpr double kTolerance = 1e-3; // files round to 0.000833333
     return value > 0.5 && std::abs(value - std::round(value)) < kTolerance * value;
@@ -72,7 +72,7 @@ bool isWhole(double value)
 // Small grids in meters begin at 0 or are centered on it.
 bool isLocal(const RasterInfo& info)
 {
-    const Extent extent = extentOf(info);
+    const MapExtent extent = extentOf(info);
     const double pixel = std::min(info.transform->pixelWidth(), info.transform->pixelHeight());
     const auto beginsAtZero = [pixel](double low, double high) {
         return std::min(std::abs(low), std::abs(high)) <= pixel;
@@ -90,11 +90,11 @@ bool looksLikeDegrees(const RasterInfo& info)
 {
     const double pixel = std::min(info.transform->pixelWidth(), info.transform->pixelHeight());
     constexpr double kSecondsADegree = 3600.0;
-    const bool is_usual = isWhole(1.0 / pixel) || isWhole(pixel * kSecondsADegree);
+    const bool is_usual = isNearlyWhole(1.0 / pixel) || isNearlyWhole(pixel * kSecondsADegree);
     return pixel < 1.0 && (is_usual || hasTinyPixels(info)) && !isLocal(info);
 }
 
-std::string longitudeRange(const Extent& extent)
+std::string longitudeRange(const MapExtent& extent)
 {
     const auto text = [&extent](double degrees) {
         const double shown = std::round(degrees * 1e4) / 1e4;
@@ -106,7 +106,7 @@ std::string longitudeRange(const Extent& extent)
     return text(extent.west) + " – " + text(extent.east);
 }
 
-std::string latitudeRange(const Extent& extent)
+std::string latitudeRange(const MapExtent& extent)
 {
     const auto text = [](double degrees) {
         const double shown = std::round(degrees * 1e4) / 1e4;
@@ -166,7 +166,7 @@ bool canBeInArea(const Crs& crs, MapPoint position)
 
 std::string misfitOfDegrees(const Crs& crs, const RasterInfo& degrees)
 {
-    const Extent extent = extentOf(degrees);
+    const MapExtent extent = extentOf(degrees);
     return fmt::format(
         "\"{}\" (unit {}) cannot place a grid in degrees ({}, {}); choose a CRS of "
         "longitude and latitude, or set a geotransform in its unit",
@@ -179,7 +179,7 @@ constexpr const char* kUntilThen = "until then, map units are read as meters";
 
 bool canBeAngles(const RasterInfo& info, double turn)
 {
-    const Extent samples = sampleExtentOf(info);
+    const MapExtent samples = sampleExtentOf(info);
     const double degree = turn / kTurn;
     const double pixel = info.transform.value_or(GeoTransform{}).pixelHeight();
     const double beyond = std::min(0.5 * pixel, degree) + 1e-6 * degree;
@@ -192,7 +192,7 @@ std::optional<CrsSuggestion> suggestCrs(const RasterInfo& info)
     if (info.crs || !info.transform || !canBeAngles(info)) {
         return std::nullopt;
     }
-    const Extent extent = extentOf(info);
+    const MapExtent extent = extentOf(info);
     if (extent.width() > kTurn + 2.0 * std::abs(info.transform->pixelWidth())) {
         return std::nullopt;
     }
@@ -246,7 +246,7 @@ std::string angularMisfit(const RasterInfo& info)
         canBeAngles(info, *info.crs->turn())) {
         return {};
     }
-    const Extent extent = extentOf(info);
+    const MapExtent extent = extentOf(info);
     return fmt::format(
         "\"{}\" (unit {}) cannot place a grid that covers x {} to {} and y {} to {}; "
         "choose a projected CRS, or set a geotransform in degrees",
@@ -266,7 +266,7 @@ std::string projectedMisfit(const RasterInfo& info)
     if (!canBeAngles(info) || canBeInArea(*info.crs, extentOf(info).center())) {
         return {};
     }
-    const Extent extent = extentOf(info);
+    const MapExtent extent = extentOf(info);
     return fmt::format(
         "\"{}\" (unit {}) cannot place a grid that covers x {} to {} and y {} to {}: that is far "
         "from the area that it is made for, and can be degrees; choose a CRS of longitude and "
@@ -294,7 +294,7 @@ std::string doubtAboutExtent(const RasterInfo& info)
         !canBeAngles(info) || isLocal(info)) {
         return {};
     }
-    const Extent extent = extentOf(info);
+    const MapExtent extent = extentOf(info);
     return fmt::format(
         "the grid looks like longitude and latitude in degrees (its extent is {}, "
         "{}); check that the CRS \"{}\" is meant",

@@ -1,6 +1,7 @@
 #include "core/raster/label_elevation.h"
 
 #include "core/base/plain_number.h"
+#include "core/files/gdal_file.h"
 #include "core/files/gdal_runtime.h"
 #include "core/files/raster_path.h"
 #include "core/files/remote_raster.h"
@@ -308,8 +309,7 @@ std::optional<LabelElevation> pds4Elevation(const std::string& text)
 
 std::string textOf(const std::string& path)
 {
-    const std::unique_ptr<VSILFILE, decltype(&VSIFCloseL)> file(VSIFOpenL(path.c_str(), "rb"),
-                                                                &VSIFCloseL);
+    const GdalFile file = openGdalFile(path);
     std::string text(file ? kLabelBytesMax : 0, '\0');
     text.resize(file ? VSIFReadL(text.data(), 1, text.size(), file.get()) : 0);
     return text;
@@ -386,8 +386,7 @@ bool isXml(const std::string& text)
 // JPEG2000 as a file or as a bare codestream, or TIFF of either kind and order.
 bool isEncodedImage(const std::string& path)
 {
-    const std::unique_ptr<VSILFILE, decltype(&VSIFCloseL)> file(VSIFOpenL(path.c_str(), "rb"),
-                                                                &VSIFCloseL);
+    const GdalFile file = openGdalFile(path);
     std::string head(12, '\0');
     head.resize(file ? VSIFReadL(head.data(), 1, head.size(), file.get()) : 0);
     using namespace std::string_view_literals;

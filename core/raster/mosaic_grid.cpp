@@ -55,14 +55,14 @@ Result<Offset> offsetOf(const MosaicPart& part, const MosaicPart& first)
     return Offset{std::llround(column), std::llround(row)};
 }
 
-struct Extent {
+struct ColumnSpan {
     std::int64_t first = 0;
     std::int64_t end = 0;
 };
 
-Extent columnsOf(const std::vector<MosaicPart>& parts, const std::vector<Offset>& offsets)
+ColumnSpan columnsOf(const std::vector<MosaicPart>& parts, const std::vector<Offset>& offsets)
 {
-    Extent all{offsets.front().column, offsets.front().column};
+    ColumnSpan all{offsets.front().column, offsets.front().column};
     for (std::size_t i = 0; i < parts.size(); ++i) {
         all.first = std::min(all.first, offsets[i].column);
         all.end =
@@ -104,8 +104,8 @@ void closeAcrossSeam(const std::vector<MosaicPart>& parts,
     for (Offset& offset : moved) {
         offset.column += offset.column < seam ? turn_columns : 0;
     }
-    const Extent as_given = columnsOf(parts, offsets);
-    const Extent closed = columnsOf(parts, moved);
+    const ColumnSpan as_given = columnsOf(parts, offsets);
+    const ColumnSpan closed = columnsOf(parts, moved);
     if (closed.end - closed.first < as_given.end - as_given.first) {
         offsets = std::move(moved);
     }
@@ -177,7 +177,7 @@ Result<MosaicGrid> layOutMosaic(const std::vector<MosaicPart>& parts, std::optio
             closeAcrossSeam(parts, std::llround(turn_columns), offsets);
         }
     }
-    const Extent columns = columnsOf(parts, offsets);
+    const ColumnSpan columns = columnsOf(parts, offsets);
     std::int64_t first_row = offsets.front().row;
     std::int64_t end_row = first_row;
     for (std::size_t i = 0; i < parts.size(); ++i) {

@@ -2,6 +2,7 @@
 
 #include "core/base/deflate.h"
 #include "core/files/file_stamp.h"
+#include "core/files/gdal_file.h"
 #include "core/files/gdal_runtime.h"
 #include "core/files/remote_raster.h"
 #include "core/raster/source_files.h"
@@ -32,11 +33,7 @@ constexpr std::uint64_t kBlocks = 16;
 // A mosaic may name thousands of files: for those beyond the first, only size and time are used.
 constexpr std::size_t kSampledFilesMax = 64;
 // For files on a server, companions are looked up only if the file is as small as a label.
-constexpr std::uint64_t kLabelBytesMax = std::uint64_t{1} << 20;
-
-struct FileCloser {
-    void operator()(VSILFILE* file) const { VSIFCloseL(file); }
-};
+constexpr std::uint64_t kHashedLabelBytesMax = std::uint64_t{1} << 20;
 
 // Two independent checksums: together they miss one change in 10^19.
 class Digest {
@@ -85,7 +82,7 @@ std::string absolutePath(const std::string& path)
 // The head, some blocks in ascending order, which is fast in archives, and the tail.
 Status addSamples(const std::string& file, std::uint64_t bytes, Digest& digest)
 {
-    const std::unique_ptr<VSILFILE, FileCloser> stream(VSIFOpenL(file.c_str(), "rb"));
+    const GdalFile stream = openGdalFile(file);
     const auto refusal = [&file] {
         return Error{ErrorCode::Unreadable, fmt::format("{}: cannot be read", file)};
     };
@@ -136,7 +133,7 @@ Result<SourceIdentity> identify(const std::string& path, OverviewFiles overviews
     const int stat_error = errno;
     std::vector<std::string> files;
     if (!is_file || !isRemote(path) ||
-        static_cast<std::uint64_t>(status.st_size) <= kLabelBytesMax) {
+        static_cast<std::uint64_t>(status.st_size) <= kHashedLabelBytesMax) {
         files = sourceFilesOf(path, overviews);
     }
     if (files.empty() && is_file) {

@@ -19,7 +19,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 // A ray is cut into pieces that are straight over the grid, to so many cells.
 constexpr double kStraightCells = 1e-3;
-constexpr std::size_t kFirstPieces = 16;
+constexpr std::size_t kRayPieces = 16;
 constexpr int kDepthMax = 24;
 // Pieces that lie outside the projection at both ends and in the middle are cut so often.
 constexpr int kDepthOutside = 3;
@@ -277,12 +277,12 @@ std::optional<BodyHit> BodyTerrain::cast(const Ray& ray, double exaggeration) co
     const double begin = std::max(outer->first, 0.0);
     const double end = inner && inner->second > 0.0 ? std::max(inner->first, 0.0) : outer->second;
     std::vector<Piece> pieces; // the nearest last
-    std::array<Place, kFirstPieces + 1> places;
-    for (std::size_t i = 0; i <= kFirstPieces; ++i) {
-        const double share = static_cast<double>(i) / kFirstPieces;
+    std::array<Place, kRayPieces + 1> places;
+    for (std::size_t i = 0; i <= kRayPieces; ++i) {
+        const double share = static_cast<double>(i) / kRayPieces;
         places.at(i) = placeAt(ray, begin + (end - begin) * share, exaggeration);
     }
-    for (std::size_t i = kFirstPieces; i > 0; --i) {
+    for (std::size_t i = kRayPieces; i > 0; --i) {
         pieces.push_back({.from = places.at(i - 1), .to = places.at(i)});
     }
     const double straight_m = kStraightCells * grid_->stepMaxM() / exaggeration;

@@ -15,10 +15,10 @@ namespace {
 
 constexpr double kSpacingPoints = 90.0;
 constexpr double kReach = 8.0;       // of the lines, in distances of the camera
-constexpr int kProbes = 8;           // a side, for the longitudes and latitudes in the picture
+constexpr int kPictureProbes = 8;    // a side, for the longitudes and latitudes in the picture
 constexpr double kCurvePixels = 0.2; // by which a chord may leave the true curve
 constexpr double kDrapePixels = 6.0; // between two points on the terrain
-constexpr int kFirstPieces = 8;      // of a line before it is divided further
+constexpr int kLinePieces = 8;       // of a line before it is divided further
 constexpr int kCurveDepthMax = 8;    // divisions of such a piece
 constexpr int kDrapeDepthMax = 14;   // divisions of a straight piece
 constexpr double kLinesMax = 80.0;   // of an axis
@@ -158,10 +158,10 @@ private:
     std::optional<Coverage> coverageOf(const PlanBox& box) const
     {
         std::vector<std::pair<double, double>> places;
-        for (int i = 0; i <= kProbes; ++i) {
-            for (int k = 0; k <= kProbes; ++k) {
-                const double x = std::lerp(box.west_m, box.east_m, i / double{kProbes});
-                const double y = std::lerp(box.south_m, box.north_m, k / double{kProbes});
+        for (int i = 0; i <= kPictureProbes; ++i) {
+            for (int k = 0; k <= kPictureProbes; ++k) {
+                const double x = std::lerp(box.west_m, box.east_m, i / double{kPictureProbes});
+                const double y = std::lerp(box.south_m, box.north_m, k / double{kPictureProbes});
                 if (const auto place = geographic(x, y)) {
                     places.emplace_back(place->longitude.degrees(), place->latitude.degrees());
                 }
@@ -185,8 +185,9 @@ private:
         }
         // The places that were probed leave some out between them.
         const double more_longitude =
-            (coverage.longitudes.high - coverage.longitudes.low) / kProbes;
-        const double more_latitude = (coverage.latitudes.high - coverage.latitudes.low) / kProbes;
+            (coverage.longitudes.high - coverage.longitudes.low) / kPictureProbes;
+        const double more_latitude =
+            (coverage.latitudes.high - coverage.latitudes.low) / kPictureProbes;
         if (!is_continuous) {
             coverage.longitudes.low -= more_longitude;
             coverage.longitudes.high += more_longitude;
@@ -269,9 +270,9 @@ private:
     {
         line_ = {.axis = axis, .value = value, .points = {}};
         auto from = curve(0.0);
-        for (int i = 1; i <= kFirstPieces; ++i) {
-            const double begin = (i - 1.0) / kFirstPieces;
-            const double end = i / double{kFirstPieces};
+        for (int i = 1; i <= kLinePieces; ++i) {
+            const double begin = (i - 1.0) / kLinePieces;
+            const double end = i / double{kLinePieces};
             const auto to = curve(end);
             if (from && to) {
                 addCurve(curve, begin, *from, end, *to, 0);

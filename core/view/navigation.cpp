@@ -72,11 +72,11 @@ std::optional<ScenePoint> findAround(const ScenePoint& center,
                                      double radius_max_m,
                                      const Accepts& accepts)
 {
-    constexpr int kDirections = 16;
+    constexpr int kHeadings = 16;
     double radius_m = radius_min_m;
     while (radius_m <= radius_max_m) {
-        for (int i = 0; i < kDirections; ++i) {
-            const double heading = 2.0 * std::numbers::pi * i / kDirections;
+        for (int i = 0; i < kHeadings; ++i) {
+            const double heading = 2.0 * std::numbers::pi * i / kHeadings;
             const ScenePoint p =
                 center + Vec3{std::sin(heading), std::cos(heading), 0.0} * radius_m;
             if (accepts(p)) {

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kEnding = ".loading";
+constexpr const char* kMarkerEnding = ".loading";
 
 // The process number is written after the lock is held, so a file without one has no meaning.
 bool isLeftBehind(const fs::path& file)
@@ -84,7 +84,8 @@ CrashMarker CrashMarker::set(const fs::path& folder, const std::string& what)
     fs::create_directories(folder, none);
     Folders::all().add(folder);
     static std::atomic<unsigned> count{0};
-    const std::string name = fmt::format("{}-{}-{}{}", what, getpid(), count.fetch_add(1), kEnding);
+    const std::string name =
+        fmt::format("{}-{}-{}{}", what, getpid(), count.fetch_add(1), kMarkerEnding);
     return CrashMarker(lockOwn((folder / name).string()));
 }
 
@@ -94,7 +95,7 @@ std::optional<std::string> CrashMarker::leftBehind(const fs::path& folder,
     std::error_code none;
     for (const auto& entry : fs::directory_iterator(folder, none)) {
         const std::string name = entry.path().stem().string();
-        if (name.starts_with(beginning) && entry.path().extension() == kEnding &&
+        if (name.starts_with(beginning) && entry.path().extension() == kMarkerEnding &&
             isLeftBehind(entry.path())) {
             return name;
         }
@@ -107,7 +108,7 @@ void CrashMarker::forget(const fs::path& folder, const std::string& beginning)
     std::error_code none;
     for (const auto& entry : fs::directory_iterator(folder, none)) {
         if (entry.path().filename().string().starts_with(beginning) &&
-            entry.path().extension() == kEnding && !FileLock::isHeld(entry.path().string())) {
+            entry.path().extension() == kMarkerEnding && !FileLock::isHeld(entry.path().string())) {
             fs::remove(entry.path(), none);
         }
     }
@@ -125,7 +126,7 @@ void CrashMarker::clearAtExit()
             // The part after the plugin's stem: "load-4711-0.loading". An unlocked one is from an
             // earlier process with the same number.
             const std::string name = entry.path().stem().extension().string();
-            if (entry.path().extension() == kEnding && name.find(own) != std::string::npos &&
+            if (entry.path().extension() == kMarkerEnding && name.find(own) != std::string::npos &&
                 FileLock::isHeld(entry.path().string())) {
                 fs::remove(entry.path(), none);
             }

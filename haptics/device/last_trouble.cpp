@@ -15,14 +15,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kEnding = ".trouble";
+constexpr const char* kTroubleEnding = ".trouble";
 
 void removeOldest(const fs::path& folder)
 {
     std::vector<std::pair<fs::file_time_type, fs::path>> files;
     std::error_code none;
     for (const auto& entry : fs::directory_iterator(folder, none)) {
-        if (entry.path().extension().string().starts_with(kEnding)) {
+        if (entry.path().extension().string().starts_with(kTroubleEnding)) {
             files.emplace_back(entry.last_write_time(none), entry.path());
         }
     }
@@ -36,7 +36,8 @@ void removeOldest(const fs::path& folder)
 
 LastTrouble::LastTrouble(fs::path folder, std::string_view device)
     : folder_(std::move(folder))
-    , file_(folder_ / fmt::format("{:016x}{}", std::hash<std::string_view>()(device), kEnding))
+    , file_(folder_ /
+            fmt::format("{:016x}{}", std::hash<std::string_view>()(device), kTroubleEnding))
 {}
 
 std::string LastTrouble::get() const

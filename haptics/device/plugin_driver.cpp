@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kEnding = ".so";
+constexpr const char* kLibraryEnding = ".so";
 constexpr const char* kFolderVariable = "MARSVIEW_PLUGIN_PATH";
 
 using Library = std::shared_ptr<const PluginLibrary>;
@@ -40,7 +40,7 @@ std::vector<fs::path> pluginsIn(const fs::path& folder)
     std::vector<fs::path> files;
     std::error_code none;
     for (const auto& entry : fs::directory_iterator(folder, none)) {
-        if (entry.path().extension() == kEnding && entry.is_regular_file(none)) {
+        if (entry.path().extension() == kLibraryEnding && entry.is_regular_file(none)) {
             files.push_back(entry.path());
         }
     }
@@ -268,7 +268,7 @@ fs::path PluginDriver::fileNamed(const fs::path& name) const
         name.has_parent_path() ? std::vector<fs::path>{fs::path()} : options_.folders;
     std::error_code none;
     for (const fs::path& folder : folders) {
-        for (const char* ending : {"", kEnding}) {
+        for (const char* ending : {"", kLibraryEnding}) {
             fs::path file = folder / name;
             file += ending;
             if (fs::is_regular_file(file, none)) {

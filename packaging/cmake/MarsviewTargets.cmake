@@ -62,18 +62,25 @@ macro(marsview_compile_together)
   endif()
 endmacro()
 
-# marsview_compile_by_folder(TARGET): compiles the files of each folder of such a target together: a
-# new file changes one group, and local names need to differ within a folder only.
+# marsview_compile_by_folder(TARGET [ONLY FOLDER...]): compiles the files of each folder, or of each
+# folder named, together: a new file changes one group, and local names need to differ within a
+# folder only. Files with compiler options of their own stay alone.
 function(marsview_compile_by_folder target)
+  cmake_parse_arguments(ARG "" "" "ONLY" ${ARGN})
+  if(NOT MARSVIEW_COMPILE_TOGETHER)
+    return()
+  endif()
   get_target_property(sources ${target} SOURCES)
   foreach(source IN LISTS sources)
     get_filename_component(folder "${source}" DIRECTORY)
-    if(source MATCHES "\\.cpp$" AND NOT folder STREQUAL "")
-      string(REPLACE "/" "_" group "${folder}")
-      set_source_files_properties("${source}" PROPERTIES UNITY_GROUP "${group}")
+    if(NOT source MATCHES "\\.cpp$" OR folder STREQUAL "" OR (ARG_ONLY AND NOT folder IN_LIST ARG_ONLY))
+      continue()
     endif()
+    string(REPLACE "/" "_" group "${folder}")
+    set_source_files_properties("${source}" PROPERTIES UNITY_GROUP "${group}")
   endforeach()
-  set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  target_compile_options(${target} PRIVATE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-subobject-linkage>)
 endfunction()
 
 # `format` and `tidy` work on the project's own sources. clang-tidy needs a database written for

@@ -1,6 +1,8 @@
 #include "core/prepare/parts/errors_part.h"
 
+#include "core/prepare/parts/part_state.h"
 #include "core/prepare/parts/stored_tiles.h"
+#include "core/prepare/tile_counts.h"
 
 #include <algorithm>
 #include <map>
@@ -13,12 +15,6 @@ namespace marsview {
 namespace {
 
 constexpr std::size_t kTileNodes = kTileSide / DetailErrors::kNodeCells;
-constexpr std::size_t kTileRanges = kTileSide / RawRanges::kBlock;
-
-Error notOfThisPart()
-{
-    return {ErrorCode::Invalid, "is not of this part of the map"};
-}
 
 // The rows of nodes of a level that touch the part; neighbors may share one.
 std::pair<std::size_t, std::size_t>

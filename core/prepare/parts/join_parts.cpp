@@ -1,5 +1,6 @@
 #include "core/prepare/parts/join_parts.h"
 
+#include "core/base/elapsed.h"
 #include "core/base/file_lock.h"
 #include "core/files/file_bytes.h"
 #include "core/files/remote_raster.h"
@@ -32,17 +33,6 @@ using Clock = std::chrono::steady_clock;
 // Of the time of a join whose parts have made the second pass.
 constexpr double kMergeShare = 0.2;
 constexpr double kStreamEnd = 0.8;
-
-double secondsSince(Clock::time_point start)
-{
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-void removeFile(const std::string& path)
-{
-    std::error_code ignored;
-    fs::remove(path, ignored);
-}
 
 // The rows of tiles of the new file, with the file that has each: a part, or the one of what parts
 // share.
@@ -88,8 +78,8 @@ public:
         if (done) {
             done = writeLevels();
         }
-        removeFile(shared_path_);
-        removeFile(means_path_);
+        removePartFile(shared_path_);
+        removePartFile(means_path_);
         return done;
     }
 
@@ -98,7 +88,7 @@ public:
         for (std::size_t part = 1; part <= map_.parts; ++part) {
             for (const char* ending :
                  {kPartRaster, kPartLevels, kPartSurvey, kPartFills, kPartErrors}) {
-                removeFile(map_.file(part, ending));
+                removePartFile(map_.file(part, ending));
             }
         }
     }
@@ -308,7 +298,7 @@ private:
             report_.bytes += stream.files[tile.file]->encodedBytes(tile.page, tile.tile);
         }
         Status written = publish(stream);
-        removeFile(stream.skeleton);
+        removePartFile(stream.skeleton);
         return written;
     }
 
@@ -372,7 +362,7 @@ private:
             return written;
         }
         if (!written) {
-            removeFile(path);
+            removePartFile(path);
             return written;
         }
         std::error_code failure;
@@ -382,7 +372,7 @@ private:
         }
         // Of a previous file.
         for (const char* ending : {".aux.xml", ".ovr", ".msk"}) {
-            removeFile(job_.path + ending);
+            removePartFile(job_.path + ending);
         }
         return Done{};
     }
@@ -426,7 +416,7 @@ private:
                 return written;
             }
         }
-        removeFile(level_path_);
+        removePartFile(level_path_);
         return (*to)->finish();
     }
 
@@ -504,7 +494,7 @@ Result<JoinReport> joinParts(const OpenRaster& raster, const JoinJob& job, JobMo
     monitor.report(1.0);
     join.removeParts();
     lock.reset();
-    removeFile(job.folder); // if nothing else is in it
+    removePartFile(job.folder); // if nothing else is in it
     return report;
 }
 

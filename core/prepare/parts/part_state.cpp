@@ -54,6 +54,17 @@ void beginPartState(CheckpointWriter& to, const PartedMap& map)
     to.putArray(map.subject());
 }
 
+Error notOfThisPart()
+{
+    return {ErrorCode::Invalid, "is not of this part of the map"};
+}
+
+void removePartFile(const std::string& path)
+{
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
+}
+
 Result<CheckpointReader> openPartState(const PartedMap& map, std::size_t part, const char* ending)
 {
     const std::string path = map.file(part, ending);

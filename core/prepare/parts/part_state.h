@@ -56,6 +56,11 @@ Result<CheckpointReader> openPartState(const PartedMap& map, std::size_t part, c
 /// Writes its beginning.
 void beginPartState(CheckpointWriter& to, const PartedMap& map);
 
+/// For a state that another part of the map, or another map, has left.
+Error notOfThisPart();
+/// Without an error if the file does not exist.
+void removePartFile(const std::string& path);
+
 /// What the first pass leaves for the file to be joined, at the beginning of its state.
 struct PartTiles {
     std::uint64_t raster_bytes = 0;

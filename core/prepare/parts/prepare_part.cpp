@@ -1,6 +1,7 @@
 #include "core/prepare/parts/prepare_part.h"
 
 #include "core/base/deflate.h"
+#include "core/base/elapsed.h"
 #include "core/base/file_lock.h"
 #include "core/files/file_bytes.h"
 #include "core/prepare/disk_room.h"
@@ -31,17 +32,6 @@ using Clock = std::chrono::steady_clock;
 
 // Of the threads that measure: a part is small, and other parts may run beside it.
 constexpr std::size_t kMemoryBytesMax = std::size_t{256} << 20;
-
-double secondsSince(Clock::time_point start)
-{
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-void removeFile(const std::string& path)
-{
-    std::error_code ignored;
-    fs::remove(path, ignored);
-}
 
 Status renameTo(const std::string& from, const std::string& to)
 {
@@ -86,8 +76,8 @@ public:
 
     Status copy(PartTiles& tiles)
     {
-        removeFile(map_.file(part_, kPartSurvey));
-        removeFile(map_.file(part_, kPartErrors));
+        removePartFile(map_.file(part_, kPartSurvey));
+        removePartFile(map_.file(part_, kPartErrors));
         if (Status made =
                 writeGeoTiffSkeleton(new_raster_, map_.info, {map_.key, map_.source_path});
             !made) {
@@ -178,7 +168,7 @@ public:
         beginPartState(to, map_);
         tiles.save(to);
         Status saved = saveSurvey(to, pass, layout, rows_);
-        removeFile(means);
+        removePartFile(means);
         if (saved) {
             saved = renameTo(levels + ".part", levels);
         }
@@ -208,14 +198,14 @@ public:
         if (done) {
             done = measureRows(**source, survey.finish());
         }
-        removeFile(means);
+        removePartFile(means);
         return done;
     }
 
     void discard() const
     {
-        removeFile(new_raster_);
-        removeFile(map_.file(part_, "means"));
+        removePartFile(new_raster_);
+        removePartFile(map_.file(part_, "means"));
     }
 
 private:

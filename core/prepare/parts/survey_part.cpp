@@ -1,6 +1,7 @@
 #include "core/prepare/parts/survey_part.h"
 
 #include "core/prepare/parts/stored_tiles.h"
+#include "core/prepare/tile_counts.h"
 #include "core/terrain/detail_measure.h"
 
 #include <cstring>
@@ -10,14 +11,6 @@
 
 namespace marsview {
 namespace {
-
-constexpr std::size_t kTileBlocks = kTileSide / BlockMeans::kBlock;
-constexpr std::size_t kTileRanges = kTileSide / RawRanges::kBlock;
-
-Error notOfThisPart()
-{
-    return {ErrorCode::Invalid, "is not of this part of the map"};
-}
 
 // Rows [first, end) of an array with `total` rows.
 struct Rows {
