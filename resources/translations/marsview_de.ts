@@ -3227,6 +3227,14 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
         <extracomment>The button that opens what the toolbar has no room for</extracomment>
         <translation>Weitere Werkzeuge</translation>
     </message>
+    <message>
+        <source>What to measure</source>
+        <translation>Was gemessen wird</translation>
+    </message>
+    <message>
+        <source>What to draw</source>
+        <translation>Was gezeichnet wird</translation>
+    </message>
 </context>
 <context>
     <name>marsview::MainWindow</name>

@@ -92,6 +92,18 @@ TEST_F(FirstMinuteTest, TheHintNamesTheGesturesUntilItIsClosed)
     EXPECT_FALSE(hint().isVisible());
 }
 
+TEST_F(FirstMinuteTest, TheHintMakesRoomForToolsWhoseClicksDoSomethingElse)
+{
+    open();
+    ASSERT_TRUE(hint().isVisible());
+    for (const Tool tool : {Tool::Measure, Tool::Annotate}) {
+        window_->view()->setTool(tool);
+        EXPECT_FALSE(hint().isVisible());
+        window_->view()->setTool(Tool::Pan);
+        EXPECT_TRUE(hint().isVisible());
+    }
+}
+
 TEST_F(FirstMinuteTest, EscClosesTheHint)
 {
     open();

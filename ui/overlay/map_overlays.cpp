@@ -121,6 +121,7 @@ MapOverlays::MapOverlays(TerrainView& view)
     connect(minimap_, &Minimap::placeRequested, &view_, &TerrainView::lookAt);
     connect(&view_, &TerrainView::gestureMade, hint_, &GestureHint::markDone);
     connect(hint_, &GestureHint::dismissed, this, &MapOverlays::dismissHint);
+    connect(&view_, &TerrainView::toolChanged, this, &MapOverlays::showMap);
     layout_->setWanted(hint_, false);
     connect(compass_, &Compass::northRequested, &view_, &TerrainView::turnNorthUp);
     showMap();
@@ -254,7 +255,9 @@ void MapOverlays::showMap()
 {
     showMark();
     layout_->setWanted(compass_, bool(view_.map()) && actions_.back()->isChecked());
-    layout_->setWanted(hint_, bool(view_.map()) && is_hint_offered_);
+    // It names what a drag does with the tools that move and touch.
+    const bool is_drawing = view_.tool() == Tool::Measure || view_.tool() == Tool::Annotate;
+    layout_->setWanted(hint_, bool(view_.map()) && is_hint_offered_ && !is_drawing);
     if (!view_.map()) {
         minimap_->clear();
         scale_bar_->clear();

@@ -30,6 +30,8 @@ MainToolBar::MainToolBar(const WindowActions& actions, QWidget* parent)
     addAction(actions.save_picture);
     addSeparator();
     addActions(actions.tools->actions());
+    addKinds(actions, Tool::Measure, *actions.measure_kinds, tr("What to measure"));
+    addKinds(actions, Tool::Annotate, *actions.annotation_shapes, tr("What to draw"));
     addSeparator();
     addAction(actions.home);
     addAction(actions.north);
@@ -87,6 +89,26 @@ MainToolBar::MainToolBar(const WindowActions& actions, QWidget* parent)
     connect(exaggeration_, &ExaggerationControl::dragged, this, &MainToolBar::exaggerationDragged);
     connect(exaggeration_, &ExaggerationControl::dragEnded, this, &MainToolBar::dragEnded);
     exaggeration_->setEnabled(false);
+}
+
+// A menu beside the tool's button. Choosing a kind chooses the tool, too.
+void MainToolBar::addKinds(const WindowActions& actions,
+                           Tool tool,
+                           const QActionGroup& kinds,
+                           const QString& name)
+{
+    for (QAction* action : actions.tools->actions()) {
+        auto* button = action->data().toInt() == static_cast<int>(tool)
+                           ? qobject_cast<QToolButton*>(widgetForAction(action))
+                           : nullptr;
+        if (button != nullptr) {
+            auto* menu = new QMenu(button);
+            menu->setAccessibleName(name);
+            menu->addActions(kinds.actions());
+            button->setMenu(menu);
+            button->setPopupMode(QToolButton::MenuButtonPopup);
+        }
+    }
 }
 
 void MainToolBar::showExaggeration(double exaggeration)

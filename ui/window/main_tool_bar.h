@@ -2,10 +2,12 @@
 #pragma once
 
 #include "core/view/exaggeration.h"
+#include "ui/canvas/tool.h"
 
 #include <QList>
 #include <QToolBar>
 
+class QActionGroup;
 class QLineEdit;
 class QToolButton;
 
@@ -40,6 +42,10 @@ Q_SIGNALS:
     void dragEnded();
 
 private:
+    void addKinds(const WindowActions& actions,
+                  Tool tool,
+                  const QActionGroup& kinds,
+                  const QString& name);
     void fitTexts();
 
     /// These lose their texts first if the toolbar is too narrow.

@@ -462,8 +462,23 @@ void WindowActions::showTool(Tool tool, MeasurementKind kind)
         action->setChecked(action->data().toInt() == static_cast<int>(tool));
     }
     for (QAction* action : measure_kinds->actions()) {
-        action->setChecked(tool == Tool::Measure &&
-                           action->data().toInt() == static_cast<int>(kind));
+        const bool is_next = action->data().toInt() == static_cast<int>(kind);
+        action->setChecked(tool == Tool::Measure && is_next);
+        if (is_next) {
+            showKind(Tool::Measure, action->text());
+        }
+    }
+}
+
+// What a tool makes, below its description.
+void WindowActions::showKind(Tool tool, const QString& kind)
+{
+    for (const ToolInfo& info : toolInfos()) {
+        if (info.tool == tool) {
+            tools->actions()
+                .at(&info - toolInfos().data())
+                ->setToolTip(QStringLiteral("%1\n%2").arg(info.tip(), QString(kind).remove(u'&')));
+        }
     }
 }
 
@@ -515,8 +530,11 @@ void WindowActions::makeMeasureMenu(QMainWindow& window)
 void WindowActions::showShape(Tool tool, FeatureShape shape)
 {
     for (QAction* action : annotation_shapes->actions()) {
-        action->setChecked(tool == Tool::Annotate &&
-                           action->data().toInt() == static_cast<int>(shape));
+        const bool is_next = action->data().toInt() == static_cast<int>(shape);
+        action->setChecked(tool == Tool::Annotate && is_next);
+        if (is_next) {
+            showKind(Tool::Annotate, action->text());
+        }
     }
 }
 

@@ -113,6 +113,7 @@ struct WindowActions {
     void showShape(Tool tool, FeatureShape shape);
 
 private:
+    void showKind(Tool tool, const QString& kind);
     void makeFileMenu(QMainWindow& window);
     void makeEditMenu(QMainWindow& window, QUndoStack& undo_stack);
     void makeViewMenu(QMainWindow& window, QWidget& map);

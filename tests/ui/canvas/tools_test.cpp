@@ -128,6 +128,30 @@ TEST_F(ToolsTest, AreChosenOnTheToolbarInTheMenuAndByKey)
     }
 }
 
+TEST_F(ToolsTest, WhatToMeasureAndDrawIsChosenBesideTheButton)
+{
+    struct Case {
+        Tool tool;
+        const QActionGroup* kinds;
+    };
+    const WindowActions& actions = window_->actionSet();
+    for (const auto& [tool, kinds] : {Case{Tool::Measure, actions.measure_kinds},
+                                      Case{Tool::Annotate, actions.annotation_shapes}}) {
+        const QMenu* menu = buttonOf(tool)->menu();
+        ASSERT_NE(menu, nullptr);
+        EXPECT_EQ(buttonOf(tool)->popupMode(), QToolButton::MenuButtonPopup);
+        ASSERT_EQ(menu->actions(), kinds->actions());
+        for (QAction* kind : menu->actions()) {
+            actionFor(Tool::Pan)->trigger();
+            kind->trigger();
+            EXPECT_EQ(view().tool(), tool);
+            EXPECT_TRUE(kind->isChecked());
+            const QString name = kind->text().remove(u'&');
+            EXPECT_TRUE(buttonOf(tool)->toolTip().endsWith(name)) << name.toStdString();
+        }
+    }
+}
+
 // A list uses letters to search its rows.
 TEST_F(ToolsTest, KeysWorkWhileTheListOfLayersHasTheFocus)
 {
