@@ -25,6 +25,7 @@ void grabMap(const PanOptions& options,
 {
     const Vec3 damping_n = (level(hand_m_per_s) - state.velocity_m_per_s) * options.grip_n_s_per_m;
     state.stretch_m = (level(force_n) + damping_n) * (-1.0 / options.grip_n_per_m);
+    state.force_n_max = length(level(force_n));
 }
 
 // With m the mass, k and b the hold's spring and damper, c the drag, s the stretch and v' the map's
@@ -45,13 +46,24 @@ PanStep pullMap(const PanOptions& options,
     const Vec3 hand_m_per_s = level(hand_shift) * (1.0 / dt_s);
     const Vec3 stretch_m = state.stretch_m + level(hand_shift);
     const double mass_rate = mass_kg / dt_s;
-    const Vec3 driving_n = state.velocity_m_per_s * mass_rate + stretch_m * k + hand_m_per_s * b;
+    const Vec3 before_m_per_s = state.velocity_m_per_s;
+    const Vec3 driving_n = before_m_per_s * mass_rate + stretch_m * k + hand_m_per_s * b;
     state.velocity_m_per_s =
         driving_n * (1.0 / (mass_rate + mass_kg * options.drag_per_s + k * dt_s + b));
     PanStep step;
     step.shift_m = state.velocity_m_per_s * dt_s;
     state.stretch_m = stretch_m - step.shift_m;
     step.force_n = -(state.stretch_m * k + (hand_m_per_s - state.velocity_m_per_s) * b);
+    if (length(step.force_n) > state.force_n_max && mass_rate > 0.0) {
+        // The same equation for v' with the force that the hold can exert; the stretch is then what
+        // is left of it.
+        step.force_n = bounded(step.force_n, state.force_n_max);
+        state.velocity_m_per_s = (before_m_per_s * mass_rate - step.force_n) *
+                                 (1.0 / (mass_rate + mass_kg * options.drag_per_s));
+        step.shift_m = state.velocity_m_per_s * dt_s;
+        state.stretch_m = (step.force_n + (hand_m_per_s - state.velocity_m_per_s) * b) * (-1.0 / k);
+    }
+    state.force_n_max += options.grip_rate_n_per_s_max * dt_s;
     return step;
 }
 

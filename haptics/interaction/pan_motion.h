@@ -3,6 +3,8 @@
 
 #include "core/base/vec.h"
 
+#include <limits>
+
 namespace marsview {
 
 /// In the workspace, horizontally: the map's mass feels the same at every zoom.
@@ -12,6 +14,9 @@ struct PanOptions {
     /// devices cannot render. > 0.
     double grip_n_per_m = 250.0;
     double grip_n_s_per_m = 2.0;
+    /// After a grab the force may grow by 0.02 N in a millisecond: where a moving hand grabs a map
+    /// at rest, the grabbed point slips instead of knocking.
+    double grip_rate_n_per_s_max = 20.0;
     double drag_per_s = 0.7;        // decay rate of the speed
     double speed_m_per_s_max = 0.5; // of a gliding map
 };
@@ -19,6 +24,8 @@ struct PanOptions {
 struct PanState {
     Vec3 velocity_m_per_s{}; // of the map; horizontal
     Vec3 stretch_m{};        // from the grabbed point to the hand; horizontal
+    /// Of the hold; it grows from the grab on.
+    double force_n_max = std::numeric_limits<double>::infinity();
 };
 
 struct PanStep {
@@ -35,7 +42,8 @@ void grabMap(const PanOptions& options,
 
 /// The hand holds the map and has moved by `hand_shift` within `dt_s` >= 0. `mass_share`, 0 to 1,
 /// scales the mass: at 0, where the hand touches a wall, the map follows without inertia and the
-/// force is zero. Implicit in time: stable for any stiffness and any mass.
+/// force is zero. Implicit in time: stable for any stiffness and any mass. The force is what
+/// changes the map's momentum, and its drag.
 PanStep pullMap(const PanOptions& options,
                 PanState& state,
                 const Vec3& hand_shift,

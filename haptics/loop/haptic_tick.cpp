@@ -78,16 +78,23 @@ public:
         takeFrame();
         takeMap();
         const bool is_known = takeHand();
-        Vec3 force_n{};
+        Forces forces;
         if (is_known && map_ != nullptr) {
-            force_n = interact();
+            forces = interact();
         }
-        limit(force_n);
+        limit(forces);
         publish();
         return result_;
     }
 
 private:
+    // Walls and the map's edge hold back a hand that may press them as hard as it likes. Where the
+    // sum is too strong they yield, not the surface below the hand.
+    struct Forces {
+        Vec3 force_n{};
+        Vec3 yielding_n{};
+    };
+
     void learnPeriod() noexcept
     {
         if (!(dt_s_ > 0.0)) {
@@ -210,7 +217,7 @@ private:
         }
     }
 
-    Vec3 interact() noexcept
+    Forces interact() noexcept
     {
         const double stiffness = usedStiffness(settings_.stiffness_n_per_m, *input_.device,
                                                options_.period_s, state_.period_s);
@@ -254,23 +261,40 @@ private:
             result_.motion = state_.seen_frame.motionFrom(seen);
         }
         refreshTerrain(stiffness);
-        Vec3 force_n = mode.force_n + walls.force_n;
+        Forces forces{.force_n = mode.force_n, .yielding_n = walls.force_n};
         const Vec3 surface_n = touch() * (stiffness * share);
+        const Vec3 edge_n = edge_m_ * (stiffness * share);
         if (isHolding(state_.modes.mode)) {
             state_.held_force_n = mode.force_n;
             state_.release_share = 0.0;
         } else {
-            force_n = force_n + surface_n + release(surface_n);
+            forces.force_n = forces.force_n + surface_n + release(surface_n + edge_n);
+            forces.yielding_n = forces.yielding_n + edge_n;
         }
-        state_.surface_force_n = surface_n;
-        force_n = force_n * std::clamp(settings_.force_share, 0.0, 1.0);
+        state_.surface_force_n = surface_n + edge_n;
+        const double force_share = std::clamp(settings_.force_share, 0.0, 1.0);
+        forces = {forces.force_n * force_share, forces.yielding_n * force_share};
         if (!options_.is_passivity_kept) {
-            return force_n;
+            return forces;
         }
-        const PassivityStep passive =
-            keepPassive(options_.passivity, force_n, shift_m_, state_.passivity, dt_s_);
+        const Vec3 force_n = forces.force_n + forces.yielding_n;
+        const PassivityStep passive = keepPassive(
+            options_.passivity,
+            {.force_n = force_n, .shift_m = shift_m_, .stored_j = storedEnergy(force_n, stiffness)},
+            state_.passivity, dt_s_);
         result_.damping_n_s_per_m = passive.damping_n_s_per_m;
-        return passive.force_n;
+        forces.force_n = forces.force_n + (passive.force_n - force_n);
+        return forces;
+    }
+
+    // In a spring that exerts the force, and in a map that the hand has set in motion.
+    double storedEnergy(const Vec3& force_n, double stiffness) const noexcept
+    {
+        const double spring_j = 0.5 * dot(force_n, force_n) / std::max(stiffness, 1.0);
+        const Vec3& map_m_per_s = state_.modes.pan.velocity_m_per_s;
+        return isHolding(state_.modes.mode)
+                   ? spring_j + 0.5 * settings_.modes.pan.mass_kg * dot(map_m_per_s, map_m_per_s)
+                   : spring_j;
     }
 
     // Slowly where that brings the surface closer to the hand.
@@ -448,7 +472,7 @@ private:
         return state_.is_on_map;
     }
 
-    // From the stylus to the proxy, in workspace meters.
+    // From the stylus to the proxy, in workspace meters; from beyond the map, from its edge on.
     Vec3 touch() noexcept
     {
         if (!isOverMap()) {
@@ -473,9 +497,10 @@ private:
         if (state_.contact.counters.refused != 0) {
             return {};
         }
-        const Vec3 up_m =
-            state_.contact.is_in_contact ? state_.contact.proxy - clamped(state_.goal) : Vec3{};
-        return state_.frame.differenceToWorkspace(up_m - beyond_m_);
+        edge_m_ = state_.frame.differenceToWorkspace(-beyond_m_);
+        return state_.contact.is_in_contact
+                   ? state_.frame.differenceToWorkspace(state_.contact.proxy - clamped(state_.goal))
+                   : Vec3{};
     }
 
     // The nearest point over the map.
@@ -531,7 +556,7 @@ private:
         update({state_.proxy.x, state_.proxy.y, state_.proxy.z - depth});
     }
 
-    void limit(const Vec3& force_n) noexcept
+    void limit(const Forces& forces) noexcept
     {
         if (map_ == nullptr) {
             note(ForceOffReason::NoTouch);
@@ -541,10 +566,12 @@ private:
         }
         result_.has_changed_map = has_jumped_ || is_fresh_ || is_stretched_ ||
                                   (is_entering_ && state_.contact.is_in_contact);
-        const SafetyOutput safe = limitForce(
-            options_.limits,
-            {.force_n = force_n, .reason = result_.reason, .has_changed = result_.has_changed_map},
-            state_.safety, since_write_s_);
+        const SafetyOutput safe = limitForce(options_.limits,
+                                             {.force_n = forces.force_n,
+                                              .yielding_n = forces.yielding_n,
+                                              .reason = result_.reason,
+                                              .has_changed = result_.has_changed_map},
+                                             state_.safety, since_write_s_);
         result_.reason = safe.reason;
         result_.force_n = safe.force_n;
         noteWritten(state_.passivity, safe.force_n);
@@ -601,6 +628,7 @@ private:
     Vec3 shift_m_{};
     double twist_change_rad_ = 0.0;
     Vec3 beyond_m_{}; // from the map's edge to the hand, in the scene
+    Vec3 edge_m_{};   // back to the edge that holds the hand, in the workspace
     bool is_entering_ = false;
     bool has_jumped_ = false;
     bool is_fresh_ = false;

@@ -13,9 +13,13 @@ namespace marsview {
 struct PassivityOptions {
     /// Damping itself is stable only up to a limit that depends on the device and the delay.
     double damping_n_s_per_m_max = 3.0;
-    /// Energy put in long ago must not cancel out a current oscillation: stored energy is capped at
-    /// this value, and reset when nothing is touched.
+    /// Energy put in long ago must not cancel out a current oscillation: beyond what springs and
+    /// masses hold, energy is capped at this value, and it is reset when nothing is touched.
     double energy_j_max = 2e-3;
+    /// Neither must a surplus from long ago, as from a force that has ramped in, be damped in a
+    /// later motion: it is forgotten with this time constant. An oscillation renews it in every
+    /// period.
+    double surplus_s = 0.1;
     /// Cutoff frequency of the low-pass filter for the hand's velocity: encoder positions are
     /// quantized.
     double velocity_hz = 60.0;
@@ -27,16 +31,21 @@ struct PassivityState {
     Vec3 last_force_n{}; // acted until now
 };
 
+struct PassivityInput {
+    Vec3 force_n{};        // requested
+    Vec3 shift_m{};        // of the hand since the last call, during which the last force acted
+    double stored_j = 0.0; // in springs and masses, which may return it
+};
+
 struct PassivityStep {
     Vec3 force_n{};                 // with the damping
     double damping_n_s_per_m = 0.0; // usually 0
 };
 
-/// `shift_m` is the hand's displacement since the last call, during which the force written then
-/// acted; `force_n` is the requested force. If `dt_s` is 0 or NaN, the force is returned unchanged.
+/// The damping weakens a force along which the hand moves, down to zero: a hand that leaves or
+/// slides over a surface is not held back. If `dt_s` is 0 or NaN, the force is returned unchanged.
 PassivityStep keepPassive(const PassivityOptions& options,
-                          const Vec3& force_n,
-                          const Vec3& shift_m,
+                          const PassivityInput& input,
                           PassivityState& state,
                           double dt_s) noexcept;
 

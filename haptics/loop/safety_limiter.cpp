@@ -34,9 +34,24 @@ Vec3 shortened(const Vec3& v, double length_max) noexcept
     return unit * (length_max * (1.0 - kHair) / safeLength(unit));
 }
 
+constexpr double kForceMeantNMax = 1e6;
+
 double bound(double value) noexcept
 {
-    return value > 0.0 ? std::min(value, 1e6) : 0.0; // also for NaN
+    return value > 0.0 ? std::min(value, kForceMeantNMax) : 0.0; // also for NaN
+}
+
+// `kept` + share * `yielding` with the largest share, 0 to 1, at which it is no longer than
+// `length_max`. Lengths up to a million; `kept` is at most `length_max` long.
+Vec3 sumWithin(const Vec3& kept, const Vec3& yielding, double length_max) noexcept
+{
+    // |kept|² + 2 s kept·yielding + s² |yielding|² = length_max²
+    const double a = dot(yielding, yielding);
+    const double half_b = dot(kept, yielding);
+    const double c = dot(kept, kept) - length_max * length_max;
+    const double root = std::sqrt(std::max(half_b * half_b - a * c, 0.0));
+    const double share = a > 0.0 ? (root - half_b) / a : 0.0;
+    return kept + yielding * std::clamp(share, 0.0, 1.0);
 }
 
 // The heat after `dt_s` with a constant force.
@@ -82,7 +97,8 @@ SafetyOutput limitForce(const SafetyLimits& limits,
 {
     SafetyOutput output{.force_n = {}, .reason = input.reason, .is_bounded = false};
     const bool is_time = std::isfinite(dt_s) && dt_s >= 0.0;
-    if (output.reason == ForceOffReason::None && (!is_time || !isFinite(input.force_n))) {
+    if (output.reason == ForceOffReason::None &&
+        (!is_time || !isFinite(input.force_n) || !isFinite(input.yielding_n))) {
         output.reason = ForceOffReason::Fault;
     }
     const bool is_step = is_time && dt_s <= kSafetyStepMaxS;
@@ -117,10 +133,16 @@ SafetyOutput limitForce(const SafetyLimits& limits,
             state.gain = 0.0;
         }
         state.gain = std::clamp(state.gain + step_s / state.ramp_s, 0.0, 1.0);
-        wanted_n = input.force_n;
+        wanted_n = input.force_n + input.yielding_n;
         const double warm_n_max = warmForceMax(limits, state.heat_n2);
         if (safeLength(wanted_n) > warm_n_max) {
-            wanted_n = shortened(wanted_n, warm_n_max);
+            const Vec3 kept_n = safeLength(input.force_n) > warm_n_max
+                                    ? shortened(input.force_n, warm_n_max)
+                                    : input.force_n;
+            const Vec3 yielding_n = safeLength(input.yielding_n) > kForceMeantNMax
+                                        ? shortened(input.yielding_n, kForceMeantNMax)
+                                        : input.yielding_n;
+            wanted_n = shortened(sumWithin(kept_n, yielding_n, warm_n_max), warm_n_max);
             output.is_bounded = true;
         }
         wanted_n = wanted_n * state.gain;

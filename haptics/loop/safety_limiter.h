@@ -46,6 +46,9 @@ struct SafetyLimits {
 
 struct SafetyInput {
     Vec3 force_n{};
+    /// Added to `force_n`, and reduced first where the sum is too strong: a wall that is pressed
+    /// hard does not weaken the surface below the hand.
+    Vec3 yielding_n{};
     ForceOffReason reason = ForceOffReason::None; // reported by earlier stages
     bool has_changed = false;                     // the mode or the map; ramps in again
 };

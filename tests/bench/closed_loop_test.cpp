@@ -125,6 +125,99 @@ TEST(ClosedLoop, APanHoldsTheVerticalPosition)
     EXPECT_LE(watch.sink_m, 0.2e-3);
 }
 
+// "inertia (any change in velocity is resisted by an inertial force)": a hand at rest feels none.
+TEST(ClosedLoop, AGrabByAHandAtRestAddsNoHorizontalForce)
+{
+    PressingHand hand;
+    hand.rest(0.4);
+    hand.grab(true);
+    for (int i = 0; i < 1000; ++i) {
+        hand.tick();
+        ASSERT_LE(std::hypot(hand.last().force_n.x, hand.last().force_n.y), 1e-9) << i;
+    }
+}
+
+// The same sentence: the map that a moving hand grabs is at rest, so that its inertia resists. The
+// force on the hand is what changes the map's momentum, m dv/dt = -F - m c v with the mass and drag
+// of PanOptions, and it has no step.
+TEST(ClosedLoop, AGrabByAMovingHandIsResistedByTheInertiaOfTheMapWithoutAStep)
+{
+    for (const double speed : {0.05, 0.1, 0.2, 0.3}) {
+        SCOPED_TRACE(speed);
+        PressingHand hand;
+        hand.rest(0.4);
+        for (int i = 0; i < 2000 && hand.loop.hand().velocity().x < speed; ++i) {
+            hand.press({0.8, 0.0, -0.4});
+            hand.tick();
+        }
+        // Against the arm's friction of 2 N s/m.
+        hand.press({2.0 * speed, 0.0, -0.4});
+        hand.run(20);
+        ASSERT_NEAR(hand.last().force_n.x, 0.0, 1e-9);
+        ASSERT_LT(hand.at().x, 0.03);
+        hand.grab(true);
+        const PanOptions pan;
+        Watch watch(hand);
+        double impulse_n_s = 0.0;
+        double drag_n_s = 0.0;
+        double strongest_n = 0.0;
+        for (int i = 0; i < 80 && hand.last().ground_share == 1.0; ++i) {
+            hand.tick();
+            watch.look(hand);
+            ASSERT_EQ(hand.last().mode, StylusMode::Pan);
+            if (i < 60) {                                    // later the map swings past the hand
+                EXPECT_LE(hand.last().force_n.x, 1e-9) << i; // against the motion
+                EXPECT_LE(watch.step_n, 0.02 + 1e-9) << i;
+            }
+            impulse_n_s -= 1e-3 * hand.last().force_n.x;
+            drag_n_s += 1e-3 * pan.mass_kg * pan.drag_per_s * hand.mapVelocity().x;
+            strongest_n = std::max(strongest_n, -hand.last().force_n.x);
+        }
+        EXPECT_LE(watch.sink_m, 0.2e-3);
+        EXPECT_NEAR(impulse_n_s, pan.mass_kg * hand.mapVelocity().x + drag_n_s, 1e-3 * impulse_n_s);
+        EXPECT_GT(hand.mapVelocity().x, 0.5 * hand.loop.hand().velocity().x); // it follows
+        // Of a spring between a mass and a wall that moves at this speed.
+        EXPECT_LE(strongest_n, speed * std::sqrt(pan.grip_n_per_m * pan.mass_kg));
+    }
+}
+
+// A surface without friction pushes along its normal, and only while it is touched: nothing holds a
+// hand that slides on it, or leaves it.
+TEST(ClosedLoop, AHandThatLeavesTheTerrainIsNeverPulledBack)
+{
+    for (const double press_n : {0.4, 1.0, 2.0}) {
+        for (const double lift_n : {0.05, 0.3, 1.0}) {
+            SCOPED_TRACE(testing::Message() << press_n << " N, then " << lift_n << " N");
+            PressingHand hand;
+            hand.rest(press_n);
+            hand.press({0.05, 0.0, lift_n});
+            int touching = 0;
+            for (int i = 0; i < 400; ++i) {
+                hand.tick();
+                ASSERT_GE(hand.last().force_n.z, -1e-12) << i;
+                ASSERT_NEAR(hand.last().force_n.x, 0.0, 1e-9) << i;
+                touching += hand.last().contact.is_in_contact ? 1 : 0;
+            }
+            EXPECT_LT(touching, 200);
+            EXPECT_FALSE(hand.last().contact.is_in_contact);
+            EXPECT_EQ(hand.last().force_n, Vec3{});
+        }
+    }
+}
+
+TEST(ClosedLoop, AHandSlidesOverLevelTerrainWithoutFriction)
+{
+    PressingHand hand;
+    hand.rest(1.0);
+    hand.press({0.2, 0.0, -0.4}); // less than before: the surface returns energy
+    while (hand.at().x < 0.05) {
+        hand.tick();
+        ASSERT_NEAR(hand.last().force_n.x, 0.0, 1e-9);
+    }
+    EXPECT_TRUE(hand.last().contact.is_in_contact);
+    EXPECT_GT(hand.loop.hand().velocity().x, 0.05);
+}
+
 // "momentum (the surface will continue moving if the user releases their hold
 // while the surface is in motion) ... allows the user to explore the surface as
 // it moves"
@@ -205,7 +298,7 @@ TEST(ClosedLoop, AtTheLimitTheHoldBecomesASpring)
     ASSERT_EQ(hand.last().mode, StylusMode::Pan);
     ASSERT_LT(hand.at().x, kWallM - 0.01);
     EXPECT_NEAR(hand.last().force_n.x, -0.25, 0.01);
-    EXPECT_EQ(hand.mapVelocity().x, 0.0);
+    EXPECT_NEAR(hand.mapVelocity().x, 0.0, 1e-12);
     EXPECT_NEAR(hand.loop.camera().target.x, -kHalfM, 1e-6);
 }
 
@@ -350,6 +443,38 @@ TEST(ClosedLoop, AGlidingMapStopsWhereItsEdgeReachesTheHand)
     EXPECT_LE(most_m, 0.2 / kStiffness * hand.loop.frame().scene_per_meter + 1.0);
     EXPECT_EQ(hand.mapVelocity(), Vec3{});
     EXPECT_TRUE(hand.last().contact.is_in_contact);
+}
+
+// A spring of this stiffness sinks by force / stiffness, whatever else the hand presses against.
+TEST(ClosedLoop, AHandThatPressesHardAgainstTheEdgeOfTheMapSinksNoDeeper)
+{
+    PressingHand hand;
+    OrbitCamera camera = hand.loop.camera();
+    camera.target.x = -90.0;
+    hand.loop.moveCamera(camera);
+    hand.run(1000);
+    for (int i = 0; i < 8000 && !hand.last().is_at_edge; ++i) {
+        hand.press({hand.loop.hand().velocity().x > -0.05 ? -0.1 : 0.0, 0.0, -0.6});
+        hand.tick();
+    }
+    hand.press({-0.2, 0.0, -0.6});
+    hand.run(1500);
+    ASSERT_TRUE(hand.last().is_at_edge);
+    ASSERT_EQ(hand.last().ground_share, 1.0);
+    const double surface_m = hand.loop.frame().toWorkspace({-kHalfM, 0.0, kHeightM}).z;
+    double deepest_m = 0.0;
+    double strongest_n = 0.0;
+    // The hand rebounds from the edge with more than the device's 3.3 N.
+    for (const double side_n : {1.0, 2.5, 3.0}) {
+        hand.press({-side_n, 0.0, -0.6});
+        for (int i = 0; i < 700; ++i) {
+            hand.tick();
+            deepest_m = std::max(deepest_m, surface_m - hand.at().z);
+            strongest_n = std::max(strongest_n, length(hand.last().force_n));
+        }
+    }
+    EXPECT_NEAR(strongest_n, 3.3, 1e-3);
+    EXPECT_LE(deepest_m, 0.6 / kStiffness + 1e-4);
 }
 
 } // namespace

@@ -64,8 +64,9 @@ TEST(HandModes, PanningHoldsTheHeightAndMovesTheMap)
     hand.input.is_grabbing = true;
     hand.move({});
     const ScenePoint grabbed = hand.input.frame.toScene(hand.input.hand);
-    for (int i = 0; i < 100; ++i) {
-        hand.move({1e-4, -5e-5, 0.0});
+    for (int i = 0; i < 500; ++i) { // without knocks, so that the hold does not slip
+        const double share = std::sin(3.14159265358979 * i / 500.0);
+        hand.move({4e-5 * share, -2e-5 * share, 0.0});
     }
     ModeStep step;
     for (int i = 0; i < 20'000; ++i) {

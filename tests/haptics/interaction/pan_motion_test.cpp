@@ -82,7 +82,8 @@ TEST(PanMotion, ASteadyHandFeelsNothingAndAChangeIsResisted)
     const PanOptions options = withoutDrag();
     PanState state;
     grabMap(options, state, {}, {});
-    const Vec3 shift{1e-4, 0.0, 0.0}; // 0.1 m/s
+    const Vec3 shift{1e-4, 0.0, 0.0};         // 0.1 m/s
+    pullMap(options, state, shift, 1.0, kDt); // the force continues
     // the map must be accelerated
     EXPECT_LT(pullMap(options, state, shift, 1.0, kDt).force_n.x, 0.0);
     PanStep step;
@@ -113,6 +114,26 @@ TEST(PanMotion, WithoutMassThereIsNoForceAndTheMapFollows)
         map = map + step.shift_m;
     }
     EXPECT_NEAR(length(hand - map), 0.0, 1e-9);
+}
+
+// A hand of 1 m/s grabs a map at rest: k v would be 0.25 N in a millisecond. The force still is
+// what changes the momentum.
+TEST(PanMotion, TheForceOfTheHoldGrowsAtItsRate)
+{
+    const PanOptions options = withoutDrag();
+    PanState state;
+    grabMap(options, state, {0.0, 0.1, 0.0}, {1.0, 0.0, 0.0});
+    double last_n = 0.1;
+    Vec3 impulse{};
+    for (int i = 0; i < 40; ++i) {
+        const double before_n = last_n;
+        const PanStep step = pullMap(options, state, {1e-3, 0.0, 0.0}, 1.0, kDt);
+        last_n = length(step.force_n);
+        impulse = impulse - step.force_n * kDt;
+        EXPECT_LE(last_n, before_n + 0.02 + 1e-12) << i;
+        EXPECT_NEAR(length(state.velocity_m_per_s * options.mass_kg - impulse), 0.0, 1e-12);
+    }
+    EXPECT_NEAR(last_n, 0.88, 1e-9); // 0.1 N in the first step, and 39 times 0.02 N
 }
 
 TEST(PanMotion, ForcesAreContinuousInTheMass)

@@ -16,7 +16,8 @@ TEST(PassivityObserver, LeavesASpringThatTakesEnergyAlone)
     double x_m = 0.0;
     for (int i = 0; i < 1000; ++i) { // pressing in
         const Vec3 wanted{-200.0 * x_m, 0.0, 0.0};
-        const PassivityStep step = keepPassive({}, wanted, {1e-5, 0.0, 0.0}, state, kDt);
+        const PassivityStep step =
+            keepPassive({}, {.force_n = wanted, .shift_m = {1e-5, 0.0, 0.0}}, state, kDt);
         EXPECT_EQ(step.force_n, wanted);
         noteWritten(state, step.force_n);
         x_m += 1e-5;
@@ -28,7 +29,8 @@ TEST(PassivityObserver, CountsTheWorkOfTheHand)
 {
     PassivityState state;
     noteWritten(state, {-2.0, 1.0, 0.0});
-    keepPassive({.energy_j_max = 1.0}, {-2.0, 1.0, 0.0}, {0.003, 0.001, 0.5}, state, kDt);
+    keepPassive({.energy_j_max = 1.0},
+                {.force_n = {-2.0, 1.0, 0.0}, .shift_m = {0.003, 0.001, 0.5}}, state, kDt);
     EXPECT_NEAR(state.energy_j, 0.006 - 0.001, 1e-12);
 }
 
@@ -36,7 +38,8 @@ TEST(PassivityObserver, DampsAnActivePort)
 {
     PassivityState state;
     noteWritten(state, {1.0, 0.0, 0.0});
-    const PassivityStep step = keepPassive({}, {1.0, 0.0, 0.0}, {1e-4, 0.0, 0.0}, state, kDt);
+    const PassivityStep step =
+        keepPassive({}, {.force_n = {1.0, 0.0, 0.0}, .shift_m = {1e-4, 0.0, 0.0}}, state, kDt);
     EXPECT_LT(state.energy_j, 0.0); // it pushes in the direction of motion: generated energy
     EXPECT_GT(step.damping_n_s_per_m, 0.0);
     EXPECT_LT(step.force_n.x, 1.0);
@@ -50,16 +53,54 @@ TEST(PassivityObserver, TheDampingDissipatesTheSurplus)
     const PassivityOptions options{.damping_n_s_per_m_max = 3.0, .velocity_hz = 1e6};
     PassivityState state;
     noteWritten(state, {0.1, 0.0, 0.0});
-    const PassivityStep step = keepPassive(options, {0.1, 0.0, 0.0}, {1e-4, 0.0, 0.0}, state, kDt);
+    const PassivityStep step =
+        keepPassive(options, {.force_n = {0.1, 0.0, 0.0}, .shift_m = {1e-4, 0.0, 0.0}}, state, kDt);
     EXPECT_NEAR(state.energy_j, -1e-5, 1e-15);
     EXPECT_NEAR(step.damping_n_s_per_m, 1e-5 / (0.1 * 0.1 * kDt), 1e-9);
     EXPECT_NEAR(step.force_n.x, 0.1 - 1.0 * 0.1, 1e-9);
 }
 
+// The damping ends where it would turn the force around, and across the force there is none.
+TEST(PassivityObserver, NeverPullsBack)
+{
+    const PassivityOptions options{.velocity_hz = 1e6};
+    const auto damped = [&](const Vec3& force_n, const Vec3& shift_m) {
+        PassivityState state{.energy_j = -1e-3};
+        return keepPassive(options, {.force_n = force_n, .shift_m = shift_m}, state, kDt);
+    };
+    const Vec3 leaving = damped({0.0, 0.0, 0.1}, {0.0, 0.0, 2e-4}).force_n;
+    EXPECT_NEAR(leaving.z, 0.0, 1e-12); // 3 N s/m would take 0.6 N of 0.1 N
+    EXPECT_EQ(damped({0.0, 0.0, 1.0}, {2e-4, 0.0, 0.0}).damping_n_s_per_m, 0.0); // slides
+    EXPECT_EQ(damped({0.0, 0.0, 1.0}, {2e-4, 0.0, 1e-5}).force_n.x, 0.0);
+    // A force against the motion takes energy.
+    EXPECT_EQ(damped({0.0, 0.0, 1.0}, {0.0, 0.0, -2e-4}).force_n, (Vec3{0.0, 0.0, 1.0}));
+    EXPECT_NEAR(damped({0.0, 0.0, 1.0}, {0.0, 0.0, 2e-4}).force_n.z, 1.0 - 3.0 * 0.2, 1e-12);
+}
+
+TEST(PassivityObserver, ForgetsASurplusThatIsNotRenewed)
+{
+    PassivityState state{.energy_j = -1e-3};
+    for (int i = 0; i < 100; ++i) {
+        keepPassive({.surplus_s = 0.1}, {.force_n = {0.0, 0.0, 1.0}}, state, kDt);
+    }
+    EXPECT_NEAR(state.energy_j, -1e-3 * std::exp(-1.0), 1e-12);
+}
+
+// A spring may return what it stores, although that is more than the limit.
+TEST(PassivityObserver, RemembersWhatSpringsStore)
+{
+    PassivityState state;
+    noteWritten(state, {-1.0, 0.0, 0.0});
+    keepPassive({.energy_j_max = 2e-3},
+                {.force_n = {-1.0, 0.0, 0.0}, .shift_m = {0.1, 0.0, 0.0}, .stored_j = 5e-3}, state,
+                kDt);
+    EXPECT_EQ(state.energy_j, 7e-3);
+}
+
 TEST(PassivityObserver, FiltersTheVelocityAtItsCutoff)
 {
     PassivityState state;
-    keepPassive({.velocity_hz = 60.0}, {}, {1e-4, 0.0, 0.0}, state, kDt);
+    keepPassive({.velocity_hz = 60.0}, {.force_n = {}, .shift_m = {1e-4, 0.0, 0.0}}, state, kDt);
     EXPECT_NEAR(state.velocity_m_per_s.x, 0.1 * (1.0 - std::exp(-2.0 * 3.14159265358979 * 0.06)),
                 1e-12);
 }
@@ -69,7 +110,8 @@ TEST(PassivityObserver, RemembersNoMoreEnergyThanItsLimit)
     for (const double side : {1.0, -1.0}) {
         PassivityState state;
         noteWritten(state, {-side, 0.0, 0.0});
-        keepPassive({.energy_j_max = 2e-3}, {1.0, 0.0, 0.0}, {0.1, 0.0, 0.0}, state, kDt);
+        keepPassive({.energy_j_max = 2e-3},
+                    {.force_n = {1.0, 0.0, 0.0}, .shift_m = {0.1, 0.0, 0.0}}, state, kDt);
         EXPECT_EQ(state.energy_j, side * 2e-3);
     }
 }
@@ -91,8 +133,9 @@ TEST(PassivityObserver, KeepsADelayedSpringFromGrowing)
             last_n = wanted_n;
             if (is_kept) {
                 const Vec3 force_n{wanted_n, 0.0, 0.0};
-                last_n = keepPassive({.damping_n_s_per_m_max = 3.0}, force_n,
-                                     {x_m - before_m, 0.0, 0.0}, state, kDt)
+                last_n = keepPassive({.damping_n_s_per_m_max = 3.0},
+                                     {.force_n = force_n, .shift_m = {x_m - before_m, 0.0, 0.0}},
+                                     state, kDt)
                              .force_n.x;
                 noteWritten(state, {last_n, 0.0, 0.0});
             }
@@ -107,7 +150,7 @@ TEST(PassivityObserver, KeepsADelayedSpringFromGrowing)
 TEST(PassivityObserver, DropsEnergyGatheredInFreeSpace)
 {
     PassivityState state{.energy_j = 1.0};
-    keepPassive({}, {}, {1e-4, 0.0, 0.0}, state, kDt);
+    keepPassive({}, {.force_n = {}, .shift_m = {1e-4, 0.0, 0.0}}, state, kDt);
     EXPECT_EQ(state.energy_j, 0.0);
 }
 
@@ -116,8 +159,10 @@ TEST(PassivityObserver, PassesForcesOnForATimeStepOfZero)
     for (const double dt_s : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(),
                               std::numeric_limits<double>::infinity()}) {
         PassivityState state{.energy_j = -1.0};
-        EXPECT_EQ(keepPassive({}, {1.0, 2.0, 3.0}, {1e-3, 0.0, 0.0}, state, dt_s).force_n,
-                  (Vec3{1.0, 2.0, 3.0}));
+        EXPECT_EQ(
+            keepPassive({}, {.force_n = {1.0, 2.0, 3.0}, .shift_m = {1e-3, 0.0, 0.0}}, state, dt_s)
+                .force_n,
+            (Vec3{1.0, 2.0, 3.0}));
     }
 }
 

@@ -179,6 +179,35 @@ TEST(SafetyLimiter, InvalidLimitsAllowNoForce)
 }
 
 // The values of a small desktop device.
+// A wall that is pressed with 8 N takes what 3 N leave: sqrt(3² - 0.6²).
+TEST(SafetyLimiter, ReducesTheYieldingPartFirst)
+{
+    const auto limited = [](const Vec3& force_n, const Vec3& yielding_n) {
+        SafetyState state;
+        SafetyOutput output;
+        for (int i = 0; i < 500; ++i) {
+            output =
+                limitForce(kLimits, {.force_n = force_n, .yielding_n = yielding_n}, state, kDt);
+        }
+        EXPECT_LE(length(output.force_n), 3.0);
+        return output.force_n;
+    };
+    EXPECT_EQ(limited({0.0, 0.0, 0.6}, {-1.0, 0.5, 0.0}), (Vec3{-1.0, 0.5, 0.6})); // both fit
+    const Vec3 wall = limited({0.0, 0.0, 0.6}, {-8.0, 0.0, 0.0});
+    EXPECT_NEAR(wall.z, 0.6, 1e-12);
+    EXPECT_NEAR(wall.x, -std::sqrt(9.0 - 0.36), 1e-12);
+    // Along the same line the two cancel: all that fits of the other.
+    const Vec3 against = limited({2.0, 0.0, 0.0}, {-8.0, 0.0, 0.0});
+    EXPECT_NEAR(against.x, -3.0, 1e-12);
+    const Vec3 both = limited({0.0, 6.0, 0.0}, {4.0, 0.0, 0.0});
+    EXPECT_NEAR(length(both - Vec3{0.0, 3.0, 0.0}), 0.0, 1e-6);
+    const Vec3 huge = limited({0.0, 0.0, 0.6}, {1e200, 0.0, 0.0});
+    EXPECT_NEAR(huge.z, 0.6, 1e-6);
+    SafetyState state;
+    EXPECT_EQ(limitForce(kLimits, {.yielding_n = {std::nan(""), 0.0, 0.0}}, state, kDt).reason,
+              ForceOffReason::Fault);
+}
+
 constexpr SafetyLimits kWarmLimits{.force_n_max = 3.3,
                                    .force_n_continuous = 0.9,
                                    .heat_s = 5.0,
