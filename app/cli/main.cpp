@@ -143,7 +143,7 @@ int run(const std::vector<std::string>& arguments, marsview::ErrorForm form)
         marsview::printError(status.error().message, kExitFailed, form);
         return kExitFailed;
     }
-    if (std::fflush(stdout) != 0) {
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) { // or an earlier part of it
         marsview::printError("stdout: writing the result failed", kExitFailed, form);
         return kExitFailed;
     }

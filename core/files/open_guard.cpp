@@ -10,6 +10,7 @@
 #include "core/files/tiff_size_check.h"
 
 #include <cpl_conv.h>
+#include <cpl_vsi.h>
 
 #include <algorithm>
 #include <array>
@@ -21,6 +22,7 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <mutex>
 #include <set>
 #include <string_view>
@@ -256,6 +258,46 @@ Result<GuardedDataset> openAfterProbe(const std::vector<std::string>& names)
     return opened;
 }
 
+// The entry that the SRTMHGT driver opens in N51W001.hgt.zip or N51W001.SRTMGL1.hgt.zip; any other
+// name itself.
+std::string entryFor(const std::string& name)
+{
+    constexpr std::size_t kTileLength = 7; // N51W001
+    const std::string file = fs::path(name).filename().string();
+    const std::string lower = lowerCase(file);
+    if (isInArchive(name) || file.size() < kTileLength) {
+        return name;
+    }
+    for (const std::string_view ending : {".hgt", ".raw"}) {
+        if (lower.ends_with(std::string(ending) + ".zip")) {
+            return fmt::format("/vsizip/{}/{}{}", name, file.substr(0, kTileLength), ending);
+        }
+    }
+    return name;
+}
+
+// Drivers take an entry that is listed for one that can be unpacked: that of SRTMHGT crashes as it
+// reads the first sample.
+Status checkCanBeUnpacked(const std::string& given)
+{
+    const std::string name = entryFor(given);
+    VSIStatBufL status;
+    if (!isInArchive(name) || VSIStatL(name.c_str(), &status) != 0 || !VSI_ISREG(status.st_mode) ||
+        status.st_size == 0) {
+        return Done{};
+    }
+    const GdalMessages messages;
+    const std::unique_ptr<VSILFILE, int (*)(VSILFILE*)> file(VSIFOpenL(name.c_str(), "rb"),
+                                                             VSIFCloseL);
+    char first = 0;
+    if (file && VSIFReadL(&first, 1, 1, file.get()) == 1) {
+        return Done{};
+    }
+    return Error{ErrorCode::Unreadable,
+                 fmt::format("the archive is damaged: {} in it cannot be unpacked; fetch it again",
+                             fs::path(name).filename().string())};
+}
+
 struct Silence {
     std::mutex mutex;
     int count = 0;
@@ -276,6 +318,9 @@ Result<GuardedDataset> openFirst(const std::vector<std::string>& names)
 {
     ensureGdal();
     for (std::size_t i = 0; i < names.size(); ++i) {
+        if (Status unpacked = checkCanBeUnpacked(names[i]); !unpacked) {
+            return std::move(unpacked).error();
+        }
         PlainAttempt attempt = openPlain(names[i]);
         if (attempt.refusal) {
             return std::move(*attempt.refusal);

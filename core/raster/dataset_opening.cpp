@@ -168,13 +168,17 @@ Result<OpenedDataset> openDataset(const std::string& path, int band)
     const auto says = [&first_failure](const char* words) {
         return first_failure.find(words) != std::string::npos;
     };
-    if (says("not recognized") || first_failure.empty()) {
+    // The last of these words come from a driver that looks for JSON in any text.
+    if (says("not recognized") || says("Maximum number of characters") || first_failure.empty()) {
         first_failure =
             "is not a raster that GDAL can read, or is damaged; convert it to GeoTIFF or fetch it "
             "again";
     } else if (says("No such file or directory")) {
         first_failure = fmt::format(
             "names a data file that is missing; put it next to this file ({})", first_failure);
+    } else if (!says("; ")) { // a driver's own words, without advice
+        first_failure = fmt::format(
+            "cannot be opened ({}); fetch it again or convert it to GeoTIFF", first_failure);
     }
     return Error{ErrorCode::Unsupported, fmt::format("{}: {}", path, first_failure)};
 }

@@ -305,10 +305,15 @@ Error RasterFile::Impl::readFailure(const GdalMessages& messages, const GridWind
                                          window.row + window.rows - 1, kConnectionLost));
     }
     const std::string of_part = mosaic ? withoutRows(mosaic->failureIn(window)) : std::string();
-    return readFailure(
-        of_part.empty() ? messages.firstFailure("the file is cut short or damaged; fetch it again")
-                        : of_part,
-        window);
+    if (!of_part.empty()) {
+        return readFailure(of_part, window);
+    }
+    const std::string reason = messages.firstFailure("");
+    return readFailure(reason.empty() ? "the file is cut short or damaged; fetch it again"
+                                      : fmt::format("the file is cut short or damaged ({}); fetch "
+                                                    "it again",
+                                                    reason),
+                       window);
 }
 
 // Reopens the dataset after a failed read.

@@ -26,6 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 using test::ProgramOutput;
 using testing::AllOf;
+using testing::AnyOf;
 using testing::EndsWith;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -159,7 +160,7 @@ TEST_F(HostileFiles, DiscardsOutputOfLibraries)
     const std::string path = faulty("refuse");
     const ProgramOutput refused = info(path);
     expectOneLine(refused, path);
-    EXPECT_THAT(refused.err, HasSubstr("The header is wrong. In two lines\n"));
+    EXPECT_THAT(refused.err, HasSubstr("(The header is wrong. In two lines); fetch it again"));
 }
 
 // 2026-11: HDF5 crashed at exit after opening a file successfully.
@@ -397,9 +398,53 @@ TEST_F(HostileFiles, DamagedFilesOpenOrFailInOneLine)
             const ProgramOutput output = info(path);
             if (output.exit_status != 0) {
                 expectOneLine(output, path);
+                EXPECT_THAT(output.err, AnyOf(HasSubstr("fetch it again"), HasSubstr("is empty")));
             }
         }
     }
+}
+
+// 2026-11: the SRTMHGT driver of GDAL crashes on an entry that cannot be unpacked.
+TEST_F(HostileFiles, RefusesAnArchiveWhoseEntryCannotBeUnpacked)
+{
+    folder_.write("N51W001.hgt", std::string(std::size_t{2} * 1201 * 1201, '\1'));
+    const std::string path = folder_.file("N51W001.hgt.zip");
+    ASSERT_EQ(test::runProgram({"python3", "-c",
+                                "import sys, zipfile\n"
+                                "z = zipfile.ZipFile(sys.argv[1], 'w', zipfile.ZIP_DEFLATED)\n"
+                                "z.write(sys.argv[2], 'N51W001.hgt')",
+                                path, folder_.file("N51W001.hgt")})
+                  .exit_status,
+              0);
+    ASSERT_EQ(info(path).exit_status, 0);
+    std::string bytes = test::readFile(path);
+    for (const std::size_t at : {0U, 2U, 8U, 18U, 26U}) { // of the entry's own header
+        std::string damaged = bytes;
+        damaged[at] = static_cast<char>(damaged[at] ^ 0x55);
+        folder_.write("N51W001.hgt.zip", damaged);
+        const ProgramOutput output = info(path);
+        EXPECT_LE(output.exit_status, 1) << at;
+        if (output.exit_status != 0) {
+            expectOneLine(output, path);
+        }
+    }
+}
+
+// 2026-11: a driver that looks for JSON in any text has its own words for a list of numbers.
+TEST_F(HostileFiles, RefusesAListOfNumbersAsOtherTexts)
+{
+    std::string text;
+    for (int i = 0; i < 3; ++i) {
+        text += fmt::format(
+            "{}6.530042355041 0 176.125875162171 -48.164270779097768864 "
+            "5.762344694676510456 175.334308316285410561 9398502.0434687 "
+            "84.663858149358862201 6333544.7732452481809 -559418252332.321555\n",
+            i + 1);
+    }
+    const std::string path = folder_.write("numbers.dat", text);
+    const ProgramOutput output = info(path);
+    expectOneLine(output, path);
+    EXPECT_THAT(output.err, HasSubstr("is not a raster that GDAL can read"));
 }
 
 TEST_F(HostileFiles, StatisticsCanBeSkipped)

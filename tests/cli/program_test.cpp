@@ -71,6 +71,21 @@ TEST(Program, FailsWithStatusOneAndNamesTheFileInOneLine)
     }
 }
 
+TEST(Program, FailsWhereItsResultCannotBeWritten)
+{
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{"info", bundledMars()},
+          {"sample", bundledMars(), "--pixel", "0", "0"},
+          {"devices"}}) {
+        std::vector<std::string> line{"sh", "-c", "\"$0\" \"$@\" > /dev/full", MARSVIEW_CLI};
+        line.insert(line.end(), arguments.begin(), arguments.end());
+        const ProgramOutput output = runProgram(line);
+        EXPECT_EQ(output.exit_status, 1) << arguments.front();
+        EXPECT_TRUE(output.err.ends_with("marsview-cli: stdout: writing the result failed\n"))
+            << output.err;
+    }
+}
+
 TEST(Program, NamesAnUnusableOverride)
 {
     for (const auto& [option, value] :
