@@ -25,7 +25,8 @@ constexpr double kLabelsMax = 60.0;
 constexpr double kGapPoints = 6.0;
 constexpr double kPointClearPoints = 6.0;
 constexpr double kShownBefore = 1.25; // counts as so much larger
-constexpr double kLiftPoints = 3.0;   // of the place for the ray that looks for it
+constexpr double kHighest = 2.5;    // times more for the highest mountain than for one half as high
+constexpr double kLiftPoints = 3.0; // of the place for the ray that looks for it
 
 // The gazetteers state the length of narrow features as their diameter.
 double weightOf(PlaceKind kind)
@@ -43,6 +44,18 @@ double weightOf(PlaceKind kind)
     default:
         return 1.0;
     }
+}
+
+// Mountains are landmarks by their height rather than by their width.
+double weightOf(PlaceKind kind, double height_m, const HeightRange& heights)
+{
+    const double weight = weightOf(kind);
+    if (kind != PlaceKind::Mountain) {
+        return weight;
+    }
+    const double half_m = 0.5 * (heights.maximum_m - heights.minimum_m);
+    const double rise = half_m > 0.0 ? (height_m - heights.minimum_m) / half_m - 1.0 : 0.0;
+    return weight * (1.0 + kHighest * std::clamp(rise, 0.0, 1.0));
 }
 
 // A feature in the picture.
@@ -144,6 +157,8 @@ NameLabels::inPicture(const OrbitCamera& camera,
     const double scale = options.pixels_per_point;
     const bool has_sizes = names_->hasSizes();
     const double across_px_max = kPicturesAcrossMax * options.viewport.width;
+    const SceneBox box = ground_.box(1.0);
+    const HeightRange heights{box.minimum.z, box.maximum.z};
     std::vector<Seen> seen;
     for (std::size_t i = 0; i < places_.size(); ++i) {
         const Place& place = places_[i];
@@ -163,11 +178,11 @@ NameLabels::inPicture(const OrbitCamera& camera,
             (across_px * weightOf(name.kind) < least * scale || across_px > across_px_max)) {
             continue;
         }
-        seen.push_back(
-            {.place = i,
-             .across_px = name.diameter_m > 0.0 ? across_px : 0.0,
-             .importance = (has_sizes ? across_px : *pixels_per_m) * weightOf(name.kind) *
-                           (place.was_shown ? kShownBefore : 1.0)});
+        seen.push_back({.place = i,
+                        .across_px = name.diameter_m > 0.0 ? across_px : 0.0,
+                        .importance = (has_sizes ? across_px : *pixels_per_m) *
+                                      weightOf(name.kind, place.height_m, heights) *
+                                      (place.was_shown ? kShownBefore : 1.0)});
     }
     const std::size_t count = std::min(seen.size(), kRequestsMax);
     std::partial_sort(seen.begin(), seen.begin() + static_cast<std::ptrdiff_t>(count), seen.end(),

@@ -56,7 +56,8 @@ public:
     std::size_t count() const noexcept { return places_.size(); }
 
     /// The labels of a picture. What looks larger comes first: size and distance both count.
-    /// Narrow features, as scarps and troughs, count less than their length, mountains more.
+    /// Narrow features, as scarps and troughs, count less than their length, mountains more, and
+    /// most the highest ones.
     /// Features need a diameter of 20 points in the picture, lettered craters 48. Names without a
     /// size count as 50 km, or, if no name has a size, are shown at any distance. At most one label
     /// for each 30,000 square points, 5 to 60 in all. Labels do not overlap each other nor the

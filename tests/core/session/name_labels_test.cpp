@@ -133,6 +133,29 @@ TEST(NameLabels, NoneOverlapOnTheMoonEither)
     EXPECT_GT(labels, 1000U);
 }
 
+// 2026-11: in a picture with room for few labels, wide plains had names and the highest mountains
+// had none.
+TEST_F(NameLabelsTest, HighMountainsKeepTheirNamesWhereLabelsAreFew)
+{
+    NameLabels all(names_, ground_);
+    for (const double azimuth : {300.0, 320.0, 340.0}) {
+        OrbitCamera camera = over(266.4, -1.8, 6.5e6);
+        camera.target.z *= 10.0;
+        camera.azimuth = Angle::degrees(azimuth);
+        camera.tilt = Angle::degrees(50.0);
+        const NameLabelOptions options{.viewport = {947, 580}, .exaggeration = 10.0};
+        std::map<std::string, std::size_t> rank;
+        for (const NameLabel& label :
+             all.inPicture(camera, options,
+                           [this](std::size_t name, double) { return sizeOf(*names_, name); })) {
+            rank.emplace(names_->names()[label.name].name, rank.size());
+        }
+        EXPECT_LE(rank.size(), 18U);
+        EXPECT_TRUE(rank.contains("Olympus Mons")) << azimuth;
+        EXPECT_TRUE(rank.contains("Ascraeus Mons")) << azimuth;
+    }
+}
+
 TEST_F(NameLabelsTest, LargeFeaturesAreNamedFromAfarAndSmallOnesNearby)
 {
     NameLabels all(names_, ground_);
