@@ -200,7 +200,21 @@ private:
         state_.hand = at;
         state_.twist_rad = input_.sample.twist_rad;
         state_.has_hand = true;
+        takeButtons();
         return true;
+    }
+
+    // A button that was pressed for a point does not grab until it is released, whatever the tool
+    // is then; one that grabbed sets no point.
+    void takeButtons() noexcept
+    {
+        const std::uint32_t now = input_.recorded == nullptr ? input_.sample.buttons : 0;
+        const bool is_down = (now & kPlacingButton) != 0;
+        const bool was_down = (state_.buttons & kPlacingButton) != 0;
+        result_.has_pressed_point = is_down && !was_down && settings_.is_placing;
+        result_.has_released_point = !is_down && state_.is_placing;
+        state_.is_placing = is_down && (state_.is_placing || result_.has_pressed_point);
+        state_.buttons = now;
     }
 
     ForceOffReason ageReason() const noexcept
@@ -229,8 +243,10 @@ private:
         const double share = options_.mixing == ForceMixing::Fade ? walls.ground_share : 1.0;
         result_.ground_share = share;
 
+        const std::uint32_t grabbing_buttons =
+            kGrabbingButtons & ~(state_.is_placing ? kPlacingButton : 0U);
         const bool is_grabbing =
-            (input_.sample.buttons & kGrabbingButtons) != 0 || settings_.is_grabbing;
+            (input_.sample.buttons & grabbing_buttons) != 0 || settings_.is_grabbing;
         const WorkspaceFrame seen = state_.seen_frame;
         moveAsRecorded();
         const double clearance_m = clearance();

@@ -41,11 +41,17 @@ struct LoopSettings {
     double force_share = 1.0;         // of all forces, 0 to 1
     bool has_walls = true;
     bool is_grabbing = false; // with a key instead of the stylus button
-    bool is_stopped = false;  // emergency stop
+    /// The first button of the stylus sets points for a tool instead of grabbing the map; the
+    /// second one still grabs.
+    bool is_placing = false;
+    bool is_stopped = false; // emergency stop
     ModeOptions modes{};
     /// The part of the workspace in which a simulated hand strokes; empty: all of it.
     std::optional<WorkspaceBox> strokes{};
 };
+
+/// The button that sets points, see LoopSettings::is_placing.
+constexpr std::uint32_t kPlacingButton = 0b01;
 
 /// How surface and wall forces are combined. NaiveSum exists only to measure the effect of Fade.
 enum class ForceMixing : std::uint8_t { Fade, NaiveSum };
@@ -101,6 +107,8 @@ struct TickState {
     bool has_hand = false; // a position has been accepted
     WorkspacePoint hand{};
     double twist_rad = 0.0;
+    std::uint32_t buttons = 0;
+    bool is_placing = false; // the first button was pressed to set a point, and is still held
     bool has_frame = false;
     WorkspaceFrame frame;
     WorkspaceFrame seen_frame; // moves as the camera: also where the workspace alone has moved
@@ -138,6 +146,8 @@ struct StepResult {
     ContactState contact;
     std::optional<SceneMotion> motion{}; // of the map by the hand
     bool is_at_edge = false;             // beyond the edge of the map, which holds the hand back
+    bool has_pressed_point = false;      // LoopSettings::is_placing: the button went down
+    bool has_released_point = false;     // and up again
     TracePoint proxy{};
     TickGoals goals;                  // passed to the contact model, in order
     double ground_share = 1.0;        // fraction of the surface force that the walls let through

@@ -53,13 +53,21 @@ struct LoopState {
 };
 
 /// Events, in order.
-enum class LoopEventKind : std::uint8_t { ModeChanged, MapChanged, ForceOff, Holding };
+enum class LoopEventKind : std::uint8_t {
+    ModeChanged,
+    MapChanged,
+    ForceOff,
+    Holding,
+    PointPressed,  ///< the button that sets points went down (LoopSettings::is_placing)
+    PointReleased, ///< and up again
+};
 
 struct LoopEvent {
     LoopEventKind kind = LoopEventKind::ForceOff;
     StylusMode mode = StylusMode::Hover;
     ForceOffReason reason = ForceOffReason::None; // for ForceOff
     std::uint64_t tick = 0;
+    ScenePoint place{}; // for PointPressed and PointReleased: the proxy, or the hand in free space
 };
 
 /// The terrain that was touched, and the contact settings.

@@ -277,6 +277,18 @@ void ServoCore::publish(const StepResult& result, double tick_s) noexcept
     if (result.has_changed_map) {
         events_.put({.kind = LoopEventKind::MapChanged, .mode = result.mode, .tick = ticks_});
     }
+    for (const auto& [has_happened, kind] :
+         {std::pair(result.has_pressed_point, LoopEventKind::PointPressed),
+          std::pair(result.has_released_point, LoopEventKind::PointReleased)}) {
+        if (has_happened) {
+            events_.put({.kind = kind,
+                         .mode = result.mode,
+                         .tick = ticks_,
+                         .place = result.contact.is_in_contact || result.is_at_edge
+                                      ? result.contact.proxy
+                                      : result.goal});
+        }
+    }
     if (result.reason != last_reason_) {
         last_reason_ = result.reason;
         events_.put({.kind = result.reason == ForceOffReason::None ? LoopEventKind::Holding

@@ -603,6 +603,40 @@ TEST(HapticTick, PansAndZoomsByTheButton)
     EXPECT_NEAR(rig.state.frame.scene_per_meter, 500.0, 1e-6);
 }
 
+TEST(HapticTick, TheFirstButtonSetsPointsForATool)
+{
+    Rig rig;
+    rig.settings.is_placing = true;
+    rig.at({});
+    rig.to({0.0, 0.0, -0.022});
+    rig.input.sample.buttons = 0b01;
+    StepResult result = rig.at({0.0, 0.0, -0.022});
+    EXPECT_TRUE(result.has_pressed_point);
+    EXPECT_EQ(result.mode, StylusMode::Press) << "the map is not grabbed";
+    EXPECT_GT(result.force_n.z, 0.0) << "the surface is still felt";
+    result = rig.at({0.0, 0.0, -0.022});
+    EXPECT_FALSE(result.has_pressed_point) << "once a press";
+    EXPECT_FALSE(result.has_released_point);
+    rig.settings.is_placing = false; // another tool, with the button still pressed
+    result = rig.at({0.0, 0.0, -0.022});
+    EXPECT_EQ(result.mode, StylusMode::Press);
+    rig.input.sample.buttons = 0;
+    result = rig.at({0.0, 0.0, -0.022});
+    EXPECT_TRUE(result.has_released_point);
+    rig.input.sample.buttons = 0b01;
+    result = rig.at({0.0, 0.0, -0.022});
+    EXPECT_EQ(result.mode, StylusMode::Pan);
+    EXPECT_FALSE(result.has_pressed_point);
+    rig.settings.is_placing = true; // what has grabbed sets no point
+    result = rig.at({0.0, 0.0, -0.022});
+    EXPECT_EQ(result.mode, StylusMode::Pan);
+    EXPECT_FALSE(result.has_pressed_point);
+    rig.input.sample.buttons = 0;
+    EXPECT_FALSE(rig.at({0.0, 0.0, -0.022}).has_released_point);
+    rig.input.sample.buttons = 0b10;
+    EXPECT_EQ(rig.at({0.0, 0.0, -0.022}).mode, StylusMode::Pan) << "the second one grabs";
+}
+
 TEST(HapticTick, StiffnessIsLimitedByTheDeviceAndTheLoop)
 {
     const DeviceCapabilities device = desktopDevice(); // 600 N/m

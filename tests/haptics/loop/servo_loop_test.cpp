@@ -116,6 +116,36 @@ TEST(ServoLoop, PublishesStateEventsAndStatistics)
     EXPECT_EQ(loop.flight().records().size(), std::min<std::size_t>(10'000, state.tick));
 }
 
+TEST(ServoLoop, ReportsThePointsThatTheButtonSets)
+{
+    ServoLoop loop(simulated(), quick(5000));
+    LoopSettings settings = settingsFor(servoMap(201, 201, bumps));
+    settings.is_placing = true;
+    loop.set(settings);
+    waitFor(loop);
+    loop.stop();
+    const Heightfield terrain = floatTerrain(201, 201, bumps);
+    const SceneFrame frame = settings.map->frame.frame();
+    int pressed = 0;
+    int released = 0;
+    LoopEvent event;
+    while (loop.nextEvent(event)) {
+        if (event.kind == LoopEventKind::PointReleased) {
+            ++released;
+        }
+        if (event.kind == LoopEventKind::PointPressed) {
+            ++pressed;
+            const double height_m = terrain.height(frame.toGrid(event.place));
+            EXPECT_GE(event.place.z, height_m - 1e-6) << "on the surface, or above it";
+        }
+        EXPECT_NE(event.mode, StylusMode::Pan);
+        EXPECT_NE(event.mode, StylusMode::Zoom);
+    }
+    // Five thousand ticks of 0.2 ms; the button goes down every 0.3 s.
+    EXPECT_EQ(pressed, 3);
+    EXPECT_EQ(released, 3);
+}
+
 TEST(ServoLoop, TakesOtherSettingsWhileItRuns)
 {
     ServoLoop loop(simulated(), quick(0));
