@@ -264,7 +264,10 @@ void MainWindow::placeMarks()
         marks->setObstacles(overlays_->plates());
         marks->lower();
     }
+    annotation_marks_->setNeighbor(*measure_marks_);
     overlays_->labels()->lower(); // names give way to measurements and annotations
+    overlays_->labels()->keepClearOf(*measure_marks_);
+    overlays_->labels()->keepClearOf(*annotation_marks_);
     picture_saver_->addMarks(*annotation_marks_);
     picture_saver_->addMarks(*measure_marks_);
 }

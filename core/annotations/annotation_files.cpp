@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kAnnotationsMax = 20000;
+constexpr std::size_t kAnnotationsMax = 100'000;
 
 constexpr std::array kShapes{FeatureShape::Point, FeatureShape::Line, FeatureShape::Polygon};
 

@@ -52,7 +52,7 @@ struct ImportedAnnotations {
 /// shortest lines between the file's vertices.
 ///
 /// Invalid for features of another body (checkSameBody) and for a file with a CRS on a map without
-/// one, TooLarge above 20 000 annotations, and
+/// one, TooLarge above 100 000 annotations, and
 /// OutOfRange where a position is outside the projection of the CRS. `path` is what errors begin
 /// with.
 Result<ImportedAnnotations> annotationsFrom(const std::string& path,

@@ -88,8 +88,19 @@ Result<MeasuredValues> valuesOf(const Measurement& measurement,
     switch (measurement.kind) {
     case MeasurementKind::Distance:
         return asValues(measureDistance(terrain, positions, monitor));
-    case MeasurementKind::Area:
-        return asValues(measureArea(terrain, positions, measurement.area, monitor));
+    case MeasurementKind::Area: {
+        auto area = measureArea(terrain, positions, measurement.area, monitor);
+        const bool is_plane = measurement.area.base == VolumeBase::BorderPlane;
+        if (!area && area.error().code != ErrorCode::Canceled && is_plane) {
+            // Where no plane can be placed, everything but the volumes remains.
+            AreaOptions options = measurement.area;
+            options.base = VolumeBase::None;
+            if (auto rest = measureArea(terrain, positions, options, monitor)) {
+                area = std::move(rest);
+            }
+        }
+        return asValues(std::move(area));
+    }
     case MeasurementKind::Profile:
         return asValues(measureProfile(terrain, positions, measurement.step_m, monitor));
     case MeasurementKind::Attitude: {

@@ -644,6 +644,10 @@
         <extracomment>%1 is a file, %2 the reason</extracomment>
         <translation>%1: Der Bericht kann nicht geschrieben werden (%2); wählen Sie einen anderen Ordner</translation>
     </message>
+    <message>
+        <source>Area by classes of elevation (bars), and the share of the area that lies above an elevation (line)</source>
+        <translation>Fläche nach Höhenklassen (Balken) und der Anteil der Fläche, der über einer Höhe liegt (Linie)</translation>
+    </message>
 </context>
 <context>
     <name>SaveChart</name>
@@ -1278,6 +1282,16 @@
     <message>
         <source>annotations</source>
         <translation>Anmerkungen</translation>
+    </message>
+    <message>
+        <source>Reading %1</source>
+        <extracomment>In the status bar: %1 is a file</extracomment>
+        <translation>%1 wird gelesen</translation>
+    </message>
+    <message>
+        <source>Writing %1</source>
+        <extracomment>In the status bar: %1 is a file</extracomment>
+        <translation>%1 wird geschrieben</translation>
     </message>
 </context>
 <context>
@@ -2583,6 +2597,38 @@ y %2</translation>
     </message>
 </context>
 <context>
+    <name>marsview::HypsometryPlot</name>
+    <message>
+        <source>Hypsometry</source>
+        <translation>Hypsometrie</translation>
+    </message>
+    <message>
+        <source>The up and down arrow keys read the share of the area above an elevation</source>
+        <translation>Die Pfeiltasten nach oben und unten lesen den Anteil der Fläche über einer Höhe ab</translation>
+    </message>
+    <message>
+        <source>Area (km²)</source>
+        <translation>Fläche (km²)</translation>
+    </message>
+    <message>
+        <source>Area (m²)</source>
+        <translation>Fläche (m²)</translation>
+    </message>
+    <message>
+        <source>Elevation (%1), approximate</source>
+        <translation>Höhe (%1), Näherung</translation>
+    </message>
+    <message>
+        <source>Elevation (%1)</source>
+        <translation>Höhe (%1)</translation>
+    </message>
+    <message>
+        <source>%1 above %2</source>
+        <extracomment>%1 is a share of the area in percent, %2 an elevation</extracomment>
+        <translation>%1 über %2</translation>
+    </message>
+</context>
+<context>
     <name>marsview::IntervalDialog</name>
     <message>
         <source> m</source>
@@ -3136,6 +3182,14 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
         <source>Stop building overviews; it can be resumed later</source>
         <translation>Das Bauen der Übersichten anhalten; es kann später fortgesetzt werden</translation>
     </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Abbrechen</translation>
+    </message>
+    <message>
+        <source>Cancel (Esc)</source>
+        <translation>Abbrechen (Esc)</translation>
+    </message>
 </context>
 <context>
     <name>marsview::LoopTimes</name>
@@ -3484,6 +3538,30 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
     <message>
         <source>measurements</source>
         <translation>messungen</translation>
+    </message>
+    <message>
+        <source>Save H&amp;ypsometry…</source>
+        <translation>H&amp;ypsometrie speichern …</translation>
+    </message>
+    <message>
+        <source>Save the area by classes of elevation as CSV, PNG, SVG or PDF</source>
+        <translation>Die Fläche nach Höhenklassen als CSV, PNG, SVG oder PDF speichern</translation>
+    </message>
+    <message>
+        <source>Save Hypsometry</source>
+        <translation>Hypsometrie speichern</translation>
+    </message>
+    <message>
+        <source>hypsometry</source>
+        <translation>hypsometrie</translation>
+    </message>
+    <message>
+        <source>Bars: area of each class, below. Line: share of the area above, at the top.</source>
+        <translation>Balken: Fläche jeder Klasse, unten. Linie: Anteil der Fläche darüber, oben.</translation>
+    </message>
+    <message>
+        <source>Without volumes: no plane fits so large or so empty a border.</source>
+        <translation>Ohne Volumen: zu einem so großen oder so leeren Rand passt keine Ebene.</translation>
     </message>
 </context>
 <context>
@@ -3947,6 +4025,11 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
     <message>
         <source>The project is saved, but not the GeoPackage of its annotations: %1</source>
         <translation>Das Projekt ist gespeichert, aber nicht das GeoPackage mit seinen Anmerkungen: %1</translation>
+    </message>
+    <message>
+        <source>Writing %1</source>
+        <extracomment>In the status bar: %1 is a file</extracomment>
+        <translation>%1 wird geschrieben</translation>
     </message>
 </context>
 <context>
@@ -4801,6 +4884,14 @@ Bewegen Sie die Karte zu einer Ansicht, die Sie behalten wollen, und drücken Si
     <message>
         <source>%1: nothing to record; connect a device and open a map</source>
         <translation>%1: nichts aufzuzeichnen; verbinden Sie ein Gerät und öffnen Sie eine Karte</translation>
+    </message>
+</context>
+<context>
+    <name>marsview::VectorOverlays</name>
+    <message>
+        <source>Reading %1</source>
+        <extracomment>In the status bar: %1 is a file</extracomment>
+        <translation>%1 wird gelesen</translation>
     </message>
 </context>
 <context>
@@ -5774,6 +5865,10 @@ A scene: the one that suits the layers</extracomment>
     <message>
         <source>Cannot Export Report</source>
         <translation>Der Bericht kann nicht exportiert werden</translation>
+    </message>
+    <message>
+        <source>&amp;Cancel</source>
+        <translation>&amp;Abbrechen</translation>
     </message>
 </context>
 </TS>

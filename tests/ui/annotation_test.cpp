@@ -10,13 +10,18 @@
 #include "ui/controllers/measure_controller.h"
 #include "ui/dialogs/go_to_dialog.h"
 #include "ui/overlay/annotation_marks.h"
+#include "ui/overlay/map_labels.h"
+#include "ui/overlay/map_overlays.h"
+#include "ui/overlay/measure_marks.h"
 #include "ui/panels/annotation_list.h"
 #include "ui/panels/annotation_panel.h"
 #include "ui/project/project_controller.h"
 #include "ui/window/window_actions.h"
+#include "ui/window/window_docks.h"
 
 #include <QActionGroup>
 #include <QApplication>
+#include <QDockWidget>
 #include <QFile>
 #include <QLineEdit>
 #include <QMessageBox>
@@ -24,6 +29,9 @@
 #include <QUndoStack>
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
 
 namespace marsview {
 namespace {
@@ -307,6 +315,75 @@ TEST_F(AnnotationTest, TheyAreDrapedAndInSavedPictures)
     EXPECT_TRUE(has_line(picture));
 }
 
+// Names and results keep clear of each other, and of the symbols where there is room.
+TEST_F(AnnotationTest, NoLabelLiesOverAnother)
+{
+    ASSERT_NO_FATAL_FAILURE(choose(FeatureShape::Point));
+    for (int i = 0; i < 12; ++i) {
+        click(at(-0.15 + 0.025 * i, 0.02 * (i % 3)));
+    }
+    MeasureController& measuring = *window_->measuring();
+    for (const QPoint& place : {at(-0.1, -0.04), at(0.05, 0.06), at(0.05, 0.08)}) {
+        measuring.begin(MeasurementKind::Distance);
+        click(place);
+        click(place + QPoint(120, 0));
+        measuring.finish();
+    }
+    ASSERT_TRUE(QTest::qWaitFor(
+        [&] {
+            const auto& items = measuring.state().items;
+            return std::all_of(items.begin(), items.end(), [&](const MeasureItem& item) {
+                return measuring.outcome(item.id).result != nullptr;
+            });
+        },
+        kTimeout));
+    ASSERT_TRUE(QTest::qWaitFor([this] { return view().isPictureComplete(); }, kTimeout));
+    std::vector<QRectF> boxes = window_->findChild<AnnotationMarks*>()->labelBoxes();
+    EXPECT_GE(boxes.size(), 5U);
+    const std::vector<QRectF> results = window_->findChild<MeasureMarks*>()->labelBoxes();
+    EXPECT_GE(results.size(), 2U);
+    boxes.insert(boxes.end(), results.begin(), results.end());
+    QCoreApplication::processEvents();
+    for (const MapLabels::Label& name : window_->overlays()->labels()->nameLabels()) {
+        boxes.push_back(name.box);
+    }
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        for (std::size_t k = 0; k < i; ++k) {
+            EXPECT_FALSE(boxes[i].intersects(boxes[k])) << i << " and " << k;
+        }
+    }
+}
+
+TEST_F(AnnotationTest, TheMenuRevealsTheTableThoughTheToolIsChosen)
+{
+    ASSERT_NO_FATAL_FAILURE(choose(FeatureShape::Point));
+    window_->docks()->annotations()->hide();
+    ASSERT_EQ(view().tool(), Tool::Annotate);
+    ASSERT_NO_FATAL_FAILURE(choose(FeatureShape::Point)); // waits for the table
+    EXPECT_TRUE(list().isVisible());
+}
+
+TEST_F(AnnotationTest, EnterAtTheLastPointAddsNoOther)
+{
+    ASSERT_NO_FATAL_FAILURE(choose(FeatureShape::Point));
+    ASSERT_TRUE(QTest::qWaitFor([this] { return view().hasFocus(); }, kTimeout));
+    click(at(-0.2, -0.1));
+    ASSERT_EQ(annotating().state().items.size(), 1U);
+    QTest::mouseMove(&view(), at(-0.2, -0.1) + QPoint(1, 0));
+    QTest::keyClick(&view(), Qt::Key_Return);
+    EXPECT_EQ(annotating().state().items.size(), 1U);
+    ASSERT_NO_FATAL_FAILURE(choose(FeatureShape::Line));
+    click(at(-0.1, 0.1));
+    click(at(0.1, 0.1));
+    QTest::mouseMove(&view(), at(0.1, 0.1) + QPoint(1, 0));
+    QTest::keyClick(&view(), Qt::Key_Return);
+    ASSERT_EQ(annotating().state().items.size(), 2U);
+    EXPECT_TRUE(annotating().current()->is_finished);
+    EXPECT_EQ(annotating().current()->vertices.size(), 2U);
+    QTest::keyClick(&view(), Qt::Key_Return);
+    EXPECT_EQ(annotating().state().items.size(), 2U) << "the line is finished";
+}
+
 TEST_F(AnnotationTest, AProjectKeepsThemAndTheirStepsAreChanges)
 {
     ASSERT_NO_FATAL_FAILURE(drawOneOfEach());
@@ -316,6 +393,7 @@ TEST_F(AnnotationTest, AProjectKeepsThemAndTheirStepsAreChanges)
     const QString file = maps_.path(QStringLiteral("rims.mvproj"));
     ASSERT_TRUE(project.saveAs(file));
     EXPECT_FALSE(project.isModified());
+    ASSERT_TRUE(QTest::qWaitFor([&] { return !project.isWriting(); }, kTimeout));
     EXPECT_NE(test::runTool({"ogrinfo", "-ro", "-so", "-al",
                              maps_.path(QStringLiteral("rims-annotations.gpkg")).toStdString()})
                   .find("Layer name: polygons"),

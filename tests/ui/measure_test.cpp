@@ -13,6 +13,7 @@
 #include "ui/panels/attitudes_view.h"
 #include "ui/panels/measure_list.h"
 #include "ui/panels/measure_panel.h"
+#include "ui/plots/hypsometry_plot.h"
 #include "ui/plots/profile_plot.h"
 #include "ui/plots/stereonet_plot.h"
 #include "ui/project/project_controller.h"
@@ -22,6 +23,7 @@
 #include <QApplication>
 #include <QClipboard>
 #include <QFile>
+#include <QFileInfo>
 #include <QLabel>
 #include <QLineEdit>
 #include <QTableWidget>
@@ -327,6 +329,38 @@ TEST_F(MeasureTest, AttitudesAreShownTogetherAndSaved)
     EXPECT_FALSE(view.isVisible());
 }
 
+TEST_F(MeasureTest, AnAreaHasItsHypsometry)
+{
+    ASSERT_NO_FATAL_FAILURE(choose(MeasurementKind::Area));
+    HypsometryPlot& plot = *window_->measurePanel()->hypsometry();
+    for (const QPoint& corner : {at(-0.2, -0.15), at(0.2, -0.15), at(0.15, 0.2)}) {
+        click(corner);
+    }
+    measuring().finish();
+    ASSERT_TRUE(isMeasured());
+    EXPECT_TRUE(plot.isVisible());
+    EXPECT_FALSE(window_->measurePanel()->plot()->isVisible());
+    const auto* area = measuring().outcome(measuring().current()->id).as<TerrainArea>();
+    ASSERT_NE(area, nullptr);
+    EXPECT_NEAR(plot.classes().totalM2(), area->covered_m2, 1e-9 * area->covered_m2);
+    EXPECT_GT(plot.classes().area_m2.size(), 8U);
+    EXPECT_LE(plot.classes().area_m2.size(), 40U);
+    EXPECT_EQ(plot.cursorText(), QString());
+    plot.setCursorAt(-1e6);
+    EXPECT_TRUE(plot.cursorText().startsWith(QStringLiteral("100.0 %")))
+        << qPrintable(plot.cursorText());
+    QTest::keyClick(&plot, Qt::Key_End);
+    EXPECT_TRUE(plot.cursorText().startsWith(QStringLiteral("0.0 %")))
+        << qPrintable(plot.cursorText());
+    for (const char* name : {"area.svg", "area.pdf", "area.png"}) {
+        const QString file = maps_.path(QString::fromLatin1(name));
+        EXPECT_TRUE(plot.savePicture(file));
+        EXPECT_GT(QFileInfo(file).size(), 2000) << name;
+    }
+    measuring().select(0);
+    EXPECT_FALSE(plot.isVisible());
+}
+
 TEST_F(MeasureTest, PointsCanBeTypedAsCoordinates)
 {
     for (const char* typed : {"18.5 N 12 E", "14.25 N 17.5 E"}) {
@@ -517,6 +551,8 @@ TEST_F(MeasureTest, AProjectKeepsTheMeasurements)
     const QString file = maps_.path(QStringLiteral("measured.mvproj"));
     ASSERT_TRUE(window_->commands().project.saveAs(file));
     EXPECT_FALSE(window_->isWindowModified());
+    ASSERT_TRUE(
+        QTest::qWaitFor([&] { return !window_->commands().project.isWriting(); }, kTimeout));
     // For other programs, next to it.
     const std::string beside =
         maps_.path(QStringLiteral("measured-measurements.gpkg")).toStdString();

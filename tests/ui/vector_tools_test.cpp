@@ -3,6 +3,7 @@
 #include "tests/ui/map_window.h"
 #include "ui/commands/vector_tools.h"
 #include "ui/commands/window_commands.h"
+#include "ui/controllers/file_work.h"
 #include "ui/controllers/session_controller.h"
 #include "ui/controllers/vector_overlays.h"
 #include "ui/project/project_controller.h"
@@ -250,6 +251,33 @@ TEST_F(VectorToolsTest, FollowsTheMapThatIsShown)
     ASSERT_TRUE(rest());
     EXPECT_TRUE(overlays().boxOf(path));
     EXPECT_TRUE(isColoredAt(16.0, 18.5, window_->session().overlays.front().color));
+}
+
+// Reading and placing show their progress, and can be canceled.
+TEST_F(VectorToolsTest, ReadingALargeFileCanBeCanceled)
+{
+    ASSERT_NO_FATAL_FAILURE(openMars());
+    ASSERT_TRUE(rest());
+    const QString path = maps_.path(QStringLiteral("many.csv"));
+    QFile out(path);
+    ASSERT_TRUE(out.open(QIODevice::WriteOnly));
+    out.write("lon,lat,name\n");
+    for (int i = 0; i < 200'000; ++i) {
+        out.write(QByteArray::number(10.0 + i * 4e-5) + ",15,p" + QByteArray::number(i) + '\n');
+    }
+    out.close();
+    FileWork& work = window_->commands().file_work;
+    QSignalSpy problems(&overlays(), &VectorOverlays::failed);
+    overlays().open(path);
+    EXPECT_TRUE(work.isBusy());
+    work.cancel();
+    ASSERT_TRUE(rest());
+    EXPECT_FALSE(work.isBusy());
+    EXPECT_TRUE(window_->session().overlays.empty());
+    EXPECT_TRUE(problems.isEmpty()) << "the user knows";
+    // The same file can be opened later.
+    ASSERT_TRUE(openVector(path));
+    EXPECT_EQ(window_->session().overlays.size(), 1U);
 }
 
 } // namespace

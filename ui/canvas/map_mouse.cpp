@@ -41,6 +41,7 @@ void MapMouse::setTool(Tool tool)
     endDrag();
     if (PlaceTool* left = placeTool()) {
         left->hover(std::nullopt);
+        left->releaseStylus();
     }
     tool_ = tool;
     parts_.touch.setChosen(tool == Tool::Touch);
@@ -217,6 +218,32 @@ bool MapMouse::key(const QKeyEvent& event)
 {
     PlaceTool* tool = placeTool();
     return tool != nullptr && tool->key(event);
+}
+
+void MapMouse::pressStylus(const ScenePoint& place)
+{
+    PlaceTool* tool = placeTool();
+    if (const auto ground = parts_.scene.groundBelow(place); ground && tool != nullptr) {
+        tool->pressStylus(parts_.scene.onTopmost(*ground));
+    }
+}
+
+void MapMouse::moveStylus(const ScenePoint& place)
+{
+    PlaceTool* tool = placeTool();
+    if (tool == nullptr) {
+        return;
+    }
+    if (const auto ground = parts_.scene.groundBelow(place)) {
+        tool->moveStylus(parts_.scene.onTopmost(*ground));
+    }
+}
+
+void MapMouse::releaseStylus()
+{
+    if (PlaceTool* tool = placeTool()) {
+        tool->releaseStylus();
+    }
 }
 
 void MapMouse::enterOverlay()

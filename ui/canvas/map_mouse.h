@@ -57,6 +57,12 @@ public:
     void wheel(QWheelEvent& event);
     /// True where the key was for the chosen tool.
     bool key(const QKeyEvent& event);
+    /// Whether the chosen tool places points.
+    bool isPlacing() const { return placeTool() != nullptr; }
+    /// The stylus of a device at a place of the scene, for the chosen tool; see PlaceTool.
+    void pressStylus(const ScenePoint& place);
+    void moveStylus(const ScenePoint& place);
+    void releaseStylus();
     /// The pointer goes onto a child of the view that takes the mouse.
     void enterOverlay();
     /// Ends a touch until the button is pressed again: its surface is gone.

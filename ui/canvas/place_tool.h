@@ -1,6 +1,8 @@
 // A tool that works with places on the map, such as measuring.
 #pragma once
 
+#include "core/terrain/ray_cast.h"
+
 #include <QPointF>
 
 #include <optional>
@@ -26,6 +28,15 @@ public:
     virtual void hover(std::optional<QPointF> position) = 0;
     /// True where the key was for the tool.
     virtual bool key(const QKeyEvent& event) = 0;
+
+    // The stylus of a haptic device. Places are those of the topmost map's grid on the terrain
+    // below the stylus.
+
+    /// The button of the stylus was pressed: sets a point, or takes hold of one that is there.
+    virtual void pressStylus(const RayHit& place) = 0;
+    /// The stylus moved, with its button pressed or not.
+    virtual void moveStylus(const RayHit& place) = 0;
+    virtual void releaseStylus() = 0;
 };
 
 } // namespace marsview

@@ -227,7 +227,15 @@ std::optional<QPointF> TerrainView::positionOf(GridPoint grid) const
 
 void TerrainView::showDevice(const std::optional<StylusPose>& pose)
 {
-    if (touch_.showDevice(pose) && (!pose || reader_.source() == ReadingSource::Stylus)) {
+    if (!touch_.showDevice(pose)) {
+        return;
+    }
+    if (!pose) {
+        mouse_.releaseStylus();
+    } else {
+        mouse_.moveStylus(pose->proxy);
+    }
+    if (!pose || reader_.source() == ReadingSource::Stylus) {
         reader_.report();
     }
 }

@@ -155,6 +155,11 @@ public:
     const std::optional<StylusPose>& stylus() const noexcept { return touch_.pose(); }
     /// Where a haptic device has its stylus; nothing for none.
     void showDevice(const std::optional<StylusPose>& pose);
+    /// Whether the chosen tool places points: the button of a device's stylus is for it.
+    bool isPlacing() const { return mouse_.isPlacing(); }
+    /// That button, with the stylus at a place of the scene.
+    void pressStylus(const ScenePoint& place) { mouse_.pressStylus(place); }
+    void releaseStylus() { mouse_.releaseStylus(); }
     /// The stylus drawn: the device's, unless the mouse presses or grabs with the Touch tool. The
     /// mouse has a stylus with the Touch tool only.
     const std::optional<StylusPose>& shownStylus() const noexcept { return touch_.shown(); }

@@ -3,6 +3,7 @@
 #include "core/vector/vector_file.h"
 #include "ui/canvas/terrain_view.h"
 #include "ui/controllers/annotation_controller.h"
+#include "ui/controllers/file_work.h"
 #include "ui/panels/annotation_list.h"
 #include "ui/panels/annotation_panel.h"
 #include "ui/window/window_actions.h"
@@ -31,13 +32,13 @@ struct AnnotationCommands::Outcome {
 
 AnnotationCommands::AnnotationCommands(const Parts& parts)
     : parts_(parts)
-    , monitor_(std::make_shared<JobMonitor>())
     , jobs_(*this)
 {
     WindowActions& actions = parts_.actions;
     AnnotationController& annotating = parts_.annotating;
     connect(actions.annotation_shapes, &QActionGroup::triggered, this, [this](QAction* action) {
         parts_.annotating.begin(static_cast<FeatureShape>(action->data().toInt()));
+        showPanel(); // the tool may have been chosen before
         parts_.view.setFocus();
     });
     connect(&annotating, &AnnotationController::shapeChanged, this,
@@ -45,8 +46,7 @@ AnnotationCommands::AnnotationCommands(const Parts& parts)
     connect(&parts_.view, &TerrainView::toolChanged, this, [this](Tool tool) {
         parts_.actions.showShape(tool, parts_.annotating.shape());
         if (tool == Tool::Annotate) {
-            parts_.docks.annotations()->show();
-            parts_.docks.annotations()->raise();
+            showPanel();
         }
     });
     connect(actions.finish_annotation, &QAction::triggered, &annotating,
@@ -62,7 +62,13 @@ AnnotationCommands::AnnotationCommands(const Parts& parts)
 
 AnnotationCommands::~AnnotationCommands()
 {
-    monitor_->cancel();
+    parts_.work.cancelOf(*this);
+}
+
+void AnnotationCommands::showPanel()
+{
+    parts_.docks.annotations()->show();
+    parts_.docks.annotations()->raise();
 }
 
 void AnnotationCommands::showState()
@@ -92,27 +98,32 @@ void AnnotationCommands::importFile(const QString& file, const std::optional<Crs
     if (!map) {
         return;
     }
-    jobs_.run(
-        [this, path = file.toStdString(), file, crs, map, monitor = monitor_](const auto& outlet) {
-            Outcome outcome{.map = map, .content = {}, .problem = {}, .likely = {}};
-            Result<VectorFile> read = readVectorFile(path, *monitor);
-            if (!read) {
-                outcome.problem = read.error();
-            } else {
-                if (crs) {
-                    read->content.crs = crs;
-                    read->content.body = crs->body();
-                }
-                auto content = annotationsFrom(path, *read, map->georeference(), map->info().body);
-                if (content) {
-                    outcome.content = std::move(*content);
-                } else {
-                    outcome.problem = content.error();
-                    outcome.likely = likelyCrs(read->content, map->info().body);
-                }
+    const auto monitor =
+        //: In the status bar: %1 is a file
+        parts_.work.begin(*this, tr("Reading %1").arg(QFileInfo(file).fileName()), file);
+    jobs_.run([this, path = file.toStdString(), file, crs, map, monitor](const auto& outlet) {
+        Outcome outcome{.map = map, .content = {}, .problem = {}, .likely = {}};
+        Result<VectorFile> read = readVectorFile(path, *monitor);
+        if (!read) {
+            outcome.problem = read.error();
+        } else {
+            if (crs) {
+                read->content.crs = crs;
+                read->content.body = crs->body();
             }
-            outlet->post([this, file, outcome = std::move(outcome)] { take(file, outcome); });
+            auto content = annotationsFrom(path, *read, map->georeference(), map->info().body);
+            if (content) {
+                outcome.content = std::move(*content);
+            } else {
+                outcome.problem = content.error();
+                outcome.likely = likelyCrs(read->content, map->info().body);
+            }
+        }
+        outlet->post([this, file, monitor, outcome = std::move(outcome)] {
+            parts_.work.end(monitor);
+            take(file, outcome);
         });
+    });
 }
 
 void AnnotationCommands::take(const QString& file, const Outcome& outcome)
@@ -129,8 +140,7 @@ void AnnotationCommands::take(const QString& file, const Outcome& outcome)
     const QString name = QFileInfo(file).fileName();
     //: A step of undo; %1 is a file
     parts_.annotating.add(annotations, tr("Import %1").arg(name));
-    parts_.docks.annotations()->show();
-    parts_.docks.annotations()->raise();
+    showPanel();
     //: In the status bar; %1 is a number, %2 a file
     QString message = tr("%L1 annotations imported from %2").arg(annotations.size()).arg(name);
     for (const std::string& notice : outcome.content.notices) {
@@ -187,18 +197,22 @@ void AnnotationCommands::exportFile(const QString& file)
 {
     folder_ = QFileInfo(file).absolutePath();
     const std::vector<std::uint32_t> selected = parts_.panel.list()->selectedIds();
+    //: In the status bar: %1 is a file
+    const auto monitor =
+        parts_.work.begin(*this, tr("Writing %1").arg(QFileInfo(file).fileName()), file);
     jobs_.run([this, file,
                annotations = selected.size() > 1 ? parts_.annotating.annotations(selected)
                                                  : parts_.annotating.annotations(),
-               monitor = monitor_](const auto& outlet) {
+               monitor](const auto& outlet) {
         const auto written = writeAnnotations(annotations, file.toStdString(), *monitor);
-        const QString problem =
-            written ? QString() : QString::fromStdString(written.error().message);
-        outlet->post([this, file, problem] {
-            if (problem.isEmpty()) {
+        const std::optional<Error> problem =
+            written ? std::nullopt : std::optional(written.error());
+        outlet->post([this, file, monitor, problem] {
+            parts_.work.end(monitor);
+            if (!problem) {
                 Q_EMIT exported(file);
-            } else {
-                Q_EMIT failed(problem);
+            } else if (problem->code != ErrorCode::Canceled) {
+                Q_EMIT failed(QString::fromStdString(problem->message));
             }
         });
     });

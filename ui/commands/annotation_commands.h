@@ -17,6 +17,7 @@ namespace marsview {
 
 class AnnotationController;
 class AnnotationPanel;
+class FileWork;
 class TerrainView;
 class WindowDocks;
 struct WindowActions;
@@ -33,6 +34,7 @@ public:
         AnnotationPanel& panel;
         TerrainView& view;
         WindowDocks& docks;
+        FileWork& work;
     };
 
     explicit AnnotationCommands(const Parts& parts);
@@ -56,6 +58,7 @@ Q_SIGNALS:
 private:
     struct Outcome;
 
+    void showPanel();
     void showState();
     void askImport();
     void askExport();
@@ -64,7 +67,6 @@ private:
 
     Parts parts_;
     QString folder_;
-    std::shared_ptr<JobMonitor> monitor_;
     DetachedJobs jobs_;
 };
 

@@ -19,6 +19,7 @@ MeasureCommands::MeasureCommands(const Parts& parts)
     MeasureController& measuring = parts_.measuring;
     connect(actions.measure_kinds, &QActionGroup::triggered, this, [this](QAction* action) {
         parts_.measuring.begin(static_cast<MeasurementKind>(action->data().toInt()));
+        showPanel(); // the tool may have been chosen before
         parts_.view.setFocus();
     });
     connect(&measuring, &MeasureController::kindChanged, this,
@@ -26,7 +27,7 @@ MeasureCommands::MeasureCommands(const Parts& parts)
     connect(&parts_.view, &TerrainView::toolChanged, this, [this](Tool tool) {
         parts_.actions.showTool(tool, parts_.measuring.kind());
         if (tool == Tool::Measure) {
-            parts_.docks.measurements()->show();
+            showPanel();
         }
     });
     connect(actions.finish_measurement, &QAction::triggered, &measuring,
@@ -38,6 +39,12 @@ MeasureCommands::MeasureCommands(const Parts& parts)
     connect(&measuring, &MeasureController::changed, this, &MeasureCommands::showState);
     actions.measure->addAction(parts_.docks.measurements()->toggleViewAction());
     showState();
+}
+
+void MeasureCommands::showPanel()
+{
+    parts_.docks.measurements()->show();
+    parts_.docks.measurements()->raise();
 }
 
 void MeasureCommands::showState()

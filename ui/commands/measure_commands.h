@@ -25,6 +25,7 @@ public:
     explicit MeasureCommands(const Parts& parts);
 
 private:
+    void showPanel();
     void showState();
 
     Parts parts_;

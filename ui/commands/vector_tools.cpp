@@ -36,7 +36,7 @@ constexpr double kDistanceShare = 1.6; // of the extent, for all of it to be in 
 VectorTools::VectorTools(const Parts& parts, QObject* parent)
     : QObject(parent)
     , parts_(parts)
-    , overlays_(new VectorOverlays(parts.view, this))
+    , overlays_(new VectorOverlays(parts.view, parts.work, this))
 {
     connect(&parts_.open, &QAction::triggered, this, &VectorTools::askFile);
     connect(overlays_, &VectorOverlays::wasRead, this, &VectorTools::add);

@@ -17,6 +17,7 @@ class QMenu;
 
 namespace marsview {
 
+class FileWork;
 class NoticeCenter;
 class SessionController;
 class TerrainView;
@@ -32,6 +33,7 @@ public:
         SessionController& session;
         TerrainView& view;
         NoticeCenter& notices;
+        FileWork& work;
         QAction& open;
         QMenu& files; // of open files; it is filled here
     };

@@ -47,6 +47,7 @@ WindowCommands::WindowCommands(const WindowParts& parts, const WindowOptions& op
               parts.measuring,
               parts.annotating,
               parts.view,
+              file_work,
               {.bundled = options.bundled_maps, .autosave_folder = options.autosave_folder})
     , project_menu({.window = parts.window,
                     .file_menu = *parts.actions.file,
@@ -65,6 +66,7 @@ WindowCommands::WindowCommands(const WindowParts& parts, const WindowOptions& op
                     .session = parts.session,
                     .view = parts.view,
                     .notices = parts.notices,
+                    .work = file_work,
                     .open = *parts.actions.open_vector,
                     .files = *parts.actions.vector_files})
     , names({.window = parts.window,
@@ -139,6 +141,7 @@ WindowCommands::WindowCommands(const WindowParts& parts, const WindowOptions& op
                 .pictures = parts.pictures,
                 .recordings = fly_through.recorder(),
                 .reports = reports,
+                .files = file_work,
                 .status = parts.load_status,
                 .messages = parts.messages})
     , places({.window = parts.window,
@@ -163,7 +166,8 @@ WindowCommands::WindowCommands(const WindowParts& parts, const WindowOptions& op
                   .annotating = parts.annotating,
                   .panel = parts.annotation_panel,
                   .view = parts.view,
-                  .docks = parts.docks})
+                  .docks = parts.docks,
+                  .work = file_work})
     , haptics({.actions = parts.actions,
                .session = parts.session,
                .haptics = parts.haptics,

@@ -16,6 +16,7 @@
 #include "ui/commands/vector_tools.h"
 #include "ui/commands/view_commands.h"
 #include "ui/commands/work_progress.h"
+#include "ui/controllers/file_work.h"
 #include "ui/controllers/spacemouse_controller.h"
 #include "ui/project/project_controller.h"
 #include "ui/project/project_menu.h"
@@ -72,6 +73,7 @@ struct WindowCommands {
 public:
     WindowCommands(const WindowParts& parts, const WindowOptions& options);
 
+    FileWork file_work;
     ProjectController project;
     ProjectMenu project_menu;
     ContourTools contours;

@@ -2,6 +2,7 @@
 
 #include "ui/canvas/terrain_view.h"
 #include "ui/commands/picture_saver.h"
+#include "ui/controllers/file_work.h"
 #include "ui/controllers/session_controller.h"
 #include "ui/report/report_exporter.h"
 #include "ui/text/number_text.h"
@@ -23,6 +24,7 @@ WorkProgress::WorkProgress(const Parts& parts)
             parts_.session.cancel();
             return;
         }
+        parts_.files.cancel();
         parts_.pictures.cancel();
         parts_.recordings.cancel();
         parts_.reports.cancel();
@@ -31,6 +33,7 @@ WorkProgress::WorkProgress(const Parts& parts)
             Qt::QueuedConnection);
     connect(&parts_.view, &TerrainView::pictureCompleted, this, &WorkProgress::settleIfIdle);
     followLoading();
+    followFiles();
     followPreparing();
     followSaving();
 }
@@ -57,6 +60,20 @@ void WorkProgress::followLoading()
     });
     connect(&session, &SessionController::failed, this, [this](const QString& problem) {
         parts_.messages.report(tr("Cannot Open Map"), problem);
+    });
+}
+
+void WorkProgress::followFiles()
+{
+    connect(&parts_.status, &LoadStatus::cancelFileWorkRequested, &parts_.files, &FileWork::cancel);
+    connect(&parts_.files, &FileWork::progressed, this,
+            [this](const QString& text, const QString& file, double share) {
+                parts_.status.showFileWork(text, file, share);
+                showCancel();
+            });
+    connect(&parts_.files, &FileWork::ended, this, [this] {
+        parts_.status.endFileWork();
+        showCancel();
     });
 }
 
@@ -128,8 +145,12 @@ void WorkProgress::showCancel()
     const bool is_loading = parts_.session.isBusy();
     const bool is_saving = isSaving();
     QAction& cancel = *parts_.actions.cancel_loading;
-    cancel.setEnabled(is_loading || is_saving);
-    cancel.setText(is_saving && !is_loading ? tr("&Cancel Saving") : tr("&Cancel Loading"));
+    const bool is_at_files = parts_.files.isReported();
+    cancel.setEnabled(is_loading || is_at_files || is_saving);
+    cancel.setText(is_loading    ? tr("&Cancel Loading")
+                   : is_at_files ? tr("&Cancel")
+                   : is_saving   ? tr("&Cancel Saving")
+                                 : tr("&Cancel Loading"));
     parts_.actions.save_picture->setEnabled(!parts_.pictures.isSaving());
 }
 

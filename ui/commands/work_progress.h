@@ -5,6 +5,7 @@
 
 namespace marsview {
 
+class FileWork;
 class FlyThroughRecorder;
 class LoadStatus;
 class PictureSaver;
@@ -26,6 +27,7 @@ public:
         PictureSaver& pictures;
         FlyThroughRecorder& recordings;
         ReportExporter& reports;
+        FileWork& files;
         LoadStatus& status;
         WindowMessages& messages;
     };
@@ -42,6 +44,7 @@ Q_SIGNALS:
 
 private:
     void followLoading();
+    void followFiles();
     void followPreparing();
     void followSaving();
     template <typename Saver>

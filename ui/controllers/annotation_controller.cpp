@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <unordered_set>
 
 namespace marsview {
 namespace {
@@ -68,10 +69,14 @@ AnnotationItem AnnotationController::newItem(std::uint32_t id) const
     return item;
 }
 
-DrawnBody AnnotationController::bodyShown() const
+const DrawnBody& AnnotationController::bodyShown() const
 {
     const auto& map = geometry().map();
-    return map ? drawnBody(map->georeference(), map->info().body) : DrawnBody();
+    if (map_shown_.lock() != map || !map) {
+        map_shown_ = map;
+        body_shown_ = map ? drawnBody(map->georeference(), map->info().body) : DrawnBody();
+    }
+    return body_shown_;
 }
 
 bool AnnotationController::isShown(const AnnotationItem& item) const
@@ -112,9 +117,10 @@ std::vector<Annotation> AnnotationController::annotations() const
 std::vector<Annotation>
 AnnotationController::annotations(const std::vector<std::uint32_t>& ids) const
 {
+    const std::unordered_set<std::uint32_t> wanted(ids.begin(), ids.end());
     std::vector<Annotation> some;
     for (const AnnotationItem& item : state().items) {
-        if (item.isComplete() && std::find(ids.begin(), ids.end(), item.id) != ids.end()) {
+        if (item.isComplete() && wanted.contains(item.id)) {
             some.push_back(annotationOf(item));
         }
     }
@@ -165,8 +171,18 @@ void AnnotationController::add(const std::vector<Annotation>& annotations, const
 
 void AnnotationController::setSession(const Session& session)
 {
+    const auto stateOf = [](const Session& of) {
+        std::vector<std::pair<LayerId, bool>> layers;
+        for (const Layer& layer : of.layers) {
+            layers.emplace_back(layer.id, layer.is_visible);
+        }
+        return layers;
+    };
+    const bool is_same = stateOf(session) == stateOf(this->session());
     noteSession(session);
-    Q_EMIT changed(); // what is shown
+    if (!is_same) {
+        Q_EMIT changed(); // what is shown
+    }
 }
 
 std::optional<QPointF> AnnotationController::labelPlace(const AnnotationItem& item) const

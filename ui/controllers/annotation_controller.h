@@ -5,6 +5,7 @@
 #include "core/session/project.h"
 #include "ui/drawing/drawing_controller.h"
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -67,8 +68,10 @@ Q_SIGNALS:
 private:
     AnnotationItem newItem(std::uint32_t id) const override;
     bool hasHandles(const AnnotationItem& item) const override;
-    DrawnBody bodyShown() const;
+    const DrawnBody& bodyShown() const;
 
+    mutable std::weak_ptr<const Map> map_shown_; // that body_shown_ is of
+    mutable DrawnBody body_shown_;
     FeatureShape shape_ = FeatureShape::Point;
 };
 

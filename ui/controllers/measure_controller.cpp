@@ -114,10 +114,8 @@ void MeasureController::begin(MeasurementKind kind)
 void MeasureController::stateChanged(const MeasureState& before)
 {
     for (const MeasureItem& item : state().items) {
-        const auto was =
-            std::find_if(before.items.begin(), before.items.end(),
-                         [&](const MeasureItem& other) { return other.id == item.id; });
-        if (was == before.items.end() || was->vertices != item.vertices || was->kind != item.kind ||
+        const MeasureItem* was = before.items.find(item.id);
+        if (was == nullptr || was->vertices != item.vertices || was->kind != item.kind ||
             was->layer != item.layer) {
             measureAgain(item);
         }

@@ -2,6 +2,7 @@
 
 #include "core/vector/feature_placement.h"
 #include "core/view/frustum.h"
+#include "ui/controllers/file_work.h"
 
 #include <QFileInfo>
 
@@ -38,9 +39,10 @@ QString textOf(const FieldValue& value)
 
 } // namespace
 
-VectorOverlays::VectorOverlays(TerrainView& view, QObject* parent)
+VectorOverlays::VectorOverlays(TerrainView& view, FileWork& work, QObject* parent)
     : QObject(parent)
     , view_(view)
+    , work_(work)
 {
     pool_.setMaxThreadCount(1);
     draw_timer_.setSingleShot(true);
@@ -66,7 +68,7 @@ VectorOverlays::VectorOverlays(TerrainView& view, QObject* parent)
 
 VectorOverlays::~VectorOverlays()
 {
-    monitor_.cancel();
+    work_.cancelOf(*this);
     pool_.clear();
     pool_.waitForDone(); // posted results are discarded with this object
 }
@@ -105,11 +107,17 @@ void VectorOverlays::place(const Request& request)
     entry.map = map;
     entry.crs = request.crs;
     ++running_;
-    pool_.start([this, request, map, known = is_known ? entry.file : nullptr] {
+    const QString path = QString::fromStdString(request.path);
+    //: In the status bar: %1 is a file
+    const auto monitor = work_.begin(*this, tr("Reading %1").arg(QFileInfo(path).fileName()), path);
+    pool_.start([this, request, map, known = is_known ? entry.file : nullptr, monitor] {
         QMetaObject::invokeMethod(
             this,
-            [this, request, map = std::weak_ptr(map),
-             outcome = readFor(request, *map, known, monitor_)] { take(request, map, outcome); },
+            [this, request, map = std::weak_ptr(map), monitor,
+             outcome = readFor(request, *map, known, *monitor)] {
+                work_.end(monitor);
+                take(request, map, outcome);
+            },
             Qt::QueuedConnection);
     });
 }
@@ -119,8 +127,11 @@ VectorOverlays::Outcome VectorOverlays::readFor(const Request& request,
                                                 std::shared_ptr<const VectorFile> known,
                                                 JobMonitor& monitor)
 {
+    constexpr double kReadShare = 0.7; // of the time
     Outcome outcome{.file = std::move(known), .placed = {}, .problem = {}, .likely = {}};
-    if (!outcome.file) {
+    const bool is_read = outcome.file != nullptr;
+    if (!is_read) {
+        const JobPart part(monitor, 0.0, kReadShare);
         auto file = readVectorFile(request.path, monitor);
         if (!file) {
             outcome.problem = file.error();
@@ -142,7 +153,11 @@ VectorOverlays::Outcome VectorOverlays::readFor(const Request& request,
     const Status fits =
         checkSameBody(request.path, content, map.georeference().crs(), map.info().body);
     if (fits) {
-        outcome.placed = placedOn(map, *outcome.file);
+        const JobPart part(monitor, is_read ? 0.0 : kReadShare, 1.0);
+        outcome.placed = placedOn(map, *outcome.file, monitor);
+        if (!outcome.placed) {
+            outcome.problem = Error{ErrorCode::Canceled, request.path + ": reading was canceled"};
+        }
     } else {
         outcome.problem = fits.error();
         outcome.likely = likelyCrs(content, map.info().body);
@@ -158,8 +173,13 @@ void VectorOverlays::take(const Request& request,
     Entry& entry = entries_[request.path];
     const bool is_first = !entry.file && !entry.has_failed;
     const bool is_canceled = outcome.problem && outcome.problem->code == ErrorCode::Canceled;
-    if (entry.map.lock() != map.lock() || entry.crs != request.crs || is_canceled) {
+    if (entry.map.lock() != map.lock() || entry.crs != request.crs) {
         return; // another map is shown by now
+    }
+    if (is_canceled) { // until it is opened again
+        entry.has_failed = true;
+        Q_EMIT changed();
+        return;
     }
     if (outcome.file) {
         entry.file = outcome.file;
@@ -187,15 +207,24 @@ void VectorOverlays::take(const Request& request,
     Q_EMIT changed();
 }
 
-std::shared_ptr<const VectorOverlays::Placed> VectorOverlays::placedOn(const Map& map,
-                                                                       const VectorFile& file)
+std::shared_ptr<const VectorOverlays::Placed>
+VectorOverlays::placedOn(const Map& map, const VectorFile& file, JobMonitor& monitor)
 {
+    constexpr double kPlaceShare = 0.7; // of the time; the rest is for the index
+    constexpr std::size_t kBetweenLooks = 1024;
     auto placed = std::make_shared<Placed>();
     const FeaturePlacement placement(file.content.crs, map.georeference());
     PlaneFeatures features;
     for (std::size_t layer = 0; layer < file.content.layers.size(); ++layer) {
         const std::vector<Feature>& all = file.content.layers[layer].features;
         for (std::size_t i = 0; i < all.size(); ++i) {
+            if (i % kBetweenLooks == 0) {
+                if (monitor.isCanceled()) {
+                    return nullptr;
+                }
+                monitor.report(kPlaceShare * static_cast<double>(i) /
+                               static_cast<double>(all.size()));
+            }
             placement.add(static_cast<std::uint32_t>(placed->features.size()), all[i].shape,
                           all[i].parts, features);
             placed->features.emplace_back(layer, i);

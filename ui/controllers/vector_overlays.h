@@ -25,13 +25,16 @@
 
 namespace marsview {
 
-/// Files are read and placed on a thread of their own; they are simplified to the resolution of the
-/// picture, and to fewer points while it moves. Lives in the GUI thread; the view outlives it.
+class FileWork;
+
+/// Files are read and placed on a thread of their own, with progress and cancel by `work`; they are
+/// simplified to the resolution of the picture, and to fewer points while it moves. Lives in the
+/// GUI thread; view and `work` outlive it.
 class VectorOverlays final : public QObject {
     Q_OBJECT
 
 public:
-    explicit VectorOverlays(TerrainView& view, QObject* parent = nullptr);
+    VectorOverlays(TerrainView& view, FileWork& work, QObject* parent = nullptr);
     /// Cancels what is being read.
     ~VectorOverlays() override;
 
@@ -96,7 +99,9 @@ private:
                            std::shared_ptr<const VectorFile> known,
                            JobMonitor& monitor);
     void take(const Request& request, const std::weak_ptr<const Map>& map, Outcome outcome);
-    static std::shared_ptr<const Placed> placedOn(const Map& map, const VectorFile& file);
+    /// Null if canceled.
+    static std::shared_ptr<const Placed>
+    placedOn(const Map& map, const VectorFile& file, JobMonitor& monitor);
     void drawLines();
     void addLines(const VectorOverlay& overlay,
                   const Placed& placed,
@@ -104,6 +109,7 @@ private:
                   std::vector<DrapedLine>& lines) const;
 
     TerrainView& view_;
+    FileWork& work_;
     std::vector<VectorOverlay> overlays_; // of the session
     std::map<std::string, Entry> entries_;
     bool is_drawn_ = false;
@@ -112,7 +118,6 @@ private:
     QElapsedTimer drawn_at_;      // since the lines were made last
     qint64 hasty_drawing_ns_ = 0; // for that, if it was in haste
     int running_ = 0;
-    JobMonitor monitor_; // canceled at the end
     QThreadPool pool_;
 };
 

@@ -53,6 +53,15 @@ std::optional<ScenePoint> DrapedGeometry::scenePoint(const DrawnVertex& vertex) 
     return position ? scenePoint(*position) : std::nullopt;
 }
 
+std::optional<ScenePoint> DrapedGeometry::levelPoint(const DrawnVertex& vertex) const
+{
+    auto point = scenePoint(vertex);
+    if (point) {
+        point->z /= view_.exaggeration();
+    }
+    return point;
+}
+
 std::vector<DrapedRun> DrapedGeometry::draped(const GroundLine& line) const
 {
     struct Mark {

@@ -40,6 +40,8 @@ public:
     /// Empty outside the terrain.
     std::optional<ScenePoint> scenePoint(GroundPosition position) const;
     std::optional<ScenePoint> scenePoint(const DrawnVertex& vertex) const;
+    /// The same with a height that is not exaggerated.
+    std::optional<ScenePoint> levelPoint(const DrawnVertex& vertex) const;
     template <typename Where>
     std::optional<QPointF> screenPoint(const Where& where) const
     {

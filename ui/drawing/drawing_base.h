@@ -6,6 +6,7 @@
 #include <QObject>
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -20,6 +21,9 @@ public:
 
     /// In the order in which they were begun.
     virtual std::vector<const DrawnItem*> drawn() const = 0;
+    /// While it lives, the items of drawn() stay where they are: one that changes gets another
+    /// address.
+    virtual std::shared_ptr<const void> drawnSnapshot() const = 0;
     /// 0: none.
     virtual std::uint32_t currentId() const = 0;
     virtual void select(std::uint32_t id) = 0;
@@ -32,7 +36,8 @@ public:
     /// Flies to where the whole item can be seen, and selects it.
     virtual void show(std::uint32_t id) = 0;
 
-    /// Of the items that are shown, the current one's first.
+    /// Of the items that are shown, the current one's first. Of points that lie within a few points
+    /// of the screen of each other, one.
     virtual std::vector<DrawnHandle> handles() const = 0;
 
 Q_SIGNALS:

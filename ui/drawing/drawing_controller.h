@@ -5,6 +5,7 @@
 #include "ui/canvas/terrain_view.h"
 #include "ui/drawing/draped_geometry.h"
 #include "ui/drawing/drawing_base.h"
+#include "ui/drawing/handle_grid.h"
 
 #include <QCoreApplication>
 #include <QKeyEvent>
@@ -16,7 +17,11 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <memory>
+#include <set>
+#include <unordered_set>
 #include <utility>
+#include <vector>
 
 namespace marsview {
 
@@ -43,22 +48,28 @@ public:
         draw_timer_.setInterval(0);
         connect(&draw_timer_, &QTimer::timeout, this, [this] { drawLines(); });
         const auto draw_soon = [this] { draw_timer_.start(); };
-        connect(&view_, &TerrainView::sightChanged, this, draw_soon);
+        connect(&view_, &TerrainView::sightChanged, this, [this] {
+            is_moving_ = true;
+            draw_timer_.start();
+        });
         connect(&view_, &TerrainView::exaggerationChanged, this, draw_soon);
-        connect(&view_, &TerrainView::layersChanged, this, draw_soon);
-        connect(&view_, &TerrainView::pictureCompleted, this, draw_soon); // finer ground has come
+        connect(&view_, &TerrainView::layersChanged, this, [this] {
+            are_dots_placed_ = false;
+            draw_timer_.start();
+        });
+        connect(&view_, &TerrainView::pictureCompleted, this, [this] {
+            is_moving_ = false;
+            // Finer ground may have come.
+            are_dots_placed_ = are_dots_placed_ && (!geometry_.map() || !isTiled());
+            draw_timer_.start();
+        });
         view_.setPlaceTool(tool_, this);
     }
     ~DrawingController() override { view_.setPlaceTool(tool_, nullptr); }
 
     const State& state() const noexcept { return state_; }
     const Item* current() const { return itemOf(state_.current); }
-    const Item* itemOf(std::uint32_t id) const
-    {
-        const auto hit = std::find_if(state_.items.begin(), state_.items.end(),
-                                      [id](const Item& item) { return item.id == id; });
-        return hit != state_.items.end() ? &*hit : nullptr;
-    }
+    const Item* itemOf(std::uint32_t id) const { return state_.items.find(id); }
     const Layer* layerOf(const DrawnItem& item) const
     {
         return marsview::layerOf(session_, item.layer);
@@ -67,10 +78,15 @@ public:
     std::vector<const DrawnItem*> drawn() const override
     {
         std::vector<const DrawnItem*> all;
+        all.reserve(state_.items.size());
         for (const Item& item : state_.items) {
             all.push_back(&item);
         }
         return all;
+    }
+    std::shared_ptr<const void> drawnSnapshot() const override
+    {
+        return std::make_shared<const ItemList<Item>>(state_.items);
     }
     std::uint32_t currentId() const override { return state_.current; }
     void select(std::uint32_t id) override
@@ -85,16 +101,15 @@ public:
     void removeItems(const std::vector<std::uint32_t>& ids) override
     {
         State state = state_;
-        const auto is_meant = [&ids](std::uint32_t id) {
-            return std::find(ids.begin(), ids.end(), id) != ids.end();
-        };
+        const std::unordered_set<std::uint32_t> meant(ids.begin(), ids.end());
+        const auto is_meant = [&meant](std::uint32_t id) { return meant.contains(id); };
         std::vector<QString> names;
-        for (const Item& item : state_.items) {
-            if (is_meant(item.id)) {
-                names.push_back(item.name);
+        for (const std::uint32_t id : ids) {
+            if (const Item* item = itemOf(id)) {
+                names.push_back(item->name);
             }
         }
-        std::erase_if(state.items, [&](const Item& item) { return is_meant(item.id); });
+        state.items.eraseIf([&](const Item& item) { return is_meant(item.id); });
         if (is_meant(state.current)) {
             state.current = state.items.empty() ? 0 : state.items.back().id;
         }
@@ -148,16 +163,8 @@ public:
     void addPointRead()
     {
         constexpr double kSamePlace = 3.0; // points
-        const Item* item = current();
-        const auto place = placeRead();
-        const auto here = place ? geometry_.screenPoint(place->vertex) : std::nullopt;
-        const auto last = item != nullptr && !item->is_finished
-                              ? geometry_.screenPoint(item->vertices.back())
-                              : std::optional<QPointF>();
-        if (here && last && distanceBetween(*here, *last) <= kSamePlace) {
-            finish();
-        } else if (place) {
-            addPoint(*place);
+        if (const auto place = placeRead()) {
+            addOrFinish(*place, kSamePlace);
         }
     }
     void removeLastPoint()
@@ -235,29 +242,67 @@ public:
 
     std::vector<DrawnHandle> handles() const override
     {
-        constexpr std::size_t kHiddenTestsMax = 2000; // beyond, a picture shows no single one
+        // Beyond, a picture shows no single one; while it moves, what was hidden stays so.
+        constexpr std::size_t kHiddenTestsMax = 2000;
         std::vector<DrawnHandle> handles;
-        for (const Item& item : state_.items) {
-            if (!isShown(item) || !hasHandles(item)) {
-                continue;
+        std::vector<ScenePoint> points;
+        const QRectF sight(view_.rect());
+        HandleGrid grid(sight, is_moving_ ? kMovingGap : kRestGap);
+        const auto add = [&](const ScenePoint& point, std::uint32_t item, std::size_t index,
+                             bool has_own) {
+            const auto place = view_.positionOfPlace(point);
+            if (place && sight.contains(*place) && (grid.take(*place) || has_own)) {
+                handles.push_back({.place = *place, .item = item, .index = index});
+                points.push_back(point);
             }
-            for (std::size_t i = 0; i < item.vertices.size(); ++i) {
-                const auto point = geometry_.scenePoint(item.vertices[i]);
-                const auto place = point ? view_.positionOfPlace(*point) : std::nullopt;
-                if (place && QRectF(view_.rect()).contains(*place)) {
-                    handles.push_back({.place = *place,
-                                       .item = item.id,
-                                       .index = i,
-                                       .is_hidden = handles.size() < kHiddenTestsMax &&
-                                                    geometry_.isHidden(*point)});
+        };
+        const Item* selected = current();
+        if (selected != nullptr && isShown(*selected) && hasHandles(*selected)) {
+            for (std::size_t i = 0; i < selected->vertices.size(); ++i) {
+                if (const auto point = geometry_.scenePoint(selected->vertices[i])) {
+                    add(*point, selected->id, i, true); // grabbed first and drawn last
                 }
             }
         }
-        // The current ones are grabbed first and drawn last.
-        std::stable_partition(handles.begin(), handles.end(), [this](const DrawnHandle& handle) {
-            return handle.item == state_.current;
-        });
+        placeDots();
+        const double exaggeration = view_.exaggeration();
+        for (const Dot& dot : dots_) {
+            if (dot.place && dot.item != state_.current) {
+                add({dot.place->x, dot.place->y, dot.place->z * exaggeration}, dot.item, 0, false);
+            }
+        }
+        for (const std::uint32_t id : others_) {
+            const Item* item = itemOf(id);
+            if (item == nullptr || id == state_.current || !isShown(*item) || !hasHandles(*item)) {
+                continue;
+            }
+            for (std::size_t i = 0; i < item->vertices.size(); ++i) {
+                if (const auto point = geometry_.scenePoint(item->vertices[i])) {
+                    add(*point, id, i, true);
+                }
+            }
+        }
+        if (!is_moving_) {
+            hidden_.clear();
+        }
+        for (std::size_t i = 0; i < handles.size(); ++i) {
+            const auto key = std::pair(handles[i].item, handles[i].index);
+            if (is_moving_ && handles.size() > kMovingTestsMax) {
+                handles[i].is_hidden = hidden_.contains(key);
+            } else if (i < kHiddenTestsMax) {
+                handles[i].is_hidden = geometry_.isHidden(points[i]);
+                if (handles[i].is_hidden && !is_moving_) {
+                    hidden_.insert(key);
+                }
+            }
+        }
         return handles;
+    }
+    /// Those that are more than a point.
+    const std::vector<std::uint32_t>& lineItems() const
+    {
+        placeDots();
+        return others_;
     }
     /// Points that are placed near a vertex that `snap` finds take its position.
     void addSnap(Snap snap) { snaps_.push_back(std::move(snap)); }
@@ -266,15 +311,22 @@ public:
     {
         std::optional<DrawnVertex> nearest;
         double reach = kReach;
-        for (const Item& item : state_.items) {
-            const bool is_drawn_now = item.id == state_.current && !item.is_finished;
+        const auto look = [&](const std::optional<QPointF>& place, const DrawnVertex& vertex) {
+            if (place && distanceBetween(*place, position) <= reach) {
+                reach = distanceBetween(*place, position);
+                nearest = vertex;
+            }
+        };
+        placeDots();
+        for (const Dot& dot : dots_) {
+            look(screenPlaceOf(dot), dot.vertex);
+        }
+        for (const std::uint32_t id : others_) {
+            const Item& item = *itemOf(id);
+            const bool is_drawn_now = id == state_.current && !item.is_finished;
             for (std::size_t i = 0; !is_drawn_now && isShown(item) && i < item.vertices.size();
                  ++i) {
-                const auto place = geometry_.screenPoint(item.vertices[i]);
-                if (place && distanceBetween(*place, position) <= reach) {
-                    reach = distanceBetween(*place, position);
-                    nearest = item.vertices[i];
-                }
+                look(geometry_.screenPoint(item.vertices[i]), item.vertices[i]);
             }
         }
         return nearest;
@@ -324,6 +376,7 @@ protected:
     void setState(State state)
     {
         const State before = std::exchange(state_, std::move(state));
+        are_dots_listed_ = are_dots_listed_ && before.items == state_.items;
         stateChanged(before);
         drawLines();
         Q_EMIT changed();
@@ -350,12 +403,7 @@ protected:
         }
         push(std::move(state), step);
     }
-    static Item* editable(State& state, std::uint32_t id)
-    {
-        const auto hit = std::find_if(state.items.begin(), state.items.end(),
-                                      [id](const Item& item) { return item.id == id; });
-        return hit != state.items.end() ? &*hit : nullptr;
-    }
+    static Item* editable(State& state, std::uint32_t id) { return state.items.edit(id); }
     /// Replaces everything by items that are finished. Not a step of undo.
     void replaceAll(std::vector<Item> items)
     {
@@ -366,6 +414,7 @@ protected:
             state.items.push_back(std::move(item));
         }
         grabbed_.reset();
+        are_dots_placed_ = false;
         // What is known of items that have the same numbers is not true of these.
         setState({});
         setState(std::move(state));
@@ -373,6 +422,7 @@ protected:
     void noteSession(const Session& session)
     {
         session_ = session;
+        are_dots_placed_ = false;
         drawSoon();
     }
     void drawSoon() { draw_timer_.start(); }
@@ -424,6 +474,58 @@ private:
         State before;
     };
 
+    // An item that is a single point, and where it is in the scene without exaggeration; empty if
+    // it is not shown there.
+    struct Dot {
+        std::uint32_t item = 0;
+        DrawnVertex vertex;
+        std::optional<ScenePoint> place;
+    };
+    // Marks that lie closer than this are not drawn one over the other, in points.
+    static constexpr double kRestGap = 6.0;
+    static constexpr double kMovingGap = 14.0;
+    static constexpr std::size_t kMovingTestsMax = 100;
+
+    bool isTiled() const { return geometry_.map()->heightfield().isTiled(); }
+    // Converting positions takes longer than drawing: they are kept until items or maps change.
+    void placeDots() const
+    {
+        if (are_dots_listed_ && are_dots_placed_) {
+            return;
+        }
+        const std::vector<Dot> before = std::exchange(dots_, {});
+        auto known = before.begin();
+        others_.clear();
+        for (const Item& item : state_.items) {
+            if (!item.isSingle() || item.vertices.size() != 1) {
+                others_.push_back(item.id);
+                continue;
+            }
+            while (known != before.end() && known->item < item.id) {
+                ++known;
+            }
+            const bool is_known = are_dots_placed_ && known != before.end() &&
+                                  known->item == item.id && known->vertex == item.vertices.front();
+            if (is_known) {
+                dots_.push_back(*known);
+                continue;
+            }
+            dots_.push_back({.item = item.id,
+                             .vertex = item.vertices.front(),
+                             .place = isShown(item) && hasHandles(item)
+                                          ? geometry_.levelPoint(item.vertices.front())
+                                          : std::nullopt});
+        }
+        are_dots_listed_ = true;
+        are_dots_placed_ = true;
+    }
+    std::optional<QPointF> screenPlaceOf(const Dot& dot) const
+    {
+        return dot.place ? view_.positionOfPlace(
+                               {dot.place->x, dot.place->y, dot.place->z * view_.exaggeration()})
+                         : std::nullopt;
+    }
+
     // Places ----------------------------------------------------------------------------------
 
     std::optional<Place> placeOf(const RayHit& hit) const
@@ -466,24 +568,55 @@ private:
     std::optional<Place> snappedAt(QPointF position) const
     {
         std::optional<Place> place = placeAt(position);
-        for (const Snap& snap : snaps_) {
-            const auto vertex = place ? snap(position) : std::nullopt;
-            if (vertex && geometry_.positionOf(*vertex)) {
-                place->vertex = *vertex;
-                break;
-            }
+        if (place) {
+            snap(*place, position);
         }
         return place;
+    }
+    void snap(Place& place, QPointF position) const
+    {
+        for (const Snap& snap : snaps_) {
+            if (const auto vertex = snap(position); vertex && geometry_.positionOf(*vertex)) {
+                place.vertex = *vertex;
+                return;
+            }
+        }
     }
     // By crosshair, stylus or hand.
     std::optional<Place> placeRead() const
     {
         const auto hit = view_.reading();
-        std::optional<Place> place = hit ? placeOf(*hit) : std::nullopt;
+        return hit ? placeBelow(*hit) : std::nullopt;
+    }
+    // On the layer that is seen there.
+    std::optional<Place> placeBelow(const RayHit& hit) const
+    {
+        std::optional<Place> place = placeOf(hit);
         if (const auto position = place ? geometry_.screenPoint(place->vertex) : std::nullopt) {
             place->layer = layerSeenAt(*position).value_or(place->layer);
         }
         return place;
+    }
+    // The last point again, within `reach` points of the screen, finishes the item. Where that has
+    // been done, with a click for example, no other item of the kind begins.
+    void addOrFinish(const Place& place, double reach)
+    {
+        const Item* item = current();
+        const auto here = geometry_.screenPoint(place.vertex);
+        const auto last =
+            item != nullptr ? geometry_.screenPoint(item->vertices.back()) : std::nullopt;
+        const bool is_last = here && last && distanceBetween(*here, *last) <= reach;
+        if (is_last && !item->is_finished) {
+            finish();
+        } else if (!is_last || !isLikeNext(*item)) {
+            addPoint(place);
+        }
+    }
+    bool isLikeNext(const Item& item) const
+    {
+        const Item next = newItem(state_.next_id);
+        return item.isSingle() == next.isSingle() && item.isLine() == next.isLine() &&
+               item.isClosed() == next.isClosed();
     }
     void addPoint(const Place& place)
     {
@@ -494,8 +627,7 @@ private:
             fresh.id = state.next_id++;
             fresh.layer = place.layer;
             fresh.time = QDateTime::currentDateTime();
-            state.items.push_back(std::move(fresh));
-            item = &state.items.back();
+            item = &state.items.push_back(std::move(fresh));
             state.current = item->id;
         }
         item->vertices.push_back(place.vertex);
@@ -507,24 +639,54 @@ private:
 
     // The tool --------------------------------------------------------------------------------
 
+    // The current item's first, otherwise the nearest one.
     std::optional<DrawnHandle> handleAt(QPointF position) const
     {
+        const Item* selected = current();
+        std::optional<DrawnHandle> nearest;
+        double reach = kReach;
+        const auto look = [&](const std::optional<QPointF>& place, std::uint32_t item,
+                              std::size_t index) {
+            if (place && distanceBetween(*place, position) <= reach) {
+                reach = distanceBetween(*place, position);
+                nearest = DrawnHandle{.place = *place, .item = item, .index = index};
+            }
+        };
+        const auto look_at = [&](const Item& item) {
+            for (std::size_t i = 0; i < item.vertices.size(); ++i) {
+                look(geometry_.screenPoint(item.vertices[i]), item.id, i);
+            }
+        };
+        if (selected != nullptr && isShown(*selected) && hasHandles(*selected)) {
+            look_at(*selected);
+        }
         // While an item is being drawn, points of others are places to snap to.
-        const Item* item = current();
-        const bool is_drawing = item != nullptr && !item->is_finished;
-        for (const DrawnHandle& handle : handles()) {
-            if (distanceBetween(handle.place, position) <= kReach &&
-                (!is_drawing || handle.item == item->id)) {
-                return handle;
+        if (nearest || (selected != nullptr && !selected->is_finished)) {
+            return nearest;
+        }
+        placeDots();
+        for (const Dot& dot : dots_) {
+            look(screenPlaceOf(dot), dot.item, 0);
+        }
+        for (const std::uint32_t id : others_) {
+            if (const Item& item = *itemOf(id); isShown(item) && hasHandles(item)) {
+                look_at(item);
             }
         }
-        return std::nullopt;
+        return nearest;
     }
-    bool grab(QPointF position) override
+    bool grabHandle(QPointF position)
     {
         if (const auto handle = handleAt(position)) {
             select(handle->item);
             grabbed_ = Grabbed{handle->item, handle->index, state_};
+            return true;
+        }
+        return false;
+    }
+    bool grab(QPointF position) override
+    {
+        if (grabHandle(position)) {
             return true;
         }
         // Between two points of the current item, once it is finished, a drag inserts one.
@@ -554,9 +716,9 @@ private:
         }
         return false;
     }
-    void drag(QPointF position) override
+    void drag(QPointF position) override { dragTo(placeAt(position)); }
+    void dragTo(const std::optional<Place>& place)
     {
-        const auto place = placeAt(position);
         State state = state_;
         Item* item = grabbed_ ? editable(state, grabbed_->item) : nullptr;
         if (place && item != nullptr && grabbed_->index < item->vertices.size()) {
@@ -593,6 +755,47 @@ private:
         }
     }
     void doubleClick(QPointF /*position*/) override { finish(); }
+    // As a click or a drag of the mouse. A hand in the air is less steady than one on a table:
+    // every press within reach of the last point finishes the item, and one at the first point of
+    // a border closes it.
+    void pressStylus(const RayHit& hit) override
+    {
+        geometry_.update();
+        std::optional<Place> place = placeBelow(hit);
+        const auto position = place ? geometry_.screenPoint(place->vertex) : std::nullopt;
+        if (!position || grabbed_) {
+            return;
+        }
+        const Item* item = current();
+        const bool is_open = item != nullptr && !item->is_finished;
+        if (!is_open && grabHandle(*position)) {
+            is_stylus_holding_ = true;
+            return;
+        }
+        const auto first =
+            is_open ? geometry_.screenPoint(item->vertices.front()) : std::optional<QPointF>();
+        if (first && item->isClosed() && item->isComplete() &&
+            distanceBetween(*first, *position) <= kReach) {
+            finish();
+            return;
+        }
+        snap(*place, *position);
+        addOrFinish(*place, kReach);
+    }
+    void moveStylus(const RayHit& hit) override
+    {
+        if (is_stylus_holding_) {
+            dragTo(placeBelow(hit));
+        } else if (const Item* item = current(); item != nullptr && !item->is_finished) {
+            drawSoon(); // the line to the stylus
+        }
+    }
+    void releaseStylus() override
+    {
+        if (std::exchange(is_stylus_holding_, false)) {
+            release();
+        }
+    }
     void hover(std::optional<QPointF> position) override
     {
         pointer_ = position;
@@ -647,12 +850,26 @@ private:
         }
     }
 
+    // Where the next point of an open item would be; nothing if none is drawn.
+    std::optional<Place> placePointed() const
+    {
+        const Item* item = current();
+        if (view_.tool() != tool_ || item == nullptr || item->is_finished) {
+            return std::nullopt;
+        }
+        return view_.readingSource() == ReadingSource::Stylus ? placeRead()
+               : pointer_                                     ? placeAt(*pointer_)
+                                                              : std::nullopt;
+    }
+
     // The picture -----------------------------------------------------------------------------
 
     void drawLines()
     {
         draw_timer_.stop();
+        const auto map = geometry_.map();
         geometry_.update();
+        are_dots_placed_ = are_dots_placed_ && map == geometry_.map();
         legs_.clear();
         if (geometry_.isEmpty()) {
             view_.setLines({}, line_set_);
@@ -660,8 +877,10 @@ private:
             return;
         }
         const Ground& ground = geometry_.ground();
-        const auto pointed = pointer_ && !grabbed_ ? placeAt(*pointer_) : std::nullopt;
-        for (const Item& item : state_.items) {
+        const auto pointed = grabbed_ ? std::nullopt : placePointed();
+        placeDots();
+        for (const std::uint32_t id : others_) { // the rest has no lines
+            const Item& item = *itemOf(id);
             if (!isShown(item)) {
                 continue;
             }
@@ -693,6 +912,9 @@ private:
         addLines(lines);
         view_.setLines(std::move(lines), line_set_);
         Q_EMIT moved();
+        if (map != geometry_.map() && !state_.items.empty()) {
+            Q_EMIT changed(); // which items are shown
+        }
     }
 
     TerrainView& view_;
@@ -706,7 +928,14 @@ private:
     std::vector<Snap> snaps_;
     std::optional<QPointF> pointer_;
     std::optional<Grabbed> grabbed_;
-    QTimer draw_timer_; // gathers reasons to draw the lines again
+    bool is_stylus_holding_ = false;            // what is grabbed
+    mutable std::vector<Dot> dots_;             // by id
+    mutable std::vector<std::uint32_t> others_; // items that are more than a dot
+    mutable bool are_dots_listed_ = false;      // both are those of the state
+    mutable bool are_dots_placed_ = false;      // dots are where the maps have them
+    mutable std::set<std::pair<std::uint32_t, std::size_t>> hidden_; // in the last picture
+    bool is_moving_ = false; // the camera has moved since the picture was complete
+    QTimer draw_timer_;      // gathers reasons to draw the lines again
 };
 
 } // namespace marsview

@@ -3,6 +3,7 @@
 
 #include "core/annotations/drawn_vertex.h"
 #include "core/session/session.h"
+#include "ui/drawing/item_list.h"
 
 #include <QDateTime>
 #include <QPointF>
@@ -32,7 +33,7 @@ struct DrawnItem {
 /// What the user did; undo returns to earlier ones.
 template <typename Item>
 struct DrawnState {
-    std::vector<Item> items;   // in the order in which they were begun
+    ItemList<Item> items;      // in the order in which they were begun
     std::uint32_t current = 0; // shown in detail; 0: none
     std::uint32_t next_id = 1;
 

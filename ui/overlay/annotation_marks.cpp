@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 namespace marsview {
@@ -17,6 +18,7 @@ constexpr double kSymbolRadius = 6.0; // of a symbol
 constexpr double kSymbolRim = 1.5;
 constexpr double kHiddenSymbolOpacity = 0.35;
 constexpr std::size_t kLabelsMax = 200;
+constexpr std::size_t kLabelTriesMax = 1000; // of a picture, most of them without room
 
 // With `count` corners, the first one at the top; every second one at `inner` of the radius.
 QPainterPath starPath(QPointF place, double radius, int count, double inner)
@@ -85,17 +87,50 @@ DrawnMarks::Mark AnnotationMarks::symbolMark(const AnnotationItem& item,
     const bool is_current = item.id == controller_.state().current;
     const double radius = is_current ? kSymbolRadius + 1.5 : kSymbolRadius;
     const double opacity = handle.is_hidden ? kHiddenSymbolOpacity : 1.0;
-    return {boxAround(handle.place, 1.25 * radius + kSymbolRim + 1.0), false,
-            [path = symbolPath(item.symbol, handle.place, radius), opacity, is_current,
-             color = colorOf(controller_.colorOf(item))](QPainter& painter) {
-                painter.setOpacity(opacity);
-                if (is_current) {
-                    drawContrasting(painter, path, colorOf(kCurrentDrawnColor), 2.0);
+    const QRectF box = boxAround(handle.place, 1.25 * radius + kSymbolRim + 1.0);
+    const auto draw = [symbol = item.symbol, radius, opacity, is_current,
+                       color = colorOf(controller_.colorOf(item))](QPainter& painter,
+                                                                   QPointF place) {
+        const QPainterPath path = symbolPath(symbol, place, radius);
+        painter.setOpacity(opacity);
+        if (is_current) {
+            drawContrasting(painter, path, colorOf(kCurrentDrawnColor), 2.0);
+        }
+        painter.fillPath(path, color);
+        painter.setPen(QPen(QColor(0, 0, 0, 200), kSymbolRim));
+        painter.drawPath(path);
+        painter.setOpacity(1.0);
+    };
+    if (is_current) {
+        return {box, false,
+                [draw, place = handle.place](QPainter& painter) { draw(painter, place); }};
+    }
+    // Of many that look the same, the picture is made once.
+    const auto key =
+        std::tuple(item.symbol, colorOf(controller_.colorOf(item)).rgb(), handle.is_hidden);
+    return {box, false, [this, draw, box, key](QPainter& painter) {
+                const double scale = painter.device()->devicePixelRatioF();
+                if (painter.transform().type() > QTransform::TxTranslate) {
+                    draw(painter, box.center()); // into a picture of another size
+                    return;
                 }
-                painter.fillPath(path, color);
-                painter.setPen(QPen(QColor(0, 0, 0, 200), kSymbolRim));
-                painter.drawPath(path);
-                painter.setOpacity(1.0);
+                if (scale != stamp_scale_) {
+                    stamps_.clear();
+                    stamp_scale_ = scale;
+                }
+                QPixmap& stamp = stamps_[key];
+                if (stamp.isNull()) {
+                    stamp = QPixmap((box.size() * scale).toSize());
+                    stamp.setDevicePixelRatio(scale);
+                    stamp.fill(Qt::transparent);
+                    QPainter stamping(&stamp);
+                    stamping.setRenderHint(QPainter::Antialiasing);
+                    draw(stamping, QRectF(QPointF(), box.size()).center());
+                }
+                // On whole pixels, so that it stays sharp.
+                const QPointF corner = box.topLeft() * scale;
+                painter.drawPixmap(QPointF(std::round(corner.x()), std::round(corner.y())) / scale,
+                                   stamp);
             }};
 }
 
@@ -107,30 +142,41 @@ std::vector<DrawnMarks::Mark> AnnotationMarks::marks() const
         return marks;
     }
     const std::vector<DrawnHandle> handles = controller_.handles();
+    std::vector<const AnnotationItem*> named;
+    if (const AnnotationItem* current = controller_.current()) {
+        named.push_back(current);
+    }
     for (auto handle = handles.rbegin(); handle != handles.rend(); ++handle) {
         const AnnotationItem& item = *controller_.itemOf(handle->item);
         marks.push_back(item.isSingle() ? symbolMark(item, *handle) : handleMark(*handle, true));
+        if (item.isSingle() && item.id != state.current && !handle->is_hidden) {
+            named.push_back(&item);
+        }
+    }
+    for (const std::uint32_t id : controller_.lineItems()) {
+        if (id != state.current) {
+            named.push_back(controller_.itemOf(id));
+        }
     }
     // The current one first, then those that were drawn last.
-    std::vector<const AnnotationItem*> named;
-    for (auto item = state.items.rbegin(); item != state.items.rend(); ++item) {
-        named.insert(item->id == state.current ? named.begin() : named.end(), &*item);
+    if (named.size() > 1) {
+        std::sort(named.begin() + (controller_.current() != nullptr ? 1 : 0), named.end(),
+                  [](const AnnotationItem* a, const AnnotationItem* b) { return a->id > b->id; });
     }
-    std::vector<QRectF> taken;
+    if (named.size() > kLabelTriesMax) {
+        named.resize(kLabelTriesMax);
+    }
+    LabelRoom room = roomBeside(marks);
+    std::size_t labels = 0;
     for (const AnnotationItem* item : named) {
-        const auto place = taken.size() < kLabelsMax ? controller_.labelPlace(*item) : std::nullopt;
+        const auto place = labels < kLabelsMax ? controller_.labelPlace(*item) : std::nullopt;
         if (!place || item->name.isEmpty()) {
             continue;
         }
         const QColor color =
             item->id == state.current ? colorOf(kCurrentDrawnColor) : overlayTextColor();
-        auto label = labelMark(*place, item->name, color);
-        const bool is_free =
-            label && std::none_of(taken.begin(), taken.end(), [&label](const QRectF& box) {
-                return box.intersects(label->box);
-            });
-        if (is_free) {
-            taken.push_back(label->box);
+        if (auto label = labelMark(*place, item->name, color, room)) {
+            ++labels;
             marks.push_back(std::move(*label));
         }
     }

@@ -5,6 +5,11 @@
 #include "ui/overlay/drawn_marks.h"
 
 #include <QPainterPath>
+#include <QPixmap>
+#include <QRgb>
+
+#include <map>
+#include <tuple>
 
 namespace marsview {
 
@@ -23,6 +28,9 @@ private:
     Mark symbolMark(const AnnotationItem& item, const DrawnHandle& handle) const;
 
     AnnotationController& controller_;
+    using Look = std::tuple<MarkSymbol, QRgb, bool>; // color, whether it is hidden
+    mutable std::map<Look, QPixmap> stamps_;
+    mutable double stamp_scale_ = 1.0;
 };
 
 /// Around a place, of that radius.

@@ -1,5 +1,6 @@
 #include "ui/overlay/drawn_marks.h"
 
+#include "ui/canvas/terrain_view.h"
 #include "ui/drawing/drawing_base.h"
 #include "ui/widgets/plate.h"
 
@@ -30,15 +31,36 @@ DrawnMarks::DrawnMarks(const DrawingBase& drawing, QWidget* view)
     setFocusPolicy(Qt::NoFocus);
     setGeometry(view->rect());
     view->installEventFilter(this);
-    const auto repaint = [this] { update(); };
-    connect(&drawing, &DrawingBase::moved, this, repaint);
-    connect(&drawing, &DrawingBase::changed, this, repaint);
+    connect(&drawing, &DrawingBase::moved, this, &DrawnMarks::noteChange);
+    connect(&drawing, &DrawingBase::changed, this, &DrawnMarks::noteChange);
+    if (const auto* terrain = qobject_cast<TerrainView*>(view)) {
+        const auto forget = [this] { marks_.reset(); };
+        connect(terrain, &TerrainView::sightChanged, this, forget);
+        connect(terrain, &TerrainView::exaggerationChanged, this, forget);
+        connect(terrain, &TerrainView::layersChanged, this, forget);
+    }
+}
+
+void DrawnMarks::noteChange()
+{
+    marks_.reset();
+    update();
+    Q_EMIT marksChanged();
+}
+
+const std::vector<DrawnMarks::Mark>& DrawnMarks::knownMarks() const
+{
+    if (!marks_) {
+        marks_ = marks();
+    }
+    return *marks_;
 }
 
 bool DrawnMarks::eventFilter(QObject* watched, QEvent* event)
 {
     if (watched == parent() && event->type() == QEvent::Resize) {
         setGeometry(parentWidget()->rect());
+        marks_.reset();
     }
     return QWidget::eventFilter(watched, event);
 }
@@ -68,16 +90,32 @@ DrawnMarks::Mark DrawnMarks::handleMark(const DrawnHandle& handle, bool is_curre
             }};
 }
 
-std::optional<DrawnMarks::Mark>
-DrawnMarks::labelMark(QPointF place, const QString& text, const QColor& color) const
+DrawnMarks::LabelRoom DrawnMarks::roomBeside(const std::vector<Mark>& marks) const
+{
+    constexpr std::size_t kMarksMax = 500; // beyond, no room is left anyway
+    LabelRoom room;
+    if (neighbor_ != nullptr) {
+        room.labels = neighbor_->labelBoxes();
+    }
+    for (std::size_t i = 0; i < std::min(marks.size(), kMarksMax); ++i) {
+        room.marks.push_back(marks[i].box);
+    }
+    return room;
+}
+
+std::optional<DrawnMarks::Mark> DrawnMarks::labelMark(QPointF place,
+                                                      const QString& text,
+                                                      const QColor& color,
+                                                      LabelRoom& room) const
 {
     const QFontMetricsF metrics(font());
     const QSizeF size(metrics.horizontalAdvance(text) + 2.0 * kLabelPadding,
                       metrics.height() + kLabelPadding);
-    const auto plate = labelBox(place, size);
+    const auto plate = labelBox(place, size, room);
     if (!plate) {
         return std::nullopt;
     }
+    room.labels.push_back(*plate);
     return Mark{*plate, true, [plate = *plate, text, color](QPainter& painter) {
                     drawPlate(painter, plate);
                     painter.setPen(color);
@@ -85,7 +123,8 @@ DrawnMarks::labelMark(QPointF place, const QString& text, const QColor& color) c
                 }};
 }
 
-std::optional<QRectF> DrawnMarks::labelBox(QPointF place, const QSizeF& size) const
+std::optional<QRectF>
+DrawnMarks::labelBox(QPointF place, const QSizeF& size, const LabelRoom& room) const
 {
     const double x = kLabelOffset.x();
     const double y = kLabelOffset.y();
@@ -93,24 +132,33 @@ std::optional<QRectF> DrawnMarks::labelBox(QPointF place, const QSizeF& size) co
                                          place + QPointF(-x - size.width(), y - size.height()),
                                          place + QPointF(x, -y),
                                          place + QPointF(-x - size.width(), -y)};
-    const QRectF room = QRectF(rect()).adjusted(2.0, 2.0, -2.0, -2.0);
+    const QRectF inside = QRectF(rect()).adjusted(2.0, 2.0, -2.0, -2.0);
+    const auto is_clear_of = [](const std::vector<QRectF>& boxes, const QRectF& box) {
+        return std::none_of(boxes.begin(), boxes.end(),
+                            [&box](const QRectF& other) { return box.intersects(other); });
+    };
+    std::optional<QRectF> over_marks; // if there is nothing better
     for (const QPointF& corner : corners) {
         const QRectF box(corner, size);
         const bool is_clear =
             std::none_of(obstacles_.begin(), obstacles_.end(), [&box](const QWidget* obstacle) {
                 return obstacle->isVisible() && box.intersects(obstacle->geometry());
             });
-        if (is_clear && room.contains(box)) {
+        if (!is_clear || !inside.contains(box) || !is_clear_of(room.labels, box)) {
+            continue;
+        }
+        if (is_clear_of(room.marks, box)) {
             return box;
         }
+        over_marks = over_marks.value_or(box);
     }
-    return std::nullopt;
+    return over_marks;
 }
 
 std::vector<QRectF> DrawnMarks::labelBoxes() const
 {
     std::vector<QRectF> boxes;
-    for (const Mark& mark : marks()) {
+    for (const Mark& mark : knownMarks()) {
         if (mark.is_label) {
             boxes.push_back(mark.box);
         }
@@ -120,9 +168,10 @@ std::vector<QRectF> DrawnMarks::labelBoxes() const
 
 void DrawnMarks::paintEvent(QPaintEvent* /*event*/)
 {
+    marks_.reset(); // obstacles may have moved
     QPainter painter(this);
     painter.setRenderHint(QPainter::Antialiasing);
-    for (const Mark& mark : marks()) {
+    for (const Mark& mark : knownMarks()) {
         mark.draw(painter);
     }
 }
@@ -133,7 +182,7 @@ std::vector<PicturePart> DrawnMarks::partsFor(const QSize& picture) const
     const double scale = static_cast<double>(picture.height()) / height();
     const QPointF corner(0.5 * (width() - picture.width() / scale), 0.0);
     std::vector<PicturePart> parts;
-    for (const Mark& mark : marks()) {
+    for (const Mark& mark : knownMarks()) {
         const QRectF box = mark.box.adjusted(-1.0, -1.0, 1.0, 1.0);
         QImage image((box.size() * scale).toSize(), QImage::Format_ARGB32_Premultiplied);
         image.fill(Qt::transparent);

@@ -30,10 +30,16 @@ public:
 
     /// Widgets that labels keep clear of while they are visible.
     void setObstacles(const QList<QWidget*>& obstacles) { obstacles_ = obstacles; }
-    /// Of the labels as they are drawn now, in points.
+    /// Marks of the same view whose labels take their room first; they outlive this.
+    void setNeighbor(const DrawnMarks& neighbor) { neighbor_ = &neighbor; }
+    /// Of the labels as they are drawn now, in points. None overlap, also not those of neighbors.
     std::vector<QRectF> labelBoxes() const;
     /// For a picture of the view of any size: as large as in the view where it is as high.
     std::vector<PicturePart> partsFor(const QSize& picture) const;
+
+Q_SIGNALS:
+    /// What is drawn may have changed.
+    void marksChanged();
 
 protected:
     struct Mark {
@@ -48,16 +54,30 @@ protected:
     static QRectF boxAround(QPointF place, double radius);
     /// A dot with a dark rim, faint where it is hidden.
     static Mark handleMark(const DrawnHandle& handle, bool is_current);
-    /// Next to a place, within the view and clear of the obstacles. Empty if it does not fit.
-    std::optional<Mark> labelMark(QPointF place, const QString& text, const QColor& color) const;
+    /// Room for labels: those placed before, which none overlaps, and marks that labels do not
+    /// cover where there is other room.
+    struct LabelRoom {
+        std::vector<QRectF> labels;
+        std::vector<QRectF> marks;
+    };
+    /// With the labels of the neighbors, and these marks.
+    LabelRoom roomBeside(const std::vector<Mark>& marks) const;
+    /// Next to a place, within the view and clear of obstacles and other labels, and adds it to
+    /// `room`. Empty if it does not fit.
+    std::optional<Mark>
+    labelMark(QPointF place, const QString& text, const QColor& color, LabelRoom& room) const;
+    void noteChange();
 
     void paintEvent(QPaintEvent* event) override;
     bool eventFilter(QObject* watched, QEvent* event) override;
 
 private:
-    std::optional<QRectF> labelBox(QPointF place, const QSizeF& size) const;
+    std::optional<QRectF> labelBox(QPointF place, const QSizeF& size, const LabelRoom& room) const;
+    const std::vector<Mark>& knownMarks() const;
 
     QList<QWidget*> obstacles_;
+    const DrawnMarks* neighbor_ = nullptr;
+    mutable std::optional<std::vector<Mark>> marks_; // since the last change
 };
 
 } // namespace marsview

@@ -2,6 +2,7 @@
 
 #include "core/view/label_placement.h"
 #include "ui/canvas/terrain_view.h"
+#include "ui/overlay/drawn_marks.h"
 #include "ui/text/coordinate_text.h"
 #include "ui/widgets/plate.h"
 
@@ -108,6 +109,26 @@ void MapLabels::setObstacles(std::vector<QWidget*> obstacles)
     }
 }
 
+void MapLabels::keepClearOf(const DrawnMarks& marks)
+{
+    marked_.push_back(&marks);
+    connect(&marks, &DrawnMarks::marksChanged, this, [this] {
+        if (markedBoxes() != marked_boxes_) {
+            obstacles_timer_.start();
+        }
+    });
+}
+
+std::vector<QRectF> MapLabels::markedBoxes() const
+{
+    std::vector<QRectF> boxes;
+    for (const DrawnMarks* marks : marked_) {
+        const std::vector<QRectF> more = marks->labelBoxes();
+        boxes.insert(boxes.end(), more.begin(), more.end());
+    }
+    return boxes;
+}
+
 void MapLabels::setCursorPlace(const std::optional<QPointF>& place)
 {
     const auto covered = [this] {
@@ -186,6 +207,10 @@ void MapLabels::showSight()
                 taken.push_back(scaled(obstacle->geometry(), sight.scale));
             }
         }
+        marked_boxes_ = markedBoxes();
+        for (const QRectF& box : marked_boxes_) {
+            taken.push_back(scaled(box, sight.scale));
+        }
         marks_ = marksOf(sight, names_.get(), std::move(taken));
         for (const Mark& mark : marks_) {
             (mark.is_name ? names_shown_ : values_shown_).push_back(mark.label);
@@ -254,6 +279,12 @@ std::vector<PicturePart> MapLabels::partsFor(const OrbitCamera& camera,
     taken.reserve(obstacles.size());
     for (const QRect& obstacle : obstacles) {
         taken.push_back(scaled(obstacle, 1.0));
+    }
+    if (camera == view_.camera()) { // measurements and annotations are drawn as in the view
+        const double left = 0.5 * (width() - size.width() / sight.scale);
+        for (const QRectF& box : markedBoxes()) {
+            taken.push_back(scaled(box.translated(-left, 0.0), sight.scale));
+        }
     }
     // Of their own, because those of the view remember what they showed last.
     std::unique_ptr<NameLabels> names;

@@ -18,6 +18,7 @@
 
 namespace marsview {
 
+class DrawnMarks;
 class TerrainView;
 
 /// Covers the view and is transparent to the mouse. Labels are white with a dark rim, so that they
@@ -36,6 +37,8 @@ public:
     void setCoordinateFormat(const CoordinateFormat& format);
     /// Widgets that labels keep clear of while they are visible.
     void setObstacles(std::vector<QWidget*> obstacles);
+    /// Marks whose labels no name covers, or is covered by; they outlive this.
+    void keepClearOf(const DrawnMarks& marks);
     /// Where the cursor of a touch is, in points; nothing while it is not seen. Names that would
     /// hide it are left out.
     void setCursorPlace(const std::optional<QPointF>& place);
@@ -75,6 +78,7 @@ private:
 
     void showScene();
     void showSight();
+    std::vector<QRectF> markedBoxes() const;
     bool isOnCursor(const Mark& mark) const;
     void drawGraticule();
     std::vector<Mark> marksOf(const Sight& sight, NameLabels* names, std::vector<LabelBox> taken);
@@ -95,7 +99,9 @@ private:
     std::vector<std::weak_ptr<const Map>> maps_; // that it was made for
     CoordinateFormat format_;
     std::vector<QWidget*> obstacles_;
-    QTimer obstacles_timer_; // until all of them have moved
+    std::vector<const DrawnMarks*> marked_;
+    std::vector<QRectF> marked_boxes_; // of the labels of these, as of the last showSight()
+    QTimer obstacles_timer_;           // until all of them have moved
     std::optional<QPointF> cursor_;
     bool are_names_shown_ = true;
     bool is_graticule_shown_ = false;

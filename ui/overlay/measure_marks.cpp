@@ -14,13 +14,13 @@ MeasureMarks::MeasureMarks(MeasureController& controller, QWidget* view)
     , controller_(controller)
 {
     setAccessibleName(tr("Points of the measurements"));
-    connect(&controller_, &MeasureController::measured, this, [this] { update(); });
+    connect(&controller_, &MeasureController::measured, this, &MeasureMarks::noteChange);
 }
 
 void MeasureMarks::setHeightUnit(HeightUnit unit)
 {
     unit_ = unit;
-    update();
+    noteChange();
 }
 
 std::vector<DrawnMarks::Mark> MeasureMarks::marks() const
@@ -42,7 +42,14 @@ std::vector<DrawnMarks::Mark> MeasureMarks::marks() const
                              drawContrasting(painter, ring, Qt::white, 2.0);
                          }});
     }
-    for (const MeasureItem& item : state.items) {
+    // The current one first, then those that were drawn last.
+    std::vector<const MeasureItem*> named;
+    for (auto item = state.items.rbegin(); item != state.items.rend(); ++item) {
+        named.insert(item->id == state.current ? named.begin() : named.end(), &*item);
+    }
+    LabelRoom room = roomBeside(marks);
+    for (const MeasureItem* each : named) {
+        const MeasureItem& item = *each;
         const MeasureOutcome& outcome = controller_.outcome(item.id);
         const auto place = controller_.labelPlace(item.id);
         // What lies beyond the picture has its numbers in the panel.
@@ -52,7 +59,7 @@ std::vector<DrawnMarks::Mark> MeasureMarks::marks() const
         }
         const QColor color =
             item.id == state.current ? colorOf(kCurrentDrawnColor) : overlayTextColor();
-        if (auto label = labelMark(*place, text, color)) {
+        if (auto label = labelMark(*place, text, color, room)) {
             marks.push_back(std::move(*label));
         }
     }

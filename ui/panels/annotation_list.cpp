@@ -9,6 +9,11 @@
 #include <algorithm>
 
 namespace marsview {
+namespace {
+
+constexpr int kShownRole = Qt::UserRole + 1;
+
+} // namespace
 
 AnnotationList::AnnotationList(AnnotationController& controller, QWidget* parent)
     : DrawnList(controller,
@@ -33,11 +38,18 @@ void AnnotationList::fill(QTreeWidgetItem& row, const DrawnItem& drawn)
     row.setText(ShapeColumn, shapeText(item.shape));
     // Bodies that are not in the picture are grayed.
     row.setText(BodyColumn, QString::fromStdString(item.body.name));
-    const QPalette::ColorGroup group =
-        controller_.isShown(item) ? QPalette::Active : QPalette::Disabled;
+    const bool is_shown = controller_.isShown(item);
+    const QPalette::ColorGroup group = is_shown ? QPalette::Active : QPalette::Disabled;
     for (const int column : {NameColumn, ShapeColumn, NoteColumn, BodyColumn}) {
         row.setForeground(column, palette().brush(group, QPalette::Text));
     }
+    row.setData(NameColumn, kShownRole, is_shown);
+}
+
+bool AnnotationList::isStale(const QTreeWidgetItem& row, const DrawnItem& drawn) const
+{
+    const AnnotationItem& item = *controller_.itemOf(drawn.id);
+    return row.data(NameColumn, kShownRole).toBool() != controller_.isShown(item);
 }
 
 void AnnotationList::addActions(QMenu& menu, const std::vector<std::uint32_t>& ids)

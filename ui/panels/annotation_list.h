@@ -18,6 +18,7 @@ public:
 
 protected:
     void fill(QTreeWidgetItem& row, const DrawnItem& item) override;
+    bool isStale(const QTreeWidgetItem& row, const DrawnItem& item) const override;
     void addActions(QMenu& menu, const std::vector<std::uint32_t>& ids) override;
 
 private:

@@ -12,6 +12,7 @@
 #include <QScopedValueRollback>
 
 #include <algorithm>
+#include <unordered_set>
 #include <utility>
 
 namespace marsview {
@@ -25,6 +26,8 @@ constexpr int kIdRole = Qt::UserRole;
 class DrawnList::Row final : public QTreeWidgetItem {
 public:
     using QTreeWidgetItem::QTreeWidgetItem;
+
+    const DrawnItem* shown = nullptr; // that it was filled from
 
     bool operator<(const QTreeWidgetItem& other) const override
     {
@@ -85,11 +88,12 @@ bool DrawnList::isBefore(const QTreeWidgetItem& a, const QTreeWidgetItem& b, int
 
 std::vector<std::uint32_t> DrawnList::selectedIds() const
 {
+    QModelIndexList rows = selectionModel()->selectedRows();
+    std::sort(rows.begin(), rows.end(),
+              [](const QModelIndex& a, const QModelIndex& b) { return a.row() < b.row(); });
     std::vector<std::uint32_t> ids;
-    for (int i = 0; i < topLevelItemCount(); ++i) {
-        if (const QTreeWidgetItem* row = topLevelItem(i); row->isSelected()) {
-            ids.push_back(idOf(*row));
-        }
+    for (const QModelIndex& row : rows) {
+        ids.push_back(row.data(kIdRole).toUInt());
     }
     return ids;
 }
@@ -108,14 +112,21 @@ void DrawnList::showItems()
     while (topLevelItemCount() > static_cast<int>(items.size())) {
         delete takeTopLevelItem(topLevelItemCount() - 1);
     }
+    QList<QTreeWidgetItem*> added;
     for (std::size_t i = 0; i < items.size(); ++i) {
-        QTreeWidgetItem* row = topLevelItem(static_cast<int>(i));
+        auto* row = static_cast<Row*>(topLevelItem(static_cast<int>(i)));
         if (row == nullptr) {
-            row = new Row(this);
+            row = new Row;
             row->setFlags(row->flags() | Qt::ItemIsEditable);
+            added.append(row);
         }
-        fillRow(*row, *items[i]);
+        if (row->shown != items[i] || isStale(*row, *items[i])) {
+            row->shown = items[i];
+            fillRow(*row, *items[i]);
+        }
     }
+    addTopLevelItems(added);
+    shown_ = drawing_.drawnSnapshot();
     setSortingEnabled(true);
     restoreSelection(selected);
 }
@@ -124,15 +135,17 @@ void DrawnList::showItems()
 void DrawnList::restoreSelection(const std::vector<std::uint32_t>& selected)
 {
     const std::uint32_t current = drawing_.currentId();
-    const auto is_in = [&selected](std::uint32_t id) {
-        return std::find(selected.begin(), selected.end(), id) != selected.end();
-    };
+    const std::unordered_set<std::uint32_t> kept(selected.begin(), selected.end());
+    const bool is_kept = kept.contains(current);
     QTreeWidgetItem* current_row = nullptr;
     for (int i = 0; i < topLevelItemCount(); ++i) {
         QTreeWidgetItem* row = topLevelItem(i);
         const std::uint32_t id = idOf(*row);
         current_row = id == current ? row : current_row;
-        row->setSelected(is_in(current) ? is_in(id) : id == current);
+        const bool is_selected = is_kept ? kept.contains(id) : id == current;
+        if (row->isSelected() != is_selected) {
+            row->setSelected(is_selected);
+        }
     }
     setCurrentItem(current_row, std::max(0, currentColumn()), QItemSelectionModel::NoUpdate);
     if (current_row != nullptr) {
@@ -154,8 +167,9 @@ void DrawnList::fillRow(QTreeWidgetItem& row, const DrawnItem& item)
 }
 
 // Only names and notes can be changed: other texts return.
-void DrawnList::edit(const QTreeWidgetItem& row, int column)
+void DrawnList::edit(QTreeWidgetItem& row, int column)
 {
+    static_cast<Row&>(row).shown = nullptr; // its text is not that of the item
     if (column == columns_.name) {
         drawing_.rename(idOf(row), row.text(column));
     } else if (column == columns_.note) {
@@ -180,6 +194,18 @@ void DrawnList::askColor(const std::vector<std::uint32_t>& ids)
                                      static_cast<std::uint8_t>(chosen.blue())});
     });
     dialog->open();
+}
+
+// Rows may have colors of the palette.
+void DrawnList::changeEvent(QEvent* event)
+{
+    QTreeWidget::changeEvent(event);
+    if (event->type() == QEvent::PaletteChange && topLevelItemCount() > 0) {
+        for (int i = 0; i < topLevelItemCount(); ++i) {
+            static_cast<Row*>(topLevelItem(i))->shown = nullptr;
+        }
+        QMetaObject::invokeMethod(this, &DrawnList::showItems, Qt::QueuedConnection);
+    }
 }
 
 void DrawnList::removeSelected()

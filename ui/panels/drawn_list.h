@@ -6,6 +6,7 @@
 #include <QTreeWidget>
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 class QMenu;
@@ -37,11 +38,17 @@ public:
 protected:
     /// The columns other than name and note.
     virtual void fill(QTreeWidgetItem& row, const DrawnItem& item) = 0;
+    /// Whether a row has to be filled again although its item is as it was.
+    virtual bool isStale(const QTreeWidgetItem& /*row*/, const DrawnItem& /*item*/) const
+    {
+        return true;
+    }
     /// Whether row `a` comes before row `b` where the list is sorted by `column`.
     virtual bool isBefore(const QTreeWidgetItem& a, const QTreeWidgetItem& b, int column) const;
     /// What the context menu offers for items, besides what all kinds have.
     virtual void addActions(QMenu& /*menu*/, const std::vector<std::uint32_t>& /*ids*/) {}
 
+    void changeEvent(QEvent* event) override;
     void contextMenuEvent(QContextMenuEvent* event) override;
     void keyPressEvent(QKeyEvent* event) override;
 
@@ -51,10 +58,11 @@ private:
     static std::uint32_t idOf(const QTreeWidgetItem& row);
     void fillRow(QTreeWidgetItem& row, const DrawnItem& item);
     void restoreSelection(const std::vector<std::uint32_t>& selected);
-    void edit(const QTreeWidgetItem& row, int column);
+    void edit(QTreeWidgetItem& row, int column);
     void askColor(const std::vector<std::uint32_t>& ids);
 
     DrawingBase& drawing_;
+    std::shared_ptr<const void> shown_; // the items that the rows were filled from
     Columns columns_;
     bool is_filling_ = false;
     bool is_notifying_ = false; // of a change that the list itself made

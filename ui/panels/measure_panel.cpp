@@ -7,6 +7,7 @@
 #include "ui/panels/attitudes_view.h"
 #include "ui/panels/measure_list.h"
 #include "ui/panels/save_chart_dialog.h"
+#include "ui/plots/hypsometry_plot.h"
 #include "ui/plots/profile_plot.h"
 #include "ui/text/sentence.h"
 #include "ui/widgets/caption.h"
@@ -65,18 +66,21 @@ MeasurePanel::MeasurePanel(MeasureController& controller, QWidget* parent)
     makeList();
     makeResults();
     makeProfile();
+    makeHypsometry();
     auto* splitter = new QSplitter(Qt::Horizontal, this);
     splitter->setObjectName(QStringLiteral("measureParts"));
     splitter->setChildrenCollapsible(false);
     splitter->addWidget(list_->parentWidget());
     splitter->addWidget(results_side_);
     splitter->addWidget(profile_side_);
+    splitter->addWidget(hypsometry_side_);
     attitudes_ = new AttitudesView(controller_, this);
     splitter->addWidget(attitudes_);
     splitter->setStretchFactor(0, 2);
     splitter->setStretchFactor(1, 2);
     splitter->setStretchFactor(2, 5);
-    splitter->setStretchFactor(3, 3);
+    splitter->setStretchFactor(3, 4);
+    splitter->setStretchFactor(4, 3);
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(6, 4, 6, 6);
     layout->addWidget(splitter);
@@ -171,6 +175,7 @@ void MeasurePanel::makeProfile()
     stretch_note_ =
         new QLabel(tr("Drag along the profile to measure a part of it."), profile_side_);
     stretch_note_->setForegroundRole(QPalette::PlaceholderText);
+    stretch_note_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     auto* caption = makeCaption(tr("&Vertical scale"), profile_side_);
     caption->setBuddy(scale_);
     auto* line = new QHBoxLayout;
@@ -185,6 +190,29 @@ void MeasurePanel::makeProfile()
     layout->addLayout(line);
 }
 
+void MeasurePanel::makeHypsometry()
+{
+    hypsometry_side_ = new QWidget(this);
+    hypsometry_ = new HypsometryPlot(hypsometry_side_);
+    auto* save = new QPushButton(tr("Save H&ypsometry…"), hypsometry_side_);
+    save->setToolTip(tr("Save the area by classes of elevation as CSV, PNG, SVG or PDF"));
+    save->setObjectName(QStringLiteral("saveHypsometry"));
+    connect(save, &QPushButton::clicked, this, &MeasurePanel::saveHypsometry);
+    auto* note = new QLabel(
+        tr("Bars: area of each class, below. Line: share of the area above, at the top."),
+        hypsometry_side_);
+    note->setForegroundRole(QPalette::PlaceholderText);
+    // On a small screen it is cut rather than the window widened.
+    note->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    auto* line = new QHBoxLayout;
+    line->addWidget(note, 1);
+    line->addWidget(save);
+    auto* layout = new QVBoxLayout(hypsometry_side_);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->addWidget(hypsometry_, 1);
+    layout->addLayout(line);
+}
+
 QSize MeasurePanel::sizeHint() const
 {
     return {QWidget::sizeHint().width(), kHeight};
@@ -194,6 +222,7 @@ void MeasurePanel::setHeightUnit(HeightUnit unit)
 {
     unit_ = unit;
     plot_->setHeightUnit(unit);
+    hypsometry_->setHeightUnit(unit);
     list_->setHeightUnit(unit);
     showItems();
 }
@@ -205,6 +234,7 @@ void MeasurePanel::showItems()
     attitudes_->setVisible(item != nullptr && item->kind == MeasurementKind::Attitude);
     attitudes_->showItems();
     showProfile();
+    showHypsometry();
     showResult();
 }
 
@@ -246,6 +276,10 @@ void MeasurePanel::showResult()
                                          measuredLengthText(range.end_m)));
             } else {
                 rows = measureRows(*outcome.result, unit_);
+            }
+            const auto* area = outcome.as<TerrainArea>();
+            if (area != nullptr && !area->volume_above_m3) {
+                note = tr("Without volumes: no plane fits so large or so empty a border.");
             }
             if (outcome.is_running) {
                 note = tr("Approximate; every sample is being read…");
@@ -289,6 +323,15 @@ void MeasurePanel::showProfile()
     plot_->setCurves({std::move(curve)});
 }
 
+void MeasurePanel::showHypsometry()
+{
+    const MeasureItem* item = controller_.current();
+    const auto* area = item != nullptr ? controller_.outcome(item->id).as<TerrainArea>() : nullptr;
+    hypsometry_side_->setVisible(item != nullptr && item->kind == MeasurementKind::Area);
+    hypsometry_->setHypsometry(area != nullptr ? area->hypsometry : Hypsometry{},
+                               area != nullptr && area->is_approximate);
+}
+
 QString MeasurePanel::resultsText() const
 {
     QString text = title_->text();
@@ -320,6 +363,24 @@ bool MeasurePanel::writeProfile(const QString& path)
     }
     const auto profile = controller_.named(controller_.state().current);
     return profile && writeText(path, profileCsv(*profile));
+}
+
+void MeasurePanel::saveHypsometry()
+{
+    askChartFile(*this,
+                 {.title = tr("Save Hypsometry"), .name = tr("hypsometry"), .folder = folder_},
+                 [this](const QString& path) {
+                     folder_ = QFileInfo(path).absolutePath();
+                     return writeHypsometry(path);
+                 });
+}
+
+bool MeasurePanel::writeHypsometry(const QString& path)
+{
+    if (QFileInfo(path).suffix().toLower() != QStringLiteral("csv")) {
+        return hypsometry_->savePicture(path);
+    }
+    return writeText(path, hypsometryCsv(hypsometry_->classes()));
 }
 
 QString MeasurePanel::tableCsv() const

@@ -14,6 +14,7 @@ class QToolButton;
 namespace marsview {
 
 class AttitudesView;
+class HypsometryPlot;
 class MeasureController;
 class MeasureList;
 class ProfilePlot;
@@ -29,6 +30,7 @@ public:
     MeasureList* list() const noexcept { return list_; }
     ProfilePlot* plot() const noexcept { return plot_; }
     AttitudesView* attitudes() const noexcept { return attitudes_; }
+    HypsometryPlot* hypsometry() const noexcept { return hypsometry_; }
     /// The rows of the current result, a line each: label, tab, value.
     QString resultsText() const;
     /// Writes all measurements: as a table (csv), as features (gpkg), or the craters among them as
@@ -41,6 +43,8 @@ public Q_SLOTS:
     void copyResults();
     /// Asks for a file: the points of the profile as CSV, or its picture.
     void saveProfile();
+    /// The same with the classes of elevation of the area.
+    void saveHypsometry();
     /// Asks for a file: all measurements with their results as CSV.
     void saveTable();
 
@@ -48,10 +52,13 @@ private:
     void makeList();
     void makeResults();
     void makeProfile();
+    void makeHypsometry();
     void showItems();
     void showResult();
     void showProfile();
+    void showHypsometry();
     bool writeProfile(const QString& path);
+    bool writeHypsometry(const QString& path);
     QString tableCsv() const;
 
     MeasureController& controller_;
@@ -69,6 +76,8 @@ private:
     QComboBox* scale_ = nullptr;
     QToolButton* slope_ = nullptr;
     QLabel* stretch_note_ = nullptr;
+    QWidget* hypsometry_side_ = nullptr;
+    HypsometryPlot* hypsometry_ = nullptr;
     QString folder_;
 };
 

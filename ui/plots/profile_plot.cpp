@@ -1,6 +1,7 @@
 #include "ui/plots/profile_plot.h"
 
 #include "ui/plots/custom_plot.h"
+#include "ui/plots/number_ticker.h"
 
 #include <QEvent>
 #include <QFileInfo>
@@ -42,16 +43,6 @@ struct Extent {
     {
         const double room = std::max((high - low) * share, high > low ? 0.0 : 1.0);
         return {low - room, high + room};
-    }
-};
-
-// Labels as the rest of the window has them: groups of digits and true minus signs.
-class NumberTicker final : public QCPAxisTicker {
-public:
-    QString
-    getTickLabel(double tick, const QLocale& /*locale*/, QChar /*format*/, int precision) override
-    {
-        return shortNumberText(tick, std::max(precision, 6));
     }
 };
 

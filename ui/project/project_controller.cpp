@@ -3,6 +3,7 @@
 #include "core/annotations/annotation_files.h"
 #include "ui/canvas/terrain_view.h"
 #include "ui/controllers/annotation_controller.h"
+#include "ui/controllers/file_work.h"
 #include "ui/controllers/measure_controller.h"
 #include "ui/controllers/session_controller.h"
 
@@ -35,6 +36,7 @@ ProjectController::ProjectController(SessionController& session,
                                      MeasureController& measuring,
                                      AnnotationController& annotating,
                                      TerrainView& view,
+                                     FileWork& work,
                                      const ProjectOptions& options,
                                      QObject* parent)
     : QObject(parent)
@@ -44,7 +46,9 @@ ProjectController::ProjectController(SessionController& session,
     , view_(view)
     , options_(options)
     , autosave_(options.autosave_folder)
+    , work_(work)
 {
+    pool_.setMaxThreadCount(1);
     autosave_timer_.setSingleShot(true);
     autosave_timer_.setInterval(options.autosave_delay_ms);
     connect(&autosave_timer_, &QTimer::timeout, this, [this] {
@@ -169,6 +173,11 @@ bool ProjectController::saveAs(const QString& file)
     return true;
 }
 
+ProjectController::~ProjectController()
+{
+    pool_.waitForDone(); // posted results are discarded with this object
+}
+
 // Files for other programs.
 void ProjectController::writeBeside(const QString& path)
 {
@@ -176,22 +185,49 @@ void ProjectController::writeBeside(const QString& path)
     const auto file_for = [&project_file](const QString& ending) {
         return project_file.dir().filePath(project_file.completeBaseName() + ending).toStdString();
     };
-    if (const auto measurements = measuring_.named(); !measurements.empty()) {
-        const Status written =
-            writeMeasurements(measurements, file_for(QStringLiteral("-measurements.gpkg")));
-        if (!written) {
-            Q_EMIT failed(tr("The project is saved, but not the GeoPackage of its measurements: %1")
-                              .arg(QString::fromStdString(written.error().message)));
-        }
+    auto measurements = measuring_.named();
+    auto annotations = annotating_.annotations();
+    if (measurements.empty() && annotations.empty()) {
+        return;
     }
-    if (const auto annotations = annotating_.annotations(); !annotations.empty()) {
-        JobMonitor monitor;
-        const auto written =
-            writeAnnotations(annotations, file_for(QStringLiteral("-annotations.gpkg")), monitor);
-        if (!written) {
-            Q_EMIT failed(tr("The project is saved, but not the GeoPackage of its annotations: %1")
-                              .arg(QString::fromStdString(written.error().message)));
+    ++writing_;
+    //: In the status bar: %1 is a file
+    const auto monitor = work_.begin(*this, tr("Writing %1").arg(project_file.fileName()), path);
+    pool_.start([this, monitor, measurements = std::move(measurements),
+                 annotations = std::move(annotations),
+                 measurements_file = file_for(QStringLiteral("-measurements.gpkg")),
+                 annotations_file = file_for(QStringLiteral("-annotations.gpkg"))] {
+        const Status measured = measurements.empty()
+                                    ? Status(Done{})
+                                    : writeMeasurements(measurements, measurements_file);
+        std::optional<Error> annotated;
+        if (!annotations.empty()) {
+            if (const auto written = writeAnnotations(annotations, annotations_file, *monitor);
+                !written) {
+                annotated = written.error();
+            }
         }
+        QMetaObject::invokeMethod(
+            this,
+            [this, monitor, measured, annotated] {
+                --writing_;
+                work_.end(monitor);
+                reportBeside(measured ? std::nullopt : std::optional(measured.error()), annotated);
+            },
+            Qt::QueuedConnection);
+    });
+}
+
+void ProjectController::reportBeside(const std::optional<Error>& measurements,
+                                     const std::optional<Error>& annotations)
+{
+    if (measurements) {
+        Q_EMIT failed(tr("The project is saved, but not the GeoPackage of its measurements: %1")
+                          .arg(QString::fromStdString(measurements->message)));
+    }
+    if (annotations && annotations->code != ErrorCode::Canceled) {
+        Q_EMIT failed(tr("The project is saved, but not the GeoPackage of its annotations: %1")
+                          .arg(QString::fromStdString(annotations->message)));
     }
 }
 

@@ -6,6 +6,7 @@
 
 #include <QObject>
 #include <QString>
+#include <QThreadPool>
 #include <QTimer>
 
 #include <filesystem>
@@ -16,6 +17,7 @@
 namespace marsview {
 
 class AnnotationController;
+class FileWork;
 class MeasureController;
 class SessionController;
 class TerrainView;
@@ -37,8 +39,11 @@ public:
                       MeasureController& measuring,
                       AnnotationController& annotating,
                       TerrainView& view,
+                      FileWork& work,
                       const ProjectOptions& options,
                       QObject* parent = nullptr);
+    /// Waits for the GeoPackages of the last save().
+    ~ProjectController() override;
 
     /// The path of the project file; empty if it was never saved.
     const QString& file() const noexcept { return file_; }
@@ -54,8 +59,8 @@ public:
     /// cannot be read.
     bool open(const QString& file);
     /// To file(), which is not empty. Emits failed() if it cannot be written. Measurements and
-    /// annotations are also written next to it as GeoPackages for other programs; these are never
-    /// read.
+    /// annotations are also written next to it as GeoPackages for other programs, in the
+    /// background; these are never read.
     bool save();
     /// To another file, which becomes file(). Adds the extension if there is none.
     bool saveAs(const QString& file);
@@ -69,6 +74,9 @@ public:
     /// Writes the copy now and waits for it.
     void autosaveNow();
 
+    /// The GeoPackages are being written.
+    bool isWriting() const noexcept { return writing_ > 0; }
+
 Q_SIGNALS:
     /// file() or isModified().
     void changed();
@@ -79,6 +87,8 @@ Q_SIGNALS:
 
 private:
     void writeBeside(const QString& path);
+    void reportBeside(const std::optional<Error>& measurements,
+                      const std::optional<Error>& annotations);
     void replace(const Project& project, const QString& file);
     bool isNothingToKeep() const;
     void noteOpened();
@@ -97,6 +107,9 @@ private:
     std::optional<ProjectCamera> camera_;       // to be set when the maps are there
     ProjectAutosave autosave_;
     QTimer autosave_timer_;
+    FileWork& work_;
+    int writing_ = 0;
+    QThreadPool pool_; // of one thread: a later save overwrites an earlier one
 };
 
 /// The camera of the view in map coordinates of the topmost map. Empty without a map.

@@ -5,6 +5,7 @@
 #include "ui/canvas/terrain_view.h"
 #include "ui/controllers/measure_controller.h"
 #include "ui/overlay/overlay_text.h"
+#include "ui/plots/hypsometry_plot.h"
 #include "ui/plots/profile_plot.h"
 #include "ui/plots/stereonet_plot.h"
 #include "ui/text/coordinate_text.h"
@@ -88,6 +89,21 @@ profileFigure(const MeasureItem& item, const Profile& profile, HeightUnit unit)
     //: Below a diagram; %1 is a number: elevations are drawn so many times larger than distances
     return figureOf(plot, reportTr(QT_TRANSLATE_NOOP("Report", "Vertical exaggeration %1"))
                               .arg(shortNumberText(plot.drawnExaggeration(), 2)));
+}
+
+std::optional<ReportFigure> hypsometryFigure(const TerrainArea& area, HeightUnit unit)
+{
+    if (area.hypsometry.isEmpty()) {
+        return std::nullopt;
+    }
+    HypsometryPlot plot;
+    plot.setPalette(paperPalette());
+    plot.setHeightUnit(unit);
+    plot.setHypsometry(area.hypsometry, area.is_approximate);
+    return figureOf(plot, reportTr(QT_TRANSLATE_NOOP(
+                              "Report",
+                              "Area by classes of elevation (bars), and the share of the area that "
+                              "lies above an elevation (line)")));
 }
 
 std::optional<ReportLegend> legendOf(const LegendContent& content)
@@ -239,6 +255,11 @@ measurementSection(const ReportSource& source, const MeasureItem& item, bool has
     }
     if (const auto* profile = outcome.as<Profile>(); profile != nullptr && has_plots) {
         if (auto figure = profileFigure(item, *profile, source.unit)) {
+            section.figures.append(std::move(*figure));
+        }
+    }
+    if (const auto* area = outcome.as<TerrainArea>(); area != nullptr && has_plots) {
+        if (auto figure = hypsometryFigure(*area, source.unit)) {
             section.figures.append(std::move(*figure));
         }
     }

@@ -19,7 +19,7 @@ struct ReportChoice {
     QString title;
     QString credit{};             // of the data, as the user states it
     bool has_measurements = true; // tables
-    bool has_plots = true;        // profiles, and the stereonet of attitudes
+    bool has_plots = true;        // profiles, hypsometry, and the stereonet of attitudes
 };
 
 struct ReportSource {

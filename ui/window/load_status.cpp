@@ -41,6 +41,9 @@ LoadStatus::LoadStatus(QWidget* parent)
         case Work::Loading:
             Q_EMIT cancelRequested();
             break;
+        case Work::Files:
+            Q_EMIT cancelFileWorkRequested();
+            break;
         case Work::Saving:
             Q_EMIT cancelSavingRequested();
             break;
@@ -61,6 +64,7 @@ LoadStatus::LoadStatus(QWidget* parent)
 LoadStatus::Work LoadStatus::work() const
 {
     return is_loading_     ? Work::Loading
+           : is_at_files_  ? Work::Files
            : is_saving_    ? Work::Saving
            : is_preparing_ ? Work::Preparing
                            : Work::None;
@@ -84,6 +88,21 @@ void LoadStatus::showReport(const LoadReport& report)
 void LoadStatus::endLoading()
 {
     is_loading_ = false;
+    showWhatGoesOn();
+}
+
+void LoadStatus::showFileWork(const QString& text, const QString& file, double share)
+{
+    is_at_files_ = true;
+    files_ = {.text = label_->fontMetrics().elidedText(text, Qt::ElideMiddle, kLabelWidth),
+              .tip = file,
+              .percent = static_cast<int>(share * 100.0)};
+    showWhatGoesOn();
+}
+
+void LoadStatus::endFileWork()
+{
+    is_at_files_ = false;
     showWhatGoesOn();
 }
 
@@ -158,6 +177,11 @@ void LoadStatus::showWhatGoesOn()
         cancel_->setAccessibleName(tr("Cancel Loading"));
         cancel_->setToolTip(tr("Cancel loading (Esc)"));
         showProgress(loading_);
+        break;
+    case Work::Files:
+        cancel_->setAccessibleName(tr("Cancel"));
+        cancel_->setToolTip(tr("Cancel (Esc)"));
+        showProgress(files_);
         break;
     case Work::Saving:
         cancel_->setAccessibleName(tr("Cancel Saving"));

@@ -15,8 +15,8 @@ namespace marsview {
 struct LoadReport;
 struct PrepareProgress;
 
-/// The file that is read, or else the picture that is saved, or else the map whose overviews are
-/// built, with progress and a button that stops it. Hidden otherwise.
+/// The map or file that is read, or else the picture that is saved, or else the map whose overviews
+/// are built, with progress and a button that stops it. Hidden otherwise.
 class LoadStatus final : public QWidget {
     Q_OBJECT
 
@@ -25,6 +25,9 @@ public:
 
     void showReport(const LoadReport& report);
     void endLoading();
+    /// Another file is read or written, for which `text` has the words. Shown while nothing loads.
+    void showFileWork(const QString& text, const QString& file, double share);
+    void endFileWork();
     /// Shown while nothing loads. `share` of it is drawn; 1 while it is written.
     void showSaving(const QString& file, double share);
     void endSaving();
@@ -34,11 +37,12 @@ public:
 
 Q_SIGNALS:
     void cancelRequested();
+    void cancelFileWorkRequested();
     void cancelSavingRequested();
     void stopPreparingRequested();
 
 private:
-    enum class Work { None, Loading, Saving, Preparing };
+    enum class Work { None, Loading, Files, Saving, Preparing };
     struct Shown {
         QString text;
         QString tip;
@@ -49,9 +53,11 @@ private:
     void showProgress(const Shown& shown);
 
     bool is_loading_ = false;
+    bool is_at_files_ = false;
     bool is_saving_ = false;
     bool is_preparing_ = false;
     Shown loading_;
+    Shown files_;
     Shown saving_;
     Shown preparing_;
     QLabel* label_ = nullptr;

@@ -89,6 +89,21 @@ TEST(Measurement, HasAResultOfEveryKind)
               3U);
 }
 
+TEST(Measurement, AnAreaThatIsTooLargeForAPlaneLacksOnlyVolumes)
+{
+    const auto map = loadedMap(bundledMars());
+    Measurement large = between(MeasurementKind::Area,
+                                {{200.0, -40.0}, {300.0, -40.0}, {300.0, 40.0}, {200.0, 40.0}});
+    large.area.base = VolumeBase::BorderPlane;
+    const auto area = valueIn<TerrainArea>(resultOf(large, *map));
+    EXPECT_GT(area.surface_m2, 1e13);
+    EXPECT_FALSE(area.volume_above_m3);
+    Measurement small =
+        between(MeasurementKind::Area, {{226.0, 18.0}, {230.0, 20.0}, {228.0, 15.0}});
+    small.area.base = VolumeBase::BorderPlane;
+    EXPECT_TRUE(valueIn<TerrainArea>(resultOf(small, *map)).volume_above_m3);
+}
+
 TEST(Measurement, KeepsTheReasonOfAFailure)
 {
     const auto map = loadedMap(bundledMars());

@@ -131,7 +131,7 @@ TEST_F(ReportTest, TheWebPageHoldsEverythingAndNeedsNoOtherFile)
         EXPECT_TRUE(it.next().captured(1).startsWith(QLatin1String("data:image/")));
         ++images;
     }
-    EXPECT_EQ(images, 3) << "the map, the profile, the stereonet";
+    EXPECT_EQ(images, 4) << "the map, the profile, the hypsometry, the stereonet";
     EXPECT_FALSE(page.contains(QStringLiteral("<script")));
     const QRegularExpression picture(QStringLiteral("data:image/jpeg;base64,([^\"]+)\""));
     const QImage map = QImage::fromData(

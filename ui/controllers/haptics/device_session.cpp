@@ -9,6 +9,7 @@
 #include <iterator>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace marsview {
 namespace {
@@ -311,8 +312,21 @@ void DeviceSession::poll()
 {
     const LoopState state = loop_->state();
     LoopEvent event;
+    // Of most kinds the state has the same information; reading empties the queue.
+    std::vector<LoopEvent> points;
     while (loop_->nextEvent(event)) {
-        // The state has the same information; reading empties the queue.
+        if (event.kind == LoopEventKind::PointPressed ||
+            event.kind == LoopEventKind::PointReleased) {
+            points.push_back(event);
+        }
+    }
+    for (const LoopEvent& point : points) {
+        point.kind == LoopEventKind::PointPressed ? Q_EMIT pointPressed(point.place)
+                                                  : Q_EMIT
+                                                    pointReleased();
+        if (!loop_) {
+            return;
+        }
     }
     if (loop_->hasEnded()) {
         finish(state);

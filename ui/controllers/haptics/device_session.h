@@ -121,6 +121,10 @@ Q_SIGNALS:
     void runningChanged();
     /// A recording was replayed to its end.
     void replayEnded(const QString& file);
+    /// The button that sets points was pressed with the stylus at a place of the scene
+    /// (LoopSettings::is_placing), and released.
+    void pointPressed(const ScenePoint& place);
+    void pointReleased();
     /// Some sixty times a second while the loop runs.
     void polled(const LoopState& state);
 

@@ -53,6 +53,10 @@ HapticsController::HapticsController(TerrainView& view, DriverMaker make_drivers
         is_grabbing_ = is_grabbing;
         push();
     });
+    // A tool that places points has the stylus as its pointer.
+    connect(&view_, &TerrainView::toolChanged, this, &HapticsController::push);
+    connect(device_, &DeviceSession::pointPressed, &view_, &TerrainView::pressStylus);
+    connect(device_, &DeviceSession::pointReleased, &view_, &TerrainView::releaseStylus);
     QCoreApplication::instance()->installEventFilter(this);
 }
 
@@ -425,6 +429,7 @@ void HapticsController::push()
     loop.has_walls = settings_.has_walls;
     loop.is_stopped = is_stopped_;
     loop.is_grabbing = is_grabbing_;
+    loop.is_placing = view_.isPlacing();
     device_->push();
 }
 

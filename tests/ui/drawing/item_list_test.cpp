@@ -1,0 +1,123 @@
+#include "tests/support/random.h"
+#include "ui/drawing/handle_grid.h"
+#include "ui/drawing/item_list.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace marsview {
+namespace {
+
+struct Thing {
+    std::uint32_t id = 0;
+    std::string name;
+    bool operator==(const Thing&) const = default;
+};
+
+ItemList<Thing> things(std::uint32_t count)
+{
+    ItemList<Thing> list;
+    for (std::uint32_t id = 1; id <= count; ++id) {
+        list.push_back({id, std::to_string(id)});
+    }
+    return list;
+}
+
+} // namespace
+
+// Against a plain vector, through thousands of random changes.
+TEST(ItemList, IsWhatAVectorWouldBe)
+{
+    test::Random random(11);
+    ItemList<Thing> list;
+    std::vector<Thing> truth;
+    std::vector<std::pair<ItemList<Thing>, std::vector<Thing>>> kept; // as undo keeps them
+    std::uint32_t next = 1;
+    for (int step = 0; step < 4000; ++step) {
+        const double choice = random.uniform(0.0, 1.0);
+        const auto any = static_cast<std::uint32_t>(random.uniform(0.0, next));
+        if (choice < 0.7) {
+            list.push_back({next, "new"});
+            truth.push_back({next++, "new"});
+        } else if (choice < 0.9) {
+            const auto found = std::find_if(truth.begin(), truth.end(),
+                                            [any](const Thing& thing) { return thing.id == any; });
+            Thing* thing = list.edit(any);
+            ASSERT_EQ(thing != nullptr, found != truth.end());
+            if (thing != nullptr) {
+                thing->name = std::to_string(step);
+                found->name = std::to_string(step);
+            }
+        } else {
+            const auto is_meant = [any](const Thing& thing) { return thing.id % 97 == any % 97; };
+            list.eraseIf(is_meant);
+            std::erase_if(truth, is_meant);
+        }
+        if (step % 100 == 0) {
+            kept.emplace_back(list, truth);
+        }
+        ASSERT_EQ(list.size(), truth.size());
+        ASSERT_EQ(list.empty(), truth.empty());
+    }
+    kept.emplace_back(list, truth);
+    for (const auto& [value, expected] : kept) {
+        ASSERT_TRUE(std::equal(value.begin(), value.end(), expected.begin(), expected.end()));
+        EXPECT_TRUE(std::equal(value.rbegin(), value.rend(), expected.rbegin(), expected.rend()));
+        for (std::size_t i = 0; i < expected.size(); i += 53) {
+            EXPECT_EQ(value[i], expected[i]);
+            ASSERT_NE(value.find(expected[i].id), nullptr);
+            EXPECT_EQ(*value.find(expected[i].id), expected[i]);
+        }
+        EXPECT_EQ(value.find(next), nullptr);
+        EXPECT_EQ(value.find(0), nullptr);
+    }
+}
+
+TEST(ItemList, ACopyHoldsOnlyWhatChanged)
+{
+    ItemList<Thing> list = things(100'000);
+    const ItemList<Thing> before = list;
+    list.edit(50'000)->name = "other";
+    std::size_t moved = 0;
+    for (auto a = list.begin(), b = before.begin(); a != list.end(); ++a, ++b) {
+        moved += &*a != &*b ? 1U : 0U;
+    }
+    EXPECT_GE(moved, 1U);
+    EXPECT_LE(moved, 256U) << "of a hundred thousand";
+    EXPECT_EQ(before.find(50'000)->name, "50000");
+    EXPECT_FALSE(list == before);
+    list.edit(50'000)->name = "50000";
+    EXPECT_TRUE(list == before);
+}
+
+TEST(HandleGrid, MarksThatAreShownAreApartAndStandForTheOthers)
+{
+    test::Random random(5);
+    constexpr double kGap = 6.0;
+    HandleGrid grid(QRectF(10.0, 20.0, 500.0, 300.0), kGap);
+    std::vector<QPointF> all;
+    std::vector<QPointF> shown;
+    for (int i = 0; i < 50'000; ++i) {
+        all.emplace_back(random.uniform(10.0, 510.0), random.uniform(20.0, 320.0));
+        if (grid.take(all.back())) {
+            shown.push_back(all.back());
+        }
+    }
+    EXPECT_LE(shown.size(), 85U * 51U);
+    for (std::size_t i = 0; i < all.size(); i += 97) {
+        const bool has_one = std::any_of(shown.begin(), shown.end(), [&](QPointF place) {
+            return std::abs(place.x() - all[i].x()) <= kGap &&
+                   std::abs(place.y() - all[i].y()) <= kGap;
+        });
+        EXPECT_TRUE(has_one);
+    }
+    EXPECT_FALSE(grid.take({9.0, 30.0})) << "outside";
+}
+
+} // namespace marsview
