@@ -266,7 +266,7 @@ private:
         if (!loop_.settings.map) {
             changeMap();
         }
-        constexpr int kRestTicks = 30000; // a map glides for up to 12 s, a fit takes up to 22 s
+        constexpr int kRestTicks = 30000; // a map glides for up to 12 s
         constexpr int kPart = 500;
         for (int i = 0; i < kRestTicks && (i < 2 * kPart || !isSettled()); i += kPart) {
             hold({0.0, 0.0, 0.055}, kPart);

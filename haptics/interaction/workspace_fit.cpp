@@ -16,10 +16,10 @@ WorkspaceFrame fitted(const FitOptions& options,
                       const WorkspaceFrame& frame,
                       const WorkspaceFrame& seen,
                       const WorkspacePoint& hand,
-                      double share,
+                      const FitPace& pace,
                       double dt_s) noexcept
 {
-    if (!(share > 0.0) || !(dt_s > 0.0)) {
+    if (!(pace.share > 0.0) || !(dt_s > 0.0)) {
         return frame;
     }
     // The camera has moved since; the workspace moves with it.
@@ -27,14 +27,17 @@ WorkspaceFrame fitted(const FitOptions& options,
     constexpr double kNearM = 2e-5;
     constexpr double kNearOctaves = 1e-4;
     const double octaves = std::log2(goal.scene_per_meter / frame.scene_per_meter);
-    const double octaves_max = options.octaves_per_s * share * dt_s;
+    const double hurry_per_s = std::clamp(pace.haste, 0.0, 1.0) / options.settle_s;
+    const double octaves_max =
+        std::max(options.octaves_per_s, std::abs(octaves) * hurry_per_s) * pace.share * dt_s;
     const double step = std::clamp(octaves, -octaves_max, octaves_max);
     const Vec3 way = goal.toWorkspace(frame.toScene(hand)) - hand;
     const double way_m = length(way);
     if (std::abs(octaves) < kNearOctaves && way_m < kNearM) {
         return frame;
     }
-    const double shift_m = std::min(way_m, options.speed_m_per_s * share * dt_s);
+    const double speed = std::max(options.speed_m_per_s, way_m * hurry_per_s);
+    const double shift_m = std::min(way_m, speed * pace.share * dt_s);
     const WorkspaceFrame next =
         frame.zoomed(hand, std::exp2(-step)).panned(way_m > 0.0 ? way * (shift_m / way_m) : Vec3{});
     return next.isSound() ? next : frame;

@@ -11,27 +11,36 @@ struct WorkspaceFit {
     WorkspaceFrame fitted; // the frame that fits
 };
 
-/// A hand in free space feels no force; this is slow enough not to lead it astray.
+/// A hand in free space feels no force, whatever moves below it. Near the surface, where it may be
+/// about to touch, the workspace moves slowly.
 struct FitOptions {
-    double speed_m_per_s = 0.015; // of the surface in the workspace
+    double speed_m_per_s = 0.015; // of the surface in the workspace, near it
     double octaves_per_s = 0.3;   // of the scale
-    /// Where it brings the surface closer to the hand, it slows down from the sum of both on, and
-    /// rests from the first on.
+    /// Away from the surface, what is left of the way takes no longer than this at the present
+    /// speed: a workspace that is 160 mm and 6 octaves off has settled in less than 5 s.
+    double settle_s = 1.0;
+    /// Within the sum of both of the surface it slows down; where it brings the surface closer to
+    /// the hand, it rests from the first on.
     double clearance_min_m = 0.003;
     double clearance_fade_m = 0.01;
 };
 
-/// The share of the speed that remains at that clearance: 0 to 1.
+/// The share that remains at that clearance: 0 to 1.
 double fitShare(const FitOptions& options, double clearance_m) noexcept;
 
-/// `frame` after `dt_s` on its way to `fit`, at a share of the speed, for a hand in free space.
+struct FitPace {
+    double share = 1.0; // of the speed
+    double haste = 0.0; // share of settle_s that applies: 0 to 1
+};
+
+/// `frame` after `dt_s` on its way to `fit`, for a hand in free space.
 /// `seen` is the frame that the camera follows now. Returns `frame` if it fits. Servo thread.
 WorkspaceFrame fitted(const FitOptions& options,
                       const WorkspaceFit& fit,
                       const WorkspaceFrame& frame,
                       const WorkspaceFrame& seen,
                       const WorkspacePoint& hand,
-                      double share,
+                      const FitPace& pace,
                       double dt_s) noexcept;
 
 } // namespace marsview

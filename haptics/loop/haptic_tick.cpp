@@ -153,7 +153,6 @@ private:
         if (map_ != nullptr && map_->map_id == state_.map_id && state_.has_touched) {
             is_other_model_ = true; // of the same map: it continues at the last model's proxy
         } else {
-            has_jumped_ = state_.map_serial != 0 || map_ == nullptr;
             is_fresh_ = true;
         }
         // The same terrain at another exaggeration: the penetration depth has jumped.
@@ -273,6 +272,9 @@ private:
                    !state_.contact.is_in_contact && input_.recorded == nullptr) {
             fitWorkspace();
         }
+        if (!isHolding(state_.modes.mode) && input_.recorded == nullptr) {
+            lowerIntoReach();
+        }
         if (!(state_.seen_frame == seen)) {
             result_.motion = state_.seen_frame.motionFrom(seen);
         }
@@ -319,14 +321,30 @@ private:
         const FitOptions options;
         const WorkspaceFrame before = state_.frame;
         const double clearance_m = clearance();
+        const double near = fitShare(options, clearance_m);
         const auto move = [&](double share) {
             state_.frame = fitted(options, *settings_.fit, before, state_.seen_frame, state_.hand,
-                                  share, dt_s_);
+                                  {.share = share, .haste = near}, dt_s_);
         };
         move(1.0);
         if (!(clearance() >= clearance_m)) {
-            move(fitShare(options, clearance_m));
+            move(near);
         }
+    }
+
+    // A surface above the top of the workspace, where a flight or a glide has put it, cannot be
+    // touched, and the hand below it never gets into free space: it sinks to the top. A surface
+    // within the workspace rests in contact.
+    void lowerIntoReach() noexcept
+    {
+        const WorkspaceBox& reach = input_.device->workspace;
+        const double above_m = state_.hand.z - clearance() - reach.high.z;
+        if (!(reach.low.z < reach.high.z) || !(above_m > 0.0)) { // also for NaN
+            return;
+        }
+        const FitOptions options;
+        const double speed = std::max(options.speed_m_per_s, above_m / options.settle_s);
+        state_.frame = state_.frame.panned({0.0, 0.0, -std::min(above_m, speed * dt_s_)});
     }
 
     void moveAsRecorded() noexcept

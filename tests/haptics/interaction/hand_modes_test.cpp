@@ -78,6 +78,17 @@ TEST(HandModes, PanningHoldsTheHeightAndMovesTheMap)
     EXPECT_NEAR(step.force_n.x, 0.0, 1e-3);
 }
 
+// The detents belong to the zoom at which the hand grabs, wherever it has just been.
+TEST(HandModes, AGrabOnADetentFeelsNoneThoughTheHandMoves)
+{
+    Hand hand;
+    hand.input.frame.scene_per_meter = 4096.0;
+    hand.input.is_grabbing = true;
+    const ModeStep step = hand.move({0.0, 0.0, 0.001});
+    ASSERT_EQ(hand.state.mode, StylusMode::Zoom);
+    EXPECT_NEAR(step.force_n.z, 0.0, 1e-12);
+}
+
 TEST(HandModes, TheMapKeepsMovingWhenReleasedInMotion)
 {
     Hand hand;

@@ -84,6 +84,11 @@ TEST(HandView, ALimitOfTheCameraMovesTheMapExceptInHeight)
     EXPECT_FALSE(limited([](OrbitCamera& c) { c.target.z = 50.0; }).is_moved);
     EXPECT_TRUE(limited([](OrbitCamera& c) { c.distance_m = 120.0; }).is_moved);
     EXPECT_TRUE(limited([](OrbitCamera& c) { c.azimuth = Angle::degrees(31.0); }).is_moved);
+    // A thousandth of the distance of 100 m is rounding.
+    EXPECT_FALSE(limited([](OrbitCamera& c) { c.target.x += 0.09; }).is_moved);
+    EXPECT_TRUE(limited([](OrbitCamera& c) { c.target.x += 0.11; }).is_moved);
+    EXPECT_FALSE(limited([](OrbitCamera& c) { c.distance_m += 0.09; }).is_moved);
+    EXPECT_TRUE(limited([](OrbitCamera& c) { c.distance_m += 0.11; }).is_moved);
     const LimitedView moved = limited([](OrbitCamera& c) { c.target.x = 14.0; });
     EXPECT_TRUE(moved.is_moved);
     // The target stays at its place in the workspace.

@@ -235,9 +235,54 @@ TEST(HapticTick, BesideTheMapThereIsNothingToTouch)
     EXPECT_NEAR(rig.to({0.026, 0.0, 0.0}).force_n.x, -0.4, 1e-9); // a wall from now on
 }
 
-TEST(HapticTick, InFreeSpaceTheWorkspaceSlowlyFitsTheView)
+TEST(HapticTick, ReportsANewMapAndItsRemovalAsChanges)
 {
     Rig rig;
+    EXPECT_TRUE(rig.at({}).has_changed_map);
+    EXPECT_FALSE(rig.at({}).has_changed_map);
+    rig.settings.map = nullptr;
+    EXPECT_TRUE(rig.at({}).has_changed_map);
+    EXPECT_FALSE(rig.at({}).has_changed_map);
+    rig.settings.map = servoMap(201, 201, [](std::size_t, std::size_t) { return 10.0; });
+    EXPECT_TRUE(rig.at({}).has_changed_map);
+}
+
+// 160 mm, the width of the workspace, and an octave: less than 5 s, without a force.
+TEST(HapticTick, InFreeSpaceTheWorkspaceFitsTheViewWithinFiveSeconds)
+{
+    Rig rig;
+    rig.settings.frame.place.z = 70.0; // 60 mm above the terrain
+    rig.at({});
+    WorkspaceFit fit{.seen = rig.settings.frame, .fitted = rig.settings.frame};
+    fit.fitted.scene_per_meter *= 2.0;
+    fit.fitted.place.z += 0.16 * fit.fitted.scene_per_meter; // the terrain sinks
+    rig.settings.fit = fit;
+    for (int i = 0; i < 5000; ++i) {
+        ASSERT_EQ(rig.at({}).force_n, Vec3{});
+    }
+    const WorkspacePoint at = fit.fitted.toWorkspace(rig.state.frame.toScene({}));
+    EXPECT_LT(length(at - WorkspacePoint{}), 1e-3);
+    EXPECT_NEAR(std::log2(rig.state.frame.scene_per_meter / fit.fitted.scene_per_meter), 0.0, 0.01);
+}
+
+// The surface is 20 mm above the workspace, whose top is at 60 mm; the hand below it cannot get
+// into free space.
+TEST(HapticTick, ASurfaceAboveTheWorkspaceSinksToItsTop)
+{
+    Rig rig;
+    rig.settings.frame.place.z = -70.0;
+    rig.at({});
+    for (int i = 0; i < 3000; ++i) {
+        ASSERT_TRUE(rig.at({0.0, 0.0, 0.01}).contact.is_in_contact);
+    }
+    EXPECT_NEAR(rig.state.frame.toWorkspace({0.0, 0.0, 10.0}).z, 0.06, 1e-6);
+    EXPECT_EQ(rig.state.seen_frame, rig.settings.frame); // the camera stays
+}
+
+TEST(HapticTick, NearTheSurfaceTheWorkspaceSlowlyFitsTheView)
+{
+    Rig rig;
+    rig.settings.frame.place.z = 13.0; // the terrain 3 mm below the hand
     rig.at({});
     WorkspaceFit fit{.seen = rig.settings.frame, .fitted = rig.settings.frame};
     fit.fitted.place.z += 10.0; // the terrain 10 mm lower in the workspace
