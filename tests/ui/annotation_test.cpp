@@ -338,20 +338,28 @@ TEST_F(AnnotationTest, NoLabelLiesOverAnother)
         },
         kTimeout));
     ASSERT_TRUE(QTest::qWaitFor([this] { return view().isPictureComplete(); }, kTimeout));
-    std::vector<QRectF> boxes = window_->findChild<AnnotationMarks*>()->labelBoxes();
-    EXPECT_GE(boxes.size(), 5U);
-    const std::vector<QRectF> results = window_->findChild<MeasureMarks*>()->labelBoxes();
-    EXPECT_GE(results.size(), 2U);
-    boxes.insert(boxes.end(), results.begin(), results.end());
-    QCoreApplication::processEvents();
-    for (const MapLabels::Label& name : window_->overlays()->labels()->nameLabels()) {
-        boxes.push_back(name.box);
-    }
-    for (std::size_t i = 0; i < boxes.size(); ++i) {
-        for (std::size_t k = 0; k < i; ++k) {
-            EXPECT_FALSE(boxes[i].intersects(boxes[k])) << i << " and " << k;
+    const auto* annotations = window_->findChild<AnnotationMarks*>();
+    const auto* measurements = window_->findChild<MeasureMarks*>();
+    EXPECT_GE(annotations->labelBoxes().size(), 5U);
+    EXPECT_GE(measurements->labelBoxes().size(), 2U);
+    // Names of places follow in a moment.
+    const auto is_clear = [&] {
+        std::vector<QRectF> boxes = annotations->labelBoxes();
+        const std::vector<QRectF> results = measurements->labelBoxes();
+        boxes.insert(boxes.end(), results.begin(), results.end());
+        for (const MapLabels::Label& name : window_->overlays()->labels()->nameLabels()) {
+            boxes.push_back(name.box);
         }
-    }
+        for (std::size_t i = 0; i < boxes.size(); ++i) {
+            for (std::size_t k = 0; k < i; ++k) {
+                if (boxes[i].intersects(boxes[k])) {
+                    return false;
+                }
+            }
+        }
+        return true;
+    };
+    EXPECT_TRUE(QTest::qWaitFor(is_clear, kTimeout));
 }
 
 TEST_F(AnnotationTest, TheMenuRevealsTheTableThoughTheToolIsChosen)
