@@ -204,7 +204,11 @@ TEST_F(HapticsControllerTest, PullingTheMapMovesTheCamera)
     ASSERT_TRUE(waitFor([&] { return state().mode == StylusMode::Pan; }));
     const OrbitCamera before = view().camera();
     const WorkspaceFrame frame = state().frame;
-    hand_->moveTo({0.05, 0.0, -0.055});
+    // As a hand moves: one that jumped would slip (see PanOptions::grip_rate_n_per_s_max).
+    for (double x = 0.0; x < 0.051; x += 0.002) {
+        hand_->moveTo({x, 0.0, -0.055});
+        ASSERT_TRUE(waitFor([&] { return std::abs(state().hand.x - x) < 1e-4; }));
+    }
     // The press on a slope alone moves it by about a centimeter.
     ASSERT_TRUE(waitFor([&] {
         return frame.differenceToWorkspace(view().camera().target - before.target).x < -0.04;
