@@ -17,7 +17,8 @@ struct FitOptions {
     double speed_m_per_s = 0.015; // of the surface in the workspace, near it
     double octaves_per_s = 0.3;   // of the scale
     /// Away from the surface, what is left of the way takes no longer than this at the present
-    /// speed: a workspace that is 160 mm and 6 octaves off has settled in less than 5 s.
+    /// speed: a workspace that is 160 mm and one octave off has settled in less than 5 s where the
+    /// hand is 60 mm above the ground.
     double settle_s = 1.0;
     /// Within the sum of both of the surface it slows down; where it brings the surface closer to
     /// the hand, it rests from the first on.

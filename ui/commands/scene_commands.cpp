@@ -78,7 +78,8 @@ void SceneCommands::readOnGlobe()
 {
     GlobeView* globe = &parts_.globe;
     StatusReadout* readout = &parts_.readout;
-    connect(globe, &GlobeView::readingChanged, readout,
+    // Not after this object: a globe that loses the focus while the window closes reports, too.
+    connect(globe, &GlobeView::readingChanged, this,
             [this, globe, readout](const std::optional<RayHit>& hit) {
                 if (is_globe_shown_) {
                     readout->setSource(ReadingSource::Pointer);

@@ -104,6 +104,15 @@ TEST_F(GlobeTest, ShowsABallBeforeTheSky)
     EXPECT_TRUE(globe().hitAt(globeMiddle()));
 }
 
+TEST_F(GlobeTest, AWindowClosesWhileTheGlobeHasTheFocus)
+{
+    ASSERT_TRUE(showGlobe());
+    globe().setFocus();
+    ASSERT_TRUE(waitFor([this] { return globe().hasFocus(); }));
+    window_.reset();
+    SUCCEED() << "reports of the globe end before what shows them";
+}
+
 TEST_F(GlobeTest, TheFirstPictureHasItsColors)
 {
     QImage first;
