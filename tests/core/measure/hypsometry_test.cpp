@@ -110,17 +110,6 @@ TEST(Hypsometry, OfRoughTerrainIsThatOfManyPoints)
         return 400.0 * std::sin(0.004 * x) * std::cos(0.003 * y) + 0.1 * x;
     };
     const TerrainArea area = areaOf(z, polygon, 50.0);
-    const auto isInside = [&](double x, double y) {
-        bool is_inside = false;
-        for (std::size_t i = 0; i < polygon.size(); ++i) {
-            const GroundPosition& a = polygon[i];
-            const GroundPosition& b = polygon[(i + 1) % polygon.size()];
-            if ((a.y > y) != (b.y > y) && x < a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x)) {
-                is_inside = !is_inside;
-            }
-        }
-        return is_inside;
-    };
     // Smooth between samples: the triangles are off by less than 0.02 m.
     constexpr int kSide = 2000; // points of 2 m
     std::vector<double> counted(area.hypsometry.area_m2.size());
@@ -128,7 +117,7 @@ TEST(Hypsometry, OfRoughTerrainIsThatOfManyPoints)
         for (int k = 0; k < kSide; ++k) {
             const double x = 2.0 * (i + random.uniform(0.0, 1.0)) - kSide;
             const double y = 2.0 * (k + random.uniform(0.0, 1.0)) - kSide;
-            if (isInside(x, y)) {
+            if (isInside(polygon, x, y)) {
                 const auto at = static_cast<std::int64_t>(std::floor(z(x, y) / 50.0)) -
                                 area.hypsometry.first_class;
                 ASSERT_GE(at, 0);

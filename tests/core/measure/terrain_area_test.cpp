@@ -56,19 +56,6 @@ std::vector<GroundPosition> star(Random& random, double reach, std::size_t count
     return vertices;
 }
 
-bool isInside(const std::vector<GroundPosition>& polygon, double x, double y)
-{
-    bool is_inside = false;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-        const GroundPosition& a = polygon[i];
-        const GroundPosition& b = polygon[(i + 1) % polygon.size()];
-        if ((a.y > y) != (b.y > y) && x < a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x)) {
-            is_inside = !is_inside;
-        }
-    }
-    return is_inside;
-}
-
 const std::vector<GroundPosition> kSquare{
     {-1900, -1900}, {1900, -1900}, {1900, 1900}, {-1900, 1900}};
 
