@@ -16,9 +16,10 @@ constexpr double kBoundMargin = 1.02;
 } // namespace
 
 Result<std::shared_ptr<const BodyGrid>> BodyGrid::make(const Georeference& georeference,
-                                                       JobMonitor& monitor)
+                                                       JobMonitor& monitor,
+                                                       const std::optional<Ellipsoid>& scene)
 {
-    Result<BodyPositions> positions = BodyPositions::make(georeference, monitor);
+    Result<BodyPositions> positions = BodyPositions::make(georeference, monitor, scene);
     if (!positions) {
         return std::move(positions).error();
     }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <optional>
 
 namespace marsview {
 
@@ -24,9 +25,11 @@ public:
         Vec3 row;
     };
 
-    /// Errors: those of BodyPositions.
-    static Result<std::shared_ptr<const BodyGrid>> make(const Georeference& georeference,
-                                                        JobMonitor& monitor);
+    /// As BodyPositions::make().
+    static Result<std::shared_ptr<const BodyGrid>>
+    make(const Georeference& georeference,
+         JobMonitor& monitor,
+         const std::optional<Ellipsoid>& scene = std::nullopt);
 
     std::size_t columns() const noexcept { return columns_; }
     std::size_t rows() const noexcept { return rows_; }

@@ -54,7 +54,8 @@ Result<std::shared_ptr<const BodyMesh>>
 BodyMesh::build(std::shared_ptr<const FilledHeightfield> heights,
                 const Georeference& georeference,
                 double exaggeration,
-                JobMonitor& monitor)
+                JobMonitor& monitor,
+                const std::optional<Ellipsoid>& scene)
 {
     MARSVIEW_CHECK(heights->columns() == georeference.columns() &&
                    heights->rows() == georeference.rows());
@@ -64,7 +65,7 @@ BodyMesh::build(std::shared_ptr<const FilledHeightfield> heights,
                      fmt::format("has {} × {} samples; up to {} can lie on a body",
                                  heights->columns(), heights->rows(), kCellsMax)};
     }
-    Result<BodyPositions> positions = BodyPositions::make(georeference, monitor);
+    Result<BodyPositions> positions = BodyPositions::make(georeference, monitor, scene);
     if (!positions) {
         return std::move(positions).error();
     }

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 
 namespace marsview {
@@ -63,7 +64,8 @@ public:
     build(std::shared_ptr<const FilledHeightfield> heights,
           const Georeference& georeference,
           double exaggeration,
-          JobMonitor& monitor);
+          JobMonitor& monitor,
+          const std::optional<Ellipsoid>& scene = std::nullopt);
 
     std::size_t vertexCount() const noexcept { return std::size_t{columns_} * rows_; }
     std::size_t faceCount() const noexcept { return face_count_; }

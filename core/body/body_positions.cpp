@@ -61,9 +61,12 @@ BodyPositions::Foot footOf(const Ellipsoid& ellipsoid, const GeographicPoint& pl
 
 class BodyPositions::Maker {
 public:
-    Maker(const Georeference& georeference, JobMonitor& monitor)
+    Maker(const Georeference& georeference,
+          JobMonitor& monitor,
+          const std::optional<Ellipsoid>& scene)
         : georeference_(georeference)
         , monitor_(monitor)
+        , scene_(scene)
     {}
 
     Result<BodyPositions> make()
@@ -72,7 +75,7 @@ public:
             return Error{ErrorCode::Invalid,
                          "has no CRS on a body, so that it cannot lie on one; state the CRS"};
         }
-        made_.ellipsoid_ = *georeference_.crs()->ellipsoid();
+        made_.ellipsoid_ = scene_.value_or(*georeference_.crs()->ellipsoid());
         const double axes = made_.ellipsoid_.equatorial_m / made_.ellipsoid_.polar_m;
         made_.axes_squared_ = axes * axes;
         made_.columns_ = georeference_.columns();
@@ -368,12 +371,15 @@ private:
 
     const Georeference& georeference_;
     JobMonitor& monitor_;
+    const std::optional<Ellipsoid>& scene_;
     BodyPositions made_;
 };
 
-Result<BodyPositions> BodyPositions::make(const Georeference& georeference, JobMonitor& monitor)
+Result<BodyPositions> BodyPositions::make(const Georeference& georeference,
+                                          JobMonitor& monitor,
+                                          const std::optional<Ellipsoid>& scene)
 {
-    return Maker(georeference, monitor).make();
+    return Maker(georeference, monitor, scene).make();
 }
 
 BodyPositions::Foot BodyPositions::footFrom(const Block& block, double u, double v) const noexcept

@@ -9,13 +9,14 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace marsview {
 
 /// Positions in the body-fixed frame, in meters: x through longitude 0° on the equator, z through
-/// the north pole. A sample at a height lies on the normal of the raster's own ellipsoid, at its
-/// foot point S: S + height · n. So a vertex has one position wherever it is computed.
+/// the north pole. A sample at a height lies on the normal of an ellipsoid, at its foot point S:
+/// S + height · n. So a vertex has one position wherever it is computed.
 ///
 /// In cylindrical systems longitude depends only on the column and latitude only on the row: sines
 /// and cosines come from tables. In others, polynomials per block of samples replace the
@@ -32,8 +33,11 @@ public:
 
     /// Errors: Invalid if the raster has no body, extends over more than a full turn of longitude,
     /// beyond a pole or to places without coordinates; Canceled. Projections take about 0.1 µs per
-    /// sample.
-    static Result<BodyPositions> make(const Georeference& georeference, JobMonitor& monitor);
+    /// sample. On the ellipsoid of a scene, otherwise on the raster's own: samples keep their
+    /// longitude, planetocentric latitude and height.
+    static Result<BodyPositions> make(const Georeference& georeference,
+                                      JobMonitor& monitor,
+                                      const std::optional<Ellipsoid>& scene = std::nullopt);
 
     /// The samples that are used. A column that repeats the first one after a full turn, and rows
     /// that lie at a pole, where all their samples meet, are left out.

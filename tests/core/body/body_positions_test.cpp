@@ -98,6 +98,37 @@ TEST_P(Placed, SamplesLieWhereCartConvertPutsThem)
     EXPECT_LT(worst_m, std::min(1e-3, 1e-6 * cell_m));
 }
 
+// Layers in CRSs with other radii lie together: only longitude, planetocentric latitude and height
+// count.
+TEST_P(Placed, OnTheEllipsoidOfASceneSamplesKeepTheirPlaces)
+{
+    const Georeference georeference = this->georeference();
+    constexpr Ellipsoid kScene{.equatorial_m = 3.4e6, .polar_m = 3.37e6};
+    JobMonitor monitor;
+    const auto positions = BodyPositions::make(georeference, monitor, kScene);
+    ASSERT_TRUE(positions) << positions.error().message;
+    EXPECT_EQ(positions->ellipsoid(), kScene);
+    const GeographicLib::Geocentric frame(kScene.equatorial_m, kScene.flattening());
+    const double cell_m =
+        std::min(georeference.pixelWidthMeters(), georeference.pixelHeightMeters());
+    test::Random random(12);
+    for (int i = 0; i < 500; ++i) {
+        const auto column = static_cast<std::size_t>(
+            random.uniform(0.0, 0.999999 * static_cast<double>(positions->columns())));
+        const auto row = static_cast<std::size_t>(
+            random.uniform(0.0, 0.999999 * static_cast<double>(positions->rows())));
+        const double height_m = random.uniform(-8000.0, 21000.0);
+        const auto place = georeference.toGeographic(GridPoint{
+            static_cast<double>(column), static_cast<double>(row + positions->firstRow())});
+        ASSERT_TRUE(place);
+        Vec3 truth;
+        frame.Forward(kScene.planetographic(place->latitude).degrees(), place->longitude.degrees(),
+                      height_m, truth.x, truth.y, truth.z);
+        EXPECT_LT(length(positions->at(column, row, height_m) - truth),
+                  std::min(1e-3, 1e-6 * cell_m));
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(BodyPositions,
                          Placed,
                          testing::ValuesIn(positionCases()),
