@@ -10,6 +10,7 @@
 #include "ui/controllers/measure_controller.h"
 #include "ui/globe/globe_view.h"
 #include "ui/overlay/annotation_marks.h"
+#include "ui/overlay/globe_overlays.h"
 #include "ui/overlay/map_labels.h"
 #include "ui/overlay/map_overlays.h"
 #include "ui/overlay/measure_marks.h"
@@ -173,6 +174,7 @@ void MainWindow::makeCenter()
     layout->addWidget(view_, 0, 0);
     layout->addWidget(globe_, 0, 0);
     globe_->hide();
+    new GlobeOverlays(*globe_, *overlays_); // a child of the globe
     layout->addWidget(notice_bar_, 0, 0, Qt::AlignTop);
     notice_bar_->raise();
     connect(notice_bar_, &NoticeBar::coverChanged, this,

@@ -202,4 +202,42 @@ BodyCamera homeCamera(const BodyLimits& limits, const Viewport& viewport, Angle 
     return camera;
 }
 
+namespace {
+
+// The smallest circle around both.
+BodyArea united(const BodyArea& a, const BodyArea& b)
+{
+    const Vec3 from = directionOf(a.middle);
+    const Vec3 to = directionOf(b.middle);
+    const double between = angleBetween(from, to);
+    const double a_reach = a.reach.radians();
+    const double b_reach = b.reach.radians();
+    if (between + b_reach <= a_reach) {
+        return a;
+    }
+    if (between + a_reach <= b_reach) {
+        return b;
+    }
+    const double reach = 0.5 * (between + a_reach + b_reach);
+    if (reach >= std::numbers::pi || between < 1e-12) {
+        return {.middle = a.middle, .reach = Angle::radians(std::min(reach, std::numbers::pi))};
+    }
+    const double turn = reach - a_reach; // from the one middle toward the other
+    const Vec3 middle =
+        (from * std::sin(between - turn) + to * std::sin(turn)) * (1.0 / std::sin(between));
+    return {.middle = placeInDirection(middle), .reach = Angle::radians(reach)};
+}
+
+} // namespace
+
+BodyLimits united(const BodyLimits& a, const BodyLimits& b)
+{
+    return {.ellipsoid = a.ellipsoid,
+            .area = united(a.area, b.area),
+            .lowest_m = std::min(a.lowest_m, b.lowest_m),
+            .highest_m = std::max(a.highest_m, b.highest_m),
+            .distance_min_m = std::min(a.distance_min_m, b.distance_min_m),
+            .distance_max_m = std::max(a.distance_max_m, b.distance_max_m)};
+}
+
 } // namespace marsview

@@ -36,6 +36,9 @@ struct BodyLimits {
 /// From two cells to where the whole area is small.
 BodyLimits bodyLimits(const BodyGrid& grid, double lowest_m, double highest_m);
 
+/// For several maps of one body: around all of both areas, as near as the finer one allows.
+BodyLimits united(const BodyLimits& a, const BodyLimits& b);
+
 /// The camera within the limits: target in the area, distance and tilt (0 to 85°) limited, azimuth
 /// in [-180°, 180°], longitude likewise, the eye at least 1/50 of its distance above the terrain
 /// under it. The target is at most so high above the terrain under it that this terrain does not

@@ -26,6 +26,11 @@ constexpr int kDepthOutside = 3;
 
 constexpr int kRefinements = 40;
 
+// Of maps on top of each other: so many covered surfaces of one a ray may pass, and where it goes
+// on behind one.
+constexpr int kCoveredPerMapMax = 64;
+constexpr double kUnderCells = 1e-3;
+
 // The part of a ray within an ellipsoid of revolution; nothing if it misses.
 std::optional<std::pair<double, double>> within(const Ray& ray, double equatorial_m, double polar_m)
 {
@@ -325,6 +330,68 @@ std::optional<BodyHit> BodyTerrain::cast(const Ray& ray, double exaggeration) co
         }
     }
     return std::nullopt;
+}
+
+BodyScene::BodyScene(std::vector<BodyTerrain> maps)
+    : maps_(std::move(maps))
+{}
+
+std::optional<std::size_t> BodyScene::mapAt(const GeographicPoint& place) const
+{
+    for (std::size_t index = 0; index < maps_.size(); ++index) {
+        if (std::isfinite(maps_[index].height(place))) {
+            return index;
+        }
+    }
+    return std::nullopt;
+}
+
+double BodyScene::height(const GeographicPoint& place) const
+{
+    const auto index = mapAt(place);
+    return index ? maps_[*index].height(place) : kNaN;
+}
+
+bool BodyScene::isCovered(const BodyHit& hit, std::size_t index) const
+{
+    const auto place = maps_[index].map()->georeference().toGeographic(hit.grid);
+    return place && std::any_of(maps_.begin(), maps_.begin() + static_cast<std::ptrdiff_t>(index),
+                                [&place](const BodyTerrain& above) {
+                                    return std::isfinite(above.height(*place));
+                                });
+}
+
+std::optional<BodyScenePoint> BodyScene::cast(const Ray& ray, double exaggeration) const
+{
+    std::optional<BodyScenePoint> nearest;
+    for (std::size_t index = 0; index < maps_.size(); ++index) {
+        double from_m = 0.0;
+        for (int i = 0; i < kCoveredPerMapMax; ++i) {
+            const auto hit = maps_[index].cast({ray.at(from_m), ray.direction}, exaggeration);
+            if (!hit || (nearest && from_m + hit->distance_m >= nearest->hit.distance_m)) {
+                break;
+            }
+            const double distance_m = from_m + hit->distance_m;
+            if (!isCovered(*hit, index)) {
+                nearest = BodyScenePoint{.index = index, .hit = *hit};
+                nearest->hit.distance_m = distance_m;
+                break;
+            }
+            // Behind a covered surface the ray goes on a little under it.
+            from_m = distance_m + kUnderCells * maps_[index].grid()->stepMaxM();
+        }
+    }
+    return nearest;
+}
+
+HeightRange BodyScene::range() const
+{
+    HeightRange all = maps_.front().map()->heightfield().range().value_or(HeightRange{});
+    for (const BodyTerrain& map : maps_) {
+        const HeightRange range = map.map()->heightfield().range().value_or(all);
+        all = {std::min(all.minimum_m, range.minimum_m), std::max(all.maximum_m, range.maximum_m)};
+    }
+    return all;
 }
 
 } // namespace marsview

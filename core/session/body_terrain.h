@@ -5,8 +5,10 @@
 #include "core/session/map.h"
 #include "core/view/camera.h"
 
+#include <cstddef>
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace marsview {
 
@@ -66,6 +68,40 @@ private:
     std::shared_ptr<const Map> map_;
     std::shared_ptr<const BodyGrid> grid_;
     double columns_per_turn_ = 0.0; // 0 where longitude is not periodic along the columns
+};
+
+/// A point of the terrain of several maps.
+struct BodyScenePoint {
+    std::size_t index = 0; // of the map, counted from the top
+    BodyHit hit;           // on that map's grid
+};
+
+/// Maps on one body, on top of each other whatever their projections: at each place the terrain is
+/// that of the uppermost map with a surface there. Immutable; copies share; any thread.
+class BodyScene {
+public:
+    BodyScene() = default;
+    /// The uppermost first; all on the same ellipsoid.
+    explicit BodyScene(std::vector<BodyTerrain> maps);
+
+    bool isEmpty() const noexcept { return maps_.empty(); }
+    const std::vector<BodyTerrain>& maps() const noexcept { return maps_; }
+    /// Not of an empty scene.
+    const Ellipsoid& ellipsoid() const { return maps_.front().grid()->ellipsoid(); }
+
+    /// The map with that surface; empty without terrain there.
+    std::optional<std::size_t> mapAt(const GeographicPoint& place) const;
+    /// NaN without terrain.
+    double height(const GeographicPoint& place) const;
+    /// As BodyTerrain::cast().
+    std::optional<BodyScenePoint> cast(const Ray& ray, double exaggeration) const;
+    /// The lowest and the highest elevation of all maps.
+    HeightRange range() const;
+
+private:
+    bool isCovered(const BodyHit& hit, std::size_t index) const;
+
+    std::vector<BodyTerrain> maps_;
 };
 
 } // namespace marsview

@@ -28,7 +28,7 @@ double stepsToEnd(double from, double step, double low, double high)
 } // namespace
 
 std::optional<EdgeMark>
-edgeMark(const OrbitCamera& camera, const ScenePoint& place, const EdgeLine& line)
+edgeMark(const CameraPose& camera, const ScenePoint& place, const EdgeLine& line)
 {
     const auto pixel = project(camera, line.viewport, place);
     if (pixel && isInside(*pixel, line)) {
@@ -36,8 +36,8 @@ edgeMark(const OrbitCamera& camera, const ScenePoint& place, const EdgeLine& lin
     }
     // Perpendicular to the view axis, the point lies on the same side in front of the eye and
     // behind it.
-    const CameraAxes axes = axesOf(camera);
-    const Vec3 way = place - eyeOf(camera);
+    const CameraAxes& axes = camera.axes;
+    const Vec3 way = place - camera.eye;
     double right = dot(way, axes.right);
     double down = -dot(way, axes.up);
     const double across = std::hypot(right, down);

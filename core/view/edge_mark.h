@@ -26,6 +26,6 @@ struct EdgeMark {
 /// from behind the eye. A point straight behind is marked at the bottom. If the line has no extent,
 /// the mark is in its middle.
 std::optional<EdgeMark>
-edgeMark(const OrbitCamera& camera, const ScenePoint& place, const EdgeLine& line);
+edgeMark(const CameraPose& camera, const ScenePoint& place, const EdgeLine& line);
 
 } // namespace marsview

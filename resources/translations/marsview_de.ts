@@ -2162,6 +2162,13 @@ y %2</translation>
     </message>
 </context>
 <context>
+    <name>marsview::GlobeTouch</name>
+    <message>
+        <source>The globe can be touched only where the map is held in memory. Choose View › Scene › Flat Map to touch this map</source>
+        <translation>Der Globus lässt sich nur ertasten, wenn die Karte im Speicher liegt. Wählen Sie Ansicht › Szene › Ebene Karte, um diese Karte zu ertasten</translation>
+    </message>
+</context>
+<context>
     <name>marsview::GlobeView</name>
     <message>
         <source>Globe</source>
@@ -2176,9 +2183,13 @@ y %2</translation>
         <translation>Der Layer wird auf seinen Himmelskörper gelegt …</translation>
     </message>
     <message>
-        <source>This layer has no place on the globe: it %1</source>
-        <extracomment>In the middle of the globe; %1 says why</extracomment>
-        <translation>Dieser Layer hat keinen Platz auf dem Globus: %1</translation>
+        <source>Preparing the terrain for touch…</source>
+        <translation>Das Gelände wird zum Ertasten vorbereitet …</translation>
+    </message>
+    <message>
+        <source>%1 has no place on the globe: it %2</source>
+        <extracomment>Over the globe; %1 is a file, %2 says why</extracomment>
+        <translation>%1 hat keinen Platz auf dem Globus: %2</translation>
     </message>
 </context>
 <context>
@@ -4480,17 +4491,13 @@ Bewegen Sie die Karte zu einer Ansicht, die Sie behalten wollen, und drücken Si
         <translation>Nicht verfügbar: Ein haptisches Gerät kann den Globus noch nicht berühren. Trennen Sie es zuerst</translation>
     </message>
     <message>
-        <source>Show the topmost layer where it lies on its body</source>
-        <translation>Den obersten Layer dort zeigen, wo er auf seinem Himmelskörper liegt</translation>
-    </message>
-    <message>
-        <source>The globe shows the topmost layer only.</source>
-        <translation>Der Globus zeigt nur den obersten Layer.</translation>
-    </message>
-    <message>
         <source>Not available on the globe yet. Choose View › Scene › Flat Map first</source>
         <extracomment>Why an entry of the menu cannot be chosen</extracomment>
         <translation>Auf dem Globus noch nicht verfügbar. Wählen Sie zuerst Ansicht › Szene › Ebene Karte</translation>
+    </message>
+    <message>
+        <source>Show all layers of one body where they lie on it</source>
+        <translation>Alle Layer eines Himmelskörpers dort zeigen, wo sie auf ihm liegen</translation>
     </message>
 </context>
 <context>

@@ -324,5 +324,125 @@ TEST_F(BodyPicture, LightAtAPlaceDependsOnItsSlopeAndNotOnTheMapsProjection)
     EXPECT_LT(degrees, 235);
 }
 
+// A level map of a sphere.
+struct LevelMap {
+    Georeference georeference;
+    DrawnMap drawn;
+    std::shared_ptr<const BodyGrid> grid;
+
+    LevelMap(const char* crs,
+             std::size_t columns,
+             std::size_t rows,
+             const GeoTransform::Terms& terms,
+             double height_m)
+        : georeference(columns, rows, *GeoTransform::fromTerms(terms), *Crs::fromText(crs))
+        , drawn(floatTerrain(
+                    columns, rows, [height_m](std::size_t, std::size_t) { return height_m; }),
+                georeference.sceneFrame())
+    {
+        JobMonitor monitor;
+        grid = BodyGrid::make(georeference, monitor).value();
+    }
+    TerrainLayer layer() const
+    {
+        TerrainLayer made = drawn.layer();
+        made.body = grid;
+        return made;
+    }
+    // Whether a place lies so many samples within the outermost ones.
+    bool has(const GeographicPoint& place, double inside) const
+    {
+        const auto at = georeference.toGrid(place);
+        const auto within = [inside](double value, std::size_t count) {
+            return value >= inside && value <= static_cast<double>(count - 1) - inside;
+        };
+        return at && within(at->row, georeference.rows()) &&
+               (grid->closes() || within(at->column, georeference.columns()));
+    }
+};
+
+// The lower layer is higher here: it would hide the upper one.
+TEST_F(BodyPicture, TheUpperLayerIsSeenWhereItHasDataWhateverItsProjection)
+{
+    constexpr double kRadius = 1737400.0;
+    constexpr double kDepth = 1e5;
+    const LevelMap lower("+proj=longlat +R=1737400", 360, 180, {0, 1, 0, 90, 0, -1}, 0.0);
+    struct Nested {
+        LevelMap map;
+        std::vector<BodyCamera> cameras;
+    };
+    const std::vector<Nested> all{
+        {{"+proj=tmerc +lat_0=-43 +lon_0=0 +R=1737400 +units=m",
+          121,
+          101,
+          {-240000, 4000, 0, 200000, 0, -4000},
+          -kDepth},
+         {over(0.0, -43.0, 1.5e6), over(0.0, -43.0, 1e7), over(3.0, -40.0, 6e5, 30.0)}},
+        {{"+proj=stere +lat_0=-90 +lat_ts=-90 +lon_0=0 +R=1737400 +units=m",
+          201,
+          201,
+          {-800000, 8000, 0, 800000, 0, -8000},
+          -kDepth},
+         {over(0.0, -90.0, 2e6), over(0.0, -75.0, 8e6), over(179.9, -65.0, 1e6)}},
+        {{"+proj=longlat +R=1737400", 80, 60, {170, 0.5, 0, 20, 0, -0.5}, -kDepth},
+         {over(180.0, 5.0, 3e6), over(-170.0, -5.0, 6e5)}},
+        {{"+proj=longlat +R=1737400", 720, 100, {-180, 0.5, 0, 20, 0, -0.5}, -kDepth},
+         {over(180.0, 5.0, 3e6), over(0.0, -20.0, 6e6)}}};
+    const auto depth_on = [](const CameraPose& pose, const Ray& ray, double radius_m) {
+        const double middle = -dot(ray.origin, ray.direction);
+        const Vec3 nearest = ray.at(middle);
+        const double rest = radius_m * radius_m - dot(nearest, nearest);
+        return rest > 0.0 ? (middle - std::sqrt(rest)) * dot(ray.direction, pose.axes.forward)
+                          : kFar;
+    };
+    for (const Nested& nested : all) {
+        for (const BodyCamera& camera : nested.cameras) {
+            renderer_->setLayers({nested.map.layer(), lower.layer()});
+            DrawStyle style;
+            style.sky_top = kSkyColor;
+            style.sky_bottom = kSkyColor;
+            DrawRequest request{.viewport = kViewport};
+            const CameraPose pose = poseOf(camera, lower.grid->ellipsoid());
+            request.body_pose = pose;
+            const OffscreenPicture picture =
+                drawOffscreen(*renderer_, request, style, DepthUse::Yes).value();
+            std::size_t upper = 0;
+            std::size_t others = 0;
+            std::size_t wrong = 0;
+            for (int y = 0; y < kViewport.height; ++y) {
+                for (int x = 0; x < kViewport.width; ++x) {
+                    const Ray ray = pickRay(pose, kViewport, {x + 0.5, y + 0.5});
+                    const double on_lower = depth_on(pose, ray, kRadius);
+                    const double on_upper = depth_on(pose, ray, kRadius - kDepth);
+                    if (on_lower == kFar || on_upper == kFar) {
+                        continue;
+                    }
+                    const double along = dot(ray.direction, pose.axes.forward);
+                    const auto has = [&](double depth, double inside) {
+                        const BodyPlace place =
+                            placeOf(ray.at(depth / along), lower.grid->ellipsoid());
+                        return nested.map.has(place.foot, inside);
+                    };
+                    const double drawn =
+                        picture.depths_m[static_cast<std::size_t>(y * kViewport.width + x)];
+                    // Triangles are off by up to a pixel: from afar, by 20 km.
+                    const bool is_upper = std::abs(drawn - on_upper) < std::abs(drawn - on_lower);
+                    if (has(on_lower, 2.0) && has(on_upper, 2.0)) {
+                        ++upper;
+                        wrong += is_upper ? 0U : 1U;
+                    } else if (!has(on_lower, -2.0)) {
+                        ++others;
+                        wrong += is_upper ? 1U : 0U;
+                    }
+                }
+            }
+            EXPECT_GT(upper, 200U) << nested.map.georeference.crs()->name();
+            EXPECT_LE(wrong, (upper + others) / 2000)
+                << nested.map.georeference.crs()->name() << " from " << camera.distance_m
+                << " m: of " << upper << " above and " << others << " beside";
+        }
+    }
+}
+
 } // namespace
 } // namespace marsview::test

@@ -1,5 +1,7 @@
 #include "ui/canvas/map_mouse.h"
 
+#include "ui/canvas/overlay_cover.h"
+
 #include <QApplication>
 #include <QKeyEvent>
 #include <QMouseEvent>
@@ -291,13 +293,7 @@ void MapMouse::pan(QPointF from, QPointF to, double grabbed_z_m)
 
 bool MapMouse::isOverOverlay(QPointF position) const
 {
-    const auto children = parts_.view.findChildren<QWidget*>(QString(), Qt::FindDirectChildrenOnly);
-    return std::any_of(children.begin(), children.end(), [&](const QWidget* child) {
-        const bool hides_terrain = !child->testAttribute(Qt::WA_TransparentForMouseEvents) ||
-                                   child->property(kHidesTerrain).toBool();
-        return child->isVisible() && !child->isWindow() && hides_terrain &&
-               child->geometry().contains(position.toPoint());
-    });
+    return marsview::isOverOverlay(parts_.view, position);
 }
 
 void MapMouse::showCursor()

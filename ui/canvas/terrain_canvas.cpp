@@ -1,5 +1,6 @@
 #include "ui/canvas/terrain_canvas.h"
 
+#include "ui/render/cursor_solids.h"
 #include "ui/render/offscreen_picture.h"
 
 #include <QOpenGLWidget>
@@ -17,9 +18,6 @@ namespace {
 // The shadow of the cursor: radius on screen, and how many sides it has.
 constexpr double kShadowPoints = 9.0;
 constexpr int kShadowSides = 24;
-
-// No part of the cursor is further from its place and its shadow than this.
-constexpr double kCursorReachPoints = 32.0;
 
 // Of pictures for files, a pixel.
 constexpr int kSmoothSamples = 4;
@@ -52,35 +50,6 @@ std::vector<ScenePoint> shadowOf(const ScenePoint& place, double radius_m, const
         }
     }
     return shadow;
-}
-
-// Where the cursor may be hidden by the terrain.
-PixelArea areaOfCursor(const CursorPicture& cursor, const OrbitCamera& camera, const Viewport& size)
-{
-    const double reach = kCursorReachPoints * cursor.pixels_per_point;
-    std::vector<ScenePoint> points = cursor.shadow;
-    points.push_back(cursor.position);
-    double left = size.width;
-    double right = 0.0;
-    double top = size.height;
-    double bottom = 0.0;
-    for (const ScenePoint& point : points) {
-        if (const auto pixel = project(camera, size, point)) {
-            left = std::min(left, pixel->x - reach);
-            right = std::max(right, pixel->x + reach);
-            top = std::min(top, pixel->y - reach);
-            bottom = std::max(bottom, pixel->y + reach);
-        }
-    }
-    const auto inside = [](double value, int limit) {
-        return static_cast<int>(std::clamp(value, 0.0, static_cast<double>(limit)));
-    };
-    const int first_column = inside(std::floor(left), size.width);
-    const int first_row = inside(size.height - std::ceil(bottom), size.height);
-    return {.left = first_column,
-            .bottom = first_row,
-            .width = std::max(0, inside(std::ceil(right), size.width) - first_column),
-            .height = std::max(0, inside(size.height - std::floor(top), size.height) - first_row)};
 }
 
 } // namespace

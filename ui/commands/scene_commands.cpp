@@ -3,7 +3,9 @@
 #include "core/session/saved_view.h"
 #include "ui/canvas/terrain_view.h"
 #include "ui/controllers/haptics/device_session.h"
+#include "ui/controllers/session_controller.h"
 #include "ui/globe/globe_view.h"
+#include "ui/panels/layer_model.h"
 #include "ui/window/status_readout.h"
 #include "ui/window/window_actions.h"
 #include "ui/window/window_messages.h"
@@ -17,6 +19,27 @@
 #include <variant>
 
 namespace marsview {
+namespace {
+
+// Whether the picture will show all of the map.
+bool isWhole(const TerrainView& view)
+{
+    const SceneBox box = view.ground().box(view.exaggeration());
+    const Viewport viewport = view.viewport();
+    const double level_m = 0.5 * (box.minimum.z + box.maximum.z);
+    for (const double x : {box.minimum.x, box.maximum.x}) {
+        for (const double y : {box.minimum.y, box.maximum.y}) {
+            const auto pixel = project(view.cameraGoal(), viewport, {x, y, level_m});
+            if (!pixel || pixel->x < 0.0 || pixel->x > viewport.width || pixel->y < 0.0 ||
+                pixel->y > viewport.height) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+} // namespace
 
 SceneCommands::SceneCommands(const Parts& parts)
     : parts_(parts)
@@ -38,7 +61,7 @@ SceneCommands::SceneCommands(const Parts& parts)
     parts_.flat_actions += actions.measure_kinds->actions() + actions.annotation_shapes->actions();
     for (QAction* action : actions.tools->actions()) {
         const Tool tool = static_cast<Tool>(action->data().toInt());
-        if (tool != Tool::Pan && tool != Tool::Orbit) {
+        if (tool == Tool::Measure || tool == Tool::Annotate) {
             parts_.flat_actions.append(action);
         }
     }
@@ -53,10 +76,24 @@ void SceneCommands::connectParts()
     connect(parts_.actions.scenes, &QActionGroup::triggered, this,
             [this](QAction* action) { choose(static_cast<SceneChoice>(action->data().toInt())); });
     connect(view, &TerrainView::layersChanged, this, &SceneCommands::follow);
+    connect(&parts_.session, &SessionController::sessionChanged, this, &SceneCommands::follow);
     connect(view, &TerrainView::lookChanged, this, &SceneCommands::follow);
     connect(view, &TerrainView::exaggerationChanged, this, &SceneCommands::follow);
     connect(view, &TerrainView::toolChanged, &parts_.globe, &GlobeView::setTool);
     connect(&parts_.device, &DeviceSession::connectionChanged, this, &SceneCommands::showChoices);
+    connect(parts_.actions.contact_model_group, &QActionGroup::triggered, this, [this] {
+        if (is_globe_shown_) {
+            parts_.globe.setContactModel(parts_.view.contactModel());
+        }
+    });
+    // Queued: the tool may have been chosen just now.
+    connect(
+        &parts_.globe, &GlobeView::touchFailed, this,
+        [this](const QString& reason) {
+            parts_.view.setTool(Tool::Pan);
+            parts_.messages.show(reason);
+        },
+        Qt::QueuedConnection);
     connect(&parts_.globe, &GlobeView::failed, this, [this](const QString& reason) {
         choose(SceneChoice::Flat);
         parts_.messages.report(tr("Cannot Show Globe"), reason);
@@ -80,14 +117,25 @@ void SceneCommands::readOnGlobe()
     StatusReadout* readout = &parts_.readout;
     // Not after this object: a globe that loses the focus while the window closes reports, too.
     connect(globe, &GlobeView::readingChanged, this,
-            [this, globe, readout](const std::optional<RayHit>& hit) {
-                if (is_globe_shown_) {
-                    readout->setSource(ReadingSource::Pointer);
-                    readout->setPlace(
-                        hit ? std::optional(ReadPlace{
-                                  .hit = *hit, .screen_pixel_m = globe->metersPerPoint(*hit)})
-                            : std::nullopt);
+            [this, globe, readout](const std::optional<BodyScenePoint>& ground) {
+                if (!is_globe_shown_) {
+                    return;
                 }
+                readout->setSource(ReadingSource::Pointer);
+                if (!ground) {
+                    readout->setPlace(std::nullopt);
+                    return;
+                }
+                // Positions and elevations are those of the layer in the picture.
+                const auto& map = globe->layers()[ground->index].map;
+                if (read_map_.lock() != map) {
+                    readout->setMaps(map, map);
+                    read_map_ = map;
+                }
+                readout->setPlace(ReadPlace{.hit = {.grid = ground->hit.grid,
+                                                    .height_m = ground->hit.height_m,
+                                                    .t = ground->hit.distance_m},
+                                            .screen_pixel_m = globe->metersPerPoint(ground->hit)});
             });
     connect(globe, &GlobeView::detailChanged, readout, &StatusReadout::setDetail);
     connect(globe, &GlobeView::loadingChanged, readout, &StatusReadout::setLoading);
@@ -119,7 +167,7 @@ void SceneCommands::showChoices()
         if (choice == SceneChoice::Globe) {
             action->setEnabled(why_not.isEmpty());
             const QString tip = why_not.isEmpty()
-                                    ? tr("Show the topmost layer where it lies on its body")
+                                    ? tr("Show all layers of one body where they lie on it")
                                     : why_not;
             action->setStatusTip(tip);
             action->setToolTip(tip);
@@ -136,6 +184,7 @@ void SceneCommands::choose(SceneChoice choice)
 
 void SceneCommands::follow()
 {
+    read_map_.reset(); // the window shows another map in the status bar
     // Removing the last layer, or a map without a body on top, leads back to the flat map.
     if (is_globe_shown_ && !whyNoGlobe().isEmpty()) {
         choose(SceneChoice::Flat);
@@ -145,14 +194,29 @@ void SceneCommands::follow()
     if (!is_globe_shown_) {
         return;
     }
-    const std::vector<ShownLayer>& layers = parts_.view.shownLayers();
     parts_.globe.setLook(parts_.view.look());
     parts_.globe.setExaggeration(parts_.view.exaggeration());
-    parts_.globe.setLayer(layers.front());
-    parts_.globe.setNote(layers.size() > 1
-                             //: Over the globe
-                             ? tr("The globe shows the topmost layer only.")
-                             : QString());
+    parts_.globe.setContactModel(parts_.view.contactModel());
+    parts_.globe.setLayers(layersOnBody());
+}
+
+// Those that the user shows, as far as they lie on the body of the topmost one.
+std::vector<ShownLayer> SceneCommands::layersOnBody() const
+{
+    std::vector<ShownLayer> layers;
+    const Body* body = nullptr;
+    for (const Layer& layer : parts_.session.session().layers) {
+        const Body* own = layer.map->info().body;
+        if (!layer.is_visible || own == nullptr || (body != nullptr && own != body)) {
+            continue;
+        }
+        body = own;
+        layers.push_back({.map = layer.map,
+                          .ramp = &rampOf(layer),
+                          .color_range = parts_.session.stretchedRangeOf(layer),
+                          .slope_range = layer.slope_range});
+    }
+    return layers;
 }
 
 void SceneCommands::setGlobeShown(bool is_shown)
@@ -165,7 +229,7 @@ void SceneCommands::setGlobeShown(bool is_shown)
     GlobeView& globe = parts_.globe;
     const bool has_focus = view.hasFocus() || globe.hasFocus();
     if (is_shown) {
-        if (view.tool() != Tool::Orbit) {
+        if (view.tool() == Tool::Measure || view.tool() == Tool::Annotate) {
             view.setTool(Tool::Pan);
         }
         globe.setTool(view.tool());
@@ -175,8 +239,9 @@ void SceneCommands::setGlobeShown(bool is_shown)
         globe.show();
     } else {
         handToMap();
+        globe.setTool(Tool::Pan); // lifts the stylus
         globe.hide();
-        globe.setLayer(std::nullopt);
+        globe.setLayers({});
         view.show();
     }
     if (has_focus) {
@@ -190,6 +255,9 @@ void SceneCommands::setGlobeShown(bool is_shown)
         widget->setToolTip(is_shown ? tr("Not available on the globe yet. Choose View › Scene › "
                                          "Flat Map first")
                                     : QString());
+    }
+    if (parts_.layer_list != nullptr) {
+        parts_.layer_list->setSceneOfBody(is_shown);
     }
     parts_.readout.setPlace(std::nullopt);
     Q_EMIT shownChanged(is_shown);
@@ -220,9 +288,18 @@ void SceneCommands::release(QAction& action)
     action.setEnabled(tips.was_enabled);
 }
 
+// Seen whole, a flat map of a planet is much wider than the globe: that is seen whole, too.
 void SceneCommands::handToGlobe()
 {
     const TerrainView& view = parts_.view;
+    if (handed_ && handed_->map.lock() == view.map() && handed_->flat == view.cameraGoal()) {
+        parts_.globe.setCamera(handed_->globe); // nothing moved since
+        return;
+    }
+    if (isWhole(view)) {
+        parts_.globe.setHomeCamera();
+        return;
+    }
     const auto camera =
         viewCamera(view.map()->georeference(), view.cameraGoal(), view.exaggeration());
     if (camera && std::holds_alternative<GeographicPoint>(camera->target)) {
@@ -239,7 +316,7 @@ void SceneCommands::handToMap()
 {
     TerrainView& view = parts_.view;
     if (!view.map() || parts_.globe.terrain() == nullptr ||
-        parts_.globe.terrain()->map() != view.map()) {
+        parts_.globe.terrain()->map()->info().body != view.map()->info().body) {
         return; // it was never looked at
     }
     const BodyCamera& from = parts_.globe.cameraGoal();
@@ -253,6 +330,7 @@ void SceneCommands::handToMap()
                                     view.exaggeration());
     if (camera) {
         view.setCamera(*camera);
+        handed_ = {.map = view.map(), .flat = view.cameraGoal(), .globe = from};
     }
 }
 

@@ -1,10 +1,18 @@
 // The scene of the window: the flat map, or the globe in its place.
 #pragma once
 
+#include "core/globe/body_camera.h"
+#include "core/session/map.h"
+#include "ui/canvas/shown_layer.h"
+
 #include <QHash>
 #include <QList>
 #include <QObject>
 #include <QString>
+
+#include <memory>
+#include <optional>
+#include <vector>
 
 class QAction;
 class QWidget;
@@ -14,6 +22,8 @@ namespace marsview {
 class DeviceSession;
 class GlobeView;
 class MainToolBar;
+class LayerModel;
+class SessionController;
 class StatusReadout;
 class TerrainView;
 class WindowMessages;
@@ -23,10 +33,10 @@ struct WindowActions;
 /// functions.
 enum class SceneChoice { Automatic, Flat, Globe };
 
-/// Shows the globe in place of the flat map, which stays as it is behind it: layers, look and
-/// exaggeration are the flat map's, and the camera is handed over both ways. While the globe is
-/// shown, actions that it does not have yet are disabled and say why. GUI thread; must not outlive
-/// its parts.
+/// Shows the globe in place of the flat map, which stays as it is behind it. The globe has all
+/// visible layers of the topmost one's body, whatever their CRS; look and exaggeration are the flat
+/// map's, and the camera is handed over both ways. While the globe is shown, actions that it does
+/// not have yet are disabled and say why. GUI thread; must not outlive its parts.
 class SceneCommands final : public QObject {
     Q_OBJECT
 
@@ -35,12 +45,15 @@ public:
         const WindowActions& actions;
         TerrainView& view;
         GlobeView& globe;
+        SessionController& session;
         const DeviceSession& device;
         StatusReadout& readout;
         WindowMessages& messages;
         /// Further actions and widgets of the flat map alone.
         QList<QAction*> flat_actions;
         QList<QWidget*> flat_widgets;
+        /// Which layers are in the picture, as people see it; may be null.
+        LayerModel* layer_list = nullptr;
     };
 
     explicit SceneCommands(const Parts& parts);
@@ -58,6 +71,7 @@ private:
     void showChoices();
     void setGlobeShown(bool is_shown);
     void follow();
+    std::vector<ShownLayer> layersOnBody() const;
     void handToGlobe();
     void handToMap();
     void readOnGlobe();
@@ -66,6 +80,12 @@ private:
     /// Why the globe cannot be shown; empty where it can.
     QString whyNoGlobe() const;
 
+    // The camera of the globe when the flat map got it.
+    struct HandedCamera {
+        std::weak_ptr<const Map> map;
+        OrbitCamera flat;
+        BodyCamera globe;
+    };
     struct Tips {
         bool was_enabled = true;
         QString tool_tip;
@@ -77,6 +97,8 @@ private:
     bool is_globe_shown_ = false;
     bool is_withholding_ = false; // this changes an action, not its feature
     QHash<QAction*, Tips> withheld_;
+    std::optional<HandedCamera> handed_;
+    std::weak_ptr<const Map> read_map_; // that positions in the status bar are on
 };
 
 } // namespace marsview

@@ -8,6 +8,8 @@
 #include "ui/overlay/measure_marks.h"
 #include "ui/panels/georeferencing_panel.h"
 #include "ui/panels/haptics_panel.h"
+#include "ui/panels/layer_model.h"
+#include "ui/panels/layers_panel.h"
 #include "ui/panels/measure_panel.h"
 #include "ui/window/main_tool_bar.h"
 #include "ui/window/window_actions.h"
@@ -35,9 +37,9 @@ NoticeCommands noticeCommandsOf(const WindowParts& parts)
 QList<QAction*>
 flatActions(const MapOverlays& overlays, const SavedViews& views, const ReportExporter& reports)
 {
-    return overlays.visibilityActions() + overlays.terrainActions() +
-           QList<QAction*>{views.menu()->menuAction(), views.actions().fly_through,
-                           reports.action()};
+    return overlays.terrainActions() + QList<QAction*>{views.menu()->menuAction(),
+                                                       views.actions().fly_through,
+                                                       reports.action()};
 }
 
 } // namespace
@@ -191,11 +193,13 @@ WindowCommands::WindowCommands(const WindowParts& parts, const WindowOptions& op
     , scene({.actions = parts.actions,
              .view = parts.view,
              .globe = parts.globe,
+             .session = parts.session,
              .device = parts.haptics.device(),
              .readout = parts.readout,
              .messages = parts.messages,
              .flat_actions = flatActions(parts.overlays, views, reports),
-             .flat_widgets = {&parts.haptics_panel, &parts.measure_panel, &parts.views_panel}})
+             .flat_widgets = {&parts.haptics_panel, &parts.measure_panel, &parts.views_panel},
+             .layer_list = parts.layers.findChild<LayerModel*>()})
 {
     showMessages(parts.messages);
     showNames(parts.overlays);

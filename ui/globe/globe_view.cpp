@@ -1,5 +1,6 @@
 #include "ui/globe/globe_view.h"
 
+#include "ui/canvas/overlay_cover.h"
 #include "ui/canvas/view_projection.h"
 
 #include <QLabel>
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <utility>
 
@@ -31,6 +33,10 @@ constexpr double kWheelNotch = 120.0;
 constexpr double kWheelFactor = 0.8;
 constexpr double kWheelFactorFine = 0.96;
 constexpr milliseconds kWheelDuration{140};
+
+constexpr double kDeeperPerNotch = 1.15; // of the stylus' depth
+constexpr double kShadowPoints = 9.0;
+constexpr int kShadowSides = 24;
 
 // The interval at which samples that were requested are looked for.
 constexpr milliseconds kSampleInterval{40};
@@ -73,9 +79,23 @@ GlobeView::GlobeView(QWidget* parent)
     connect(&still_timer_, &QTimer::timeout, this, &GlobeView::refine);
     sample_timer_.setSingleShot(true);
     connect(&sample_timer_, &QTimer::timeout, this, &GlobeView::report);
+    connect(&touch_, &GlobeTouch::moved, this, [this] {
+        showCursor();
+        update(); // over the picture that was kept
+        Q_EMIT stylusMoved();
+    });
+    connect(&touch_, &GlobeTouch::failed, this, &GlobeView::touchFailed);
+    connect(&touch_, &GlobeTouch::preparingChanged, this, [this](bool is_preparing) {
+        if (!scene_.isEmpty()) {
+            wait_->setText(tr("Preparing the terrain for touch…"));
+            wait_->setVisible(is_preparing);
+        }
+    });
     connect(&motion_, &GlobeMotion::cameraChanged, this, [this] {
         redraw();
+        followTouch();
         report();
+        Q_EMIT sightChanged();
     });
 }
 
@@ -90,91 +110,183 @@ GlobeView::~GlobeView()
     releaseGraphics();
 }
 
-void GlobeView::setLayer(const std::optional<ShownLayer>& layer)
+void GlobeView::setLayers(const std::vector<ShownLayer>& top_first)
 {
-    const bool is_same_map = layer && layer_ && layer->map == layer_->map;
-    layer_ = layer;
-    is_layer_sent_ = false;
-    if (is_same_map) {
+    const auto is_same_map = [](const ShownLayer& a, const ShownLayer& b) {
+        return a.map == b.map;
+    };
+    const bool are_same =
+        std::equal(top_first.begin(), top_first.end(), wanted_.begin(), wanted_.end(), is_same_map);
+    const Body* before = wanted_.empty() ? nullptr : wanted_.front().map->info().body;
+    const bool look_same =
+        are_same && std::equal(top_first.begin(), top_first.end(), wanted_.begin(),
+                               [](const ShownLayer& a, const ShownLayer& b) {
+                                   const HeightRange a_range = colorRangeOf(a);
+                                   const HeightRange b_range = colorRangeOf(b);
+                                   return a.ramp == b.ramp && a.slope_range == b.slope_range &&
+                                          a_range.minimum_m == b_range.minimum_m &&
+                                          a_range.maximum_m == b_range.maximum_m;
+                               });
+    if (look_same) {
+        return;
+    }
+    wanted_ = top_first;
+    are_layers_sent_ = false;
+    if (are_same) {
+        for (ShownLayer& layer : layers_) {
+            layer = *std::find_if(wanted_.begin(), wanted_.end(), [&](const ShownLayer& wanted) {
+                return is_same_map(wanted, layer);
+            });
+        }
         redraw();
+        Q_EMIT sceneChanged();
         return;
     }
     if (placing_) {
         placing_->cancel();
         placing_.reset();
     }
-    if (terrain_ && !first_camera_) {
-        const Body* before = terrain_->map()->info().body;
-        if (layer && before != nullptr && layer->map->info().body == before) {
-            first_camera_ = motion_.goal();
+    const std::optional<Ellipsoid> ellipsoid = sceneEllipsoid();
+    std::erase_if(placed_, [&](const Placed& placed) {
+        return (placed.grid && placed.grid->ellipsoid() != ellipsoid) ||
+               std::none_of(wanted_.begin(), wanted_.end(),
+                            [&](const ShownLayer& layer) { return layer.map == placed.map; });
+    });
+    std::optional<BodyCamera> kept;
+    if (wanted_.empty() || wanted_.front().map->info().body != before) {
+        scene_ = {};
+        layers_.clear();
+        motion_.stop();
+    } else if (!scene_.isEmpty()) {
+        kept = motion_.goal();
+    }
+    showPlaced();
+    if (scene_.isEmpty() && kept) {
+        first_camera_ = kept; // layers that are placed on another ellipsoid
+    }
+    placeNext();
+}
+
+// Of the lowest layer, which the others are put on in most cases.
+std::optional<Ellipsoid> GlobeView::sceneEllipsoid() const
+{
+    for (auto layer = wanted_.rbegin(); layer != wanted_.rend(); ++layer) {
+        const auto& crs = layer->map->georeference().crs();
+        if (crs && crs->ellipsoid()) {
+            return crs->ellipsoid();
         }
     }
-    terrain_.reset();
-    motion_.stop();
-    if (layer) {
-        place(*layer);
-    }
-    redraw();
-    report();
-    Q_EMIT placed();
+    return std::nullopt;
+}
+
+const GlobeView::Placed* GlobeView::placedOf(const ShownLayer& layer) const
+{
+    const auto found = std::find_if(placed_.begin(), placed_.end(),
+                                    [&](const Placed& placed) { return placed.map == layer.map; });
+    return found != placed_.end() ? &*found : nullptr;
 }
 
 // Projections take some time for each sample.
-void GlobeView::place(const ShownLayer& layer)
+void GlobeView::placeNext()
 {
-    wait_->setText(tr("Placing the layer on its body…"));
-    wait_->show();
+    const auto next = std::find_if(wanted_.begin(), wanted_.end(), [this](const ShownLayer& layer) {
+        return placedOf(layer) == nullptr;
+    });
+    if (next == wanted_.end()) {
+        showMissing();
+        return;
+    }
+    if (scene_.isEmpty()) {
+        wait_->setText(tr("Placing the layer on its body…"));
+        wait_->show();
+    }
     placing_ = std::make_shared<JobMonitor>();
-    jobs_.run([this, map = layer.map,
+    jobs_.run([this, map = next->map, ellipsoid = sceneEllipsoid(),
                monitor = placing_](const std::shared_ptr<DetachedJobs::Outlet>& outlet) {
-        auto grid = BodyGrid::make(map->georeference(), *monitor);
+        auto grid = BodyGrid::make(map->georeference(), *monitor, ellipsoid);
         outlet->post([this, map, monitor, grid = std::move(grid)] {
-            if (monitor != placing_ || !layer_ || layer_->map != map) {
+            if (monitor != placing_) {
                 return; // superseded
             }
             placing_.reset();
-            if (grid) {
-                showPlaced(*grid);
-                return;
-            }
-            const QString reason = QString::fromStdString(grid.error().message);
-            //: In the middle of the globe; %1 says why
-            wait_->setText(tr("This layer has no place on the globe: it %1").arg(reason));
-            Q_EMIT failed(reason);
+            placed_.push_back(
+                {.map = map,
+                 .grid = grid ? *grid : nullptr,
+                 .problem = grid ? QString() : QString::fromStdString(grid.error().message)});
+            showPlaced();
+            placeNext();
         });
     });
 }
 
-void GlobeView::showPlaced(const std::shared_ptr<const BodyGrid>& grid)
+// Those that are placed.
+void GlobeView::showPlaced()
 {
-    wait_->hide();
-    terrain_.emplace(layer_->map, grid);
-    is_layer_sent_ = false;
-    const auto first = std::exchange(first_camera_, std::nullopt);
-    motion_.jumpTo(first.value_or(homeCamera(limits(), viewport())));
+    const bool was_empty = scene_.isEmpty();
+    std::vector<BodyTerrain> maps;
+    layers_.clear();
+    for (const ShownLayer& layer : wanted_) {
+        const Placed* placed = placedOf(layer);
+        if (placed != nullptr && placed->grid) {
+            maps.emplace_back(layer.map, placed->grid);
+            layers_.push_back(layer);
+        }
+    }
+    scene_ = BodyScene(std::move(maps));
+    touch_.setScene(scene_, style_.exaggeration);
+    are_layers_sent_ = false;
+    if (!scene_.isEmpty()) {
+        wait_->hide();
+        const BodyCamera next = was_empty ? homeCamera(limits(), viewport()) : motion_.goal();
+        motion_.jumpTo(std::exchange(first_camera_, std::nullopt).value_or(next));
+    }
+    redraw();
+    report();
+    Q_EMIT sceneChanged();
     Q_EMIT placed();
 }
 
-void GlobeView::setNote(const QString& note)
+// After all that can be placed are.
+void GlobeView::showMissing()
 {
-    note_->setText(note);
-    note_->setVisible(!note.isEmpty());
+    QStringList notes;
+    for (const ShownLayer& layer : wanted_) {
+        const Placed& placed = *placedOf(layer);
+        if (!placed.grid) {
+            //: Over the globe; %1 is a file, %2 says why
+            notes.append(tr("%1 has no place on the globe: it %2")
+                             .arg(QString::fromStdString(
+                                      std::filesystem::path(layer.map->spec().path).filename()),
+                                  placed.problem));
+        }
+    }
+    note_->setText(notes.join(QLatin1Char('\n')));
+    note_->setVisible(!notes.isEmpty());
+    if (scene_.isEmpty()) {
+        wait_->hide();
+    }
+    if (!wanted_.empty() && scene_.isEmpty()) {
+        Q_EMIT failed(placedOf(wanted_.front())->problem);
+    }
 }
 
 void GlobeView::setExaggeration(double exaggeration)
 {
     const double before = std::exchange(style_.exaggeration, exaggeration);
-    if (terrain_ && before != exaggeration) {
+    touch_.setScene(scene_, exaggeration);
+    if (!scene_.isEmpty() && before != exaggeration) {
         BodyCamera camera = motion_.goal();
         camera.height_m *= exaggeration / before;
         motion_.jumpTo(camera);
     }
+    Q_EMIT sceneChanged();
 }
 
 void GlobeView::setLook(const TerrainLook& look)
 {
     style_.look = look;
     redraw();
+    Q_EMIT sceneChanged();
 }
 
 void GlobeView::setAntialiasing(bool is_wanted)
@@ -193,10 +305,18 @@ void GlobeView::setFrameTarget(milliseconds target)
 
 void GlobeView::setCamera(const BodyCamera& camera)
 {
-    if (terrain_) {
+    if (!scene_.isEmpty()) {
         motion_.jumpTo(camera);
     } else {
         first_camera_ = camera;
+    }
+}
+
+void GlobeView::setHomeCamera()
+{
+    first_camera_.reset();
+    if (!scene_.isEmpty()) {
+        motion_.jumpTo(homeCamera(limits(), viewport()));
     }
 }
 
@@ -207,39 +327,44 @@ Viewport GlobeView::viewport() const
 
 BodyLimits GlobeView::limits() const
 {
-    const HeightRange range = terrain_->map()->heightfield().range().value_or(HeightRange{});
-    return bodyLimits(*terrain_->grid(), range.minimum_m * style_.exaggeration,
-                      range.maximum_m * style_.exaggeration);
+    const HeightRange range = scene_.range();
+    std::optional<BodyLimits> all;
+    for (const BodyTerrain& map : scene_.maps()) {
+        const BodyLimits limits = bodyLimits(*map.grid(), range.minimum_m * style_.exaggeration,
+                                             range.maximum_m * style_.exaggeration);
+        all = all ? united(*all, limits) : limits;
+    }
+    return *all;
 }
 
 BodyCamera GlobeView::bounded(const BodyCamera& camera) const
 {
-    if (!terrain_) {
+    if (scene_.isEmpty()) {
         return camera;
     }
     return constrained(camera, limits(), [this](const GeographicPoint& place) {
-        return terrain_->height(place) * style_.exaggeration;
+        return scene_.height(place) * style_.exaggeration;
     });
 }
 
 // The same picture, its target on the terrain in the middle of it.
 BodyCamera GlobeView::onGround(const BodyCamera& camera) const
 {
-    const Ellipsoid& ellipsoid = terrain_->grid()->ellipsoid();
+    const Ellipsoid& ellipsoid = scene_.ellipsoid();
     const CameraPose pose = poseOf(camera, ellipsoid);
     const Ray ray{pose.eye, pose.axes.forward};
-    const auto hit = terrain_->cast(ray, style_.exaggeration);
+    const auto ground = scene_.cast(ray, style_.exaggeration);
     const BodyLimits bounds = limits();
-    if (!hit || hit->distance_m < bounds.distance_min_m ||
-        hit->distance_m > bounds.distance_max_m) {
+    if (!ground || ground->hit.distance_m < bounds.distance_min_m ||
+        ground->hit.distance_m > bounds.distance_max_m) {
         return camera;
     }
-    const BodyPlace place = placeOf(ray.at(hit->distance_m), ellipsoid);
+    const BodyPlace place = placeOf(ray.at(ground->hit.distance_m), ellipsoid);
     const LocalAxes local = localAxes(ellipsoid, place.foot);
     BodyCamera result = camera;
     result.target = place.foot;
     result.height_m = place.height_m;
-    result.distance_m = hit->distance_m;
+    result.distance_m = ground->hit.distance_m;
     const double down = std::clamp(-dot(ray.direction, local.up), -1.0, 1.0);
     result.tilt = Angle::radians(std::acos(down));
     // Straight down the picture's upper edge has the heading.
@@ -251,7 +376,7 @@ BodyCamera GlobeView::onGround(const BodyCamera& camera) const
 void GlobeView::fly(const BodyCamera& goal, milliseconds duration)
 {
     is_zooming_ = false;
-    const Ellipsoid ellipsoid = terrain_->grid()->ellipsoid();
+    const Ellipsoid ellipsoid = scene_.ellipsoid();
     const BodyCamera bounded_goal = bounded(goal);
     motion_.follow([from = motion_.camera(), bounded_goal, ellipsoid](
                        double share) { return flown(from, bounded_goal, ellipsoid, share); },
@@ -260,10 +385,10 @@ void GlobeView::fly(const BodyCamera& goal, milliseconds duration)
 
 void GlobeView::step(NavigationStep step)
 {
-    if (!terrain_) {
+    if (scene_.isEmpty()) {
         return;
     }
-    const Ellipsoid& ellipsoid = terrain_->grid()->ellipsoid();
+    const Ellipsoid& ellipsoid = scene_.ellipsoid();
     BodyCamera camera = onGround(motion_.goal());
     switch (step) {
     case NavigationStep::PanLeft:
@@ -303,14 +428,14 @@ void GlobeView::step(NavigationStep step)
 
 void GlobeView::goHome()
 {
-    if (terrain_) {
+    if (!scene_.isEmpty()) {
         fly(homeCamera(limits(), viewport()), kFlyDuration);
     }
 }
 
 void GlobeView::turnNorthUp()
 {
-    if (terrain_) {
+    if (!scene_.isEmpty()) {
         BodyCamera camera = onGround(motion_.goal());
         camera.azimuth = {};
         fly(camera, kFlyDuration);
@@ -319,17 +444,29 @@ void GlobeView::turnNorthUp()
 
 void GlobeView::flyTo(const GeographicPoint& place, double distance_m)
 {
-    if (!terrain_) {
+    if (scene_.isEmpty()) {
         return;
     }
     BodyCamera camera = onGround(motion_.goal());
     camera.target = place;
-    const double height_m = terrain_->height(place) * style_.exaggeration;
+    const double height_m = scene_.height(place) * style_.exaggeration;
     camera.height_m = std::isfinite(height_m) ? height_m : 0.0;
     if (distance_m > 0.0) {
         camera.distance_m = distance_m;
     }
     fly(camera, kFlyDuration);
+}
+
+void GlobeView::lookAt(const GeographicPoint& place)
+{
+    if (scene_.isEmpty()) {
+        return;
+    }
+    BodyCamera camera = motion_.camera();
+    camera.target = place;
+    const double height_m = scene_.height(place) * style_.exaggeration;
+    camera.height_m = std::isfinite(height_m) ? height_m : 0.0;
+    motion_.jumpTo(camera);
 }
 
 PixelPoint GlobeView::pixelAt(QPointF position) const
@@ -338,45 +475,79 @@ PixelPoint GlobeView::pixelAt(QPointF position) const
     return {pixel.x(), pixel.y()};
 }
 
-std::optional<BodyHit> GlobeView::hitAt(QPointF position) const
+std::optional<BodyScenePoint> GlobeView::groundAt(QPointF position) const
 {
-    if (!terrain_) {
+    if (scene_.isEmpty()) {
         return std::nullopt;
     }
-    const CameraPose pose = poseOf(motion_.camera(), terrain_->grid()->ellipsoid());
-    return terrain_->cast(pickRay(pose, viewport(), pixelAt(position)), style_.exaggeration);
+    const CameraPose pose = poseOf(motion_.camera(), scene_.ellipsoid());
+    return scene_.cast(pickRay(pose, viewport(), pixelAt(position)), style_.exaggeration);
 }
 
-std::optional<RayHit> GlobeView::reading() const
+std::optional<BodyHit> GlobeView::hitAt(QPointF position) const
+{
+    const auto ground = groundAt(position);
+    return ground ? std::optional(ground->hit) : std::nullopt;
+}
+
+std::optional<BodyScenePoint> GlobeView::reading() const
 {
     std::optional<QPointF> position = pointer_;
     if (!position && hasFocus()) {
         position = QRectF(rect()).center();
     }
-    const auto hit = position ? hitAt(*position) : std::nullopt;
-    return hit ? std::optional(
-                     RayHit{.grid = hit->grid, .height_m = hit->height_m, .t = hit->distance_m})
-               : std::nullopt;
+    return position ? groundAt(*position) : std::nullopt;
 }
 
-double GlobeView::metersPerPoint(const RayHit& hit) const
+bool GlobeView::isCrosshairShown() const
 {
-    if (!terrain_) {
+    return !scene_.isEmpty() && !pointer_ && hasFocus();
+}
+
+void GlobeView::forgetPointer()
+{
+    if (pointer_ && drag_ == MapAction::None) {
+        pointer_.reset();
+        followTouch();
+        report();
+    }
+}
+
+double GlobeView::metersPerPoint(const BodyHit& hit) const
+{
+    if (scene_.isEmpty()) {
         return 0.0;
     }
-    const CameraPose pose = poseOf(motion_.camera(), terrain_->grid()->ellipsoid());
-    return devicePixelRatioF() * hit.t / pose.distance_m * metersPerPixel(pose, viewport());
+    const CameraPose pose = poseOf(motion_.camera(), scene_.ellipsoid());
+    return devicePixelRatioF() * hit.distance_m / pose.distance_m *
+           metersPerPixel(pose, viewport());
+}
+
+double GlobeView::metersPerPointInMiddle() const
+{
+    if (scene_.isEmpty()) {
+        return 0.0;
+    }
+    const Ellipsoid& ellipsoid = scene_.ellipsoid();
+    const CameraPose pose = poseOf(motion_.camera(), ellipsoid);
+    const auto ground = scene_.cast({pose.eye, pose.axes.forward}, style_.exaggeration);
+    const ScenePoint middle = ground ? pose.eye + pose.axes.forward * ground->hit.distance_m
+                                     : targetOf(motion_.camera(), ellipsoid);
+    // Raised terrain is drawn wider than it is.
+    const ScenePoint foot = targetOf({.target = placeOf(middle, ellipsoid).foot}, ellipsoid);
+    return devicePixelRatioF() * metersPerPixel(pose, viewport(), middle) * length(foot) /
+           length(middle);
 }
 
 // The ground that a drag or a zoom holds; beside the body, the nearest point of its edge.
 HeldPoint GlobeView::heldAtPosition(QPointF position) const
 {
-    const Ellipsoid& ellipsoid = terrain_->grid()->ellipsoid();
+    const Ellipsoid& ellipsoid = scene_.ellipsoid();
     const PixelPoint pixel = pixelAt(position);
     const Ray ray = pickRay(poseOf(motion_.camera(), ellipsoid), viewport(), pixel);
-    const auto hit = terrain_->cast(ray, style_.exaggeration);
-    return {.point = hit ? ray.at(hit->distance_m)
-                         : pointOnBody(ray, ellipsoid, targetOf(motion_.camera(), ellipsoid)),
+    const auto ground = scene_.cast(ray, style_.exaggeration);
+    return {.point = ground ? ray.at(ground->hit.distance_m)
+                            : pointOnBody(ray, ellipsoid, targetOf(motion_.camera(), ellipsoid)),
             .pixel = pixel};
 }
 
@@ -398,37 +569,57 @@ void GlobeView::zoom(double factor, QPointF position, milliseconds duration)
         duration);
 }
 
+void GlobeView::setTool(Tool tool)
+{
+    tool_ = tool;
+    drag_ = MapAction::None;
+    held_.reset();
+    touch_.setPressing(false);
+    touch_.setChosen(tool == Tool::Touch);
+    followTouch();
+    showCursor();
+}
+
 void GlobeView::mousePressEvent(QMouseEvent* event)
 {
-    if (!terrain_ || drag_ != Drag::None) {
+    if (scene_.isEmpty() || drag_ != MapAction::None) {
         return;
     }
     motion_.stop();
     drag_button_ = event->button();
     drag_position_ = event->position();
-    const bool is_pan = event->modifiers().testFlag(Qt::ShiftModifier) ||
-                        (event->button() == Qt::LeftButton && tool_ != Tool::Orbit);
-    drag_ = is_pan ? Drag::Pan : Drag::Orbit;
-    setCursor(is_pan ? Qt::ClosedHandCursor : Qt::SizeAllCursor);
-    if (is_pan) {
+    pointer_ = event->position();
+    drag_ = actionOf(Gesture::Drag, event->button(), event->modifiers(), tool_);
+    if (drag_ == MapAction::Pan) {
         held_ = heldAtPosition(event->position());
-    } else {
+    } else if (drag_ == MapAction::Orbit) {
         motion_.jumpTo(onGround(motion_.camera()));
     }
+    touch_.setPressing(drag_ == MapAction::Touch);
+    followTouch();
+    showCursor();
 }
 
 void GlobeView::mouseMoveEvent(QMouseEvent* event)
 {
+    if (drag_ == MapAction::None && isOverOverlay(*this, event->position())) {
+        forgetPointer();
+        return;
+    }
     pointer_ = event->position();
     const QPointF moved = event->position() - drag_position_;
-    if (drag_ == Drag::Pan && held_ && !moved.isNull()) {
+    if (drag_ == MapAction::Pan && held_ && !moved.isNull()) {
         held_->pixel = pixelAt(event->position());
-        motion_.jumpTo(heldAt(motion_.camera(), terrain_->grid()->ellipsoid(), viewport(), *held_));
-    } else if (drag_ == Drag::Orbit && !moved.isNull()) {
+        motion_.jumpTo(heldAt(motion_.camera(), scene_.ellipsoid(), viewport(), *held_));
+    } else if (drag_ == MapAction::Orbit && !moved.isNull()) {
         motion_.jumpTo(
             orbited(motion_.camera(), kTurnPerPixel * moved.x(), kTurnPerPixel * -moved.y()));
     } else {
+        followTouch();
         report();
+    }
+    if (drag_ != MapAction::None && !moved.isNull()) {
+        Q_EMIT gestureMade(drag_);
     }
     drag_position_ = event->position();
 }
@@ -436,40 +627,85 @@ void GlobeView::mouseMoveEvent(QMouseEvent* event)
 void GlobeView::mouseReleaseEvent(QMouseEvent* event)
 {
     if (event->button() == drag_button_ || event->buttons() == Qt::NoButton) {
-        drag_ = Drag::None;
+        drag_ = MapAction::None;
         held_.reset();
-        unsetCursor();
+        touch_.setPressing(false);
+        followTouch();
+        showCursor();
+    }
+}
+
+// Where the pointer is on the terrain, and how long a point of the screen is there.
+void GlobeView::followTouch()
+{
+    if (!touch_.isChosen()) {
+        return;
+    }
+    const auto ground = pointer_ ? groundAt(*pointer_) : std::nullopt;
+    if (!ground) {
+        touch_.follow(std::nullopt, 1.0);
+        return;
+    }
+    const Ellipsoid& ellipsoid = scene_.ellipsoid();
+    const CameraPose pose = poseOf(motion_.camera(), ellipsoid);
+    const ScenePoint point =
+        pickRay(pose, viewport(), pixelAt(*pointer_)).at(ground->hit.distance_m);
+    touch_.follow(BodyAim{.index = ground->index,
+                          .point = point,
+                          .up = localAxes(ellipsoid, placeOf(point, ellipsoid).foot).up},
+                  devicePixelRatioF() * metersPerPixel(pose, viewport(), point));
+}
+
+void GlobeView::showCursor()
+{
+    const auto& pose = touch_.pose();
+    const MapCursor cursor = mapCursor({.tool = tool_,
+                                        .drag = drag_,
+                                        .stylus = pose ? pose->mode : StylusMode::Hover,
+                                        .is_over_terrain = is_over_terrain_});
+    if (cursor != std::exchange(cursor_, cursor)) {
+        setCursor(cursorOf(cursor));
     }
 }
 
 void GlobeView::mouseDoubleClickEvent(QMouseEvent* event)
 {
-    const auto hit = event->button() == Qt::LeftButton ? hitAt(event->position()) : std::nullopt;
-    if (!hit) {
+    const auto ground =
+        event->button() == Qt::LeftButton ? groundAt(event->position()) : std::nullopt;
+    if (!ground) {
         return;
     }
-    const auto place = terrain_->map()->georeference().toGeographic(hit->grid);
+    const auto place = layers_[ground->index].map->georeference().toGeographic(ground->hit.grid);
     if (place) {
         flyTo(*place, onGround(motion_.goal()).distance_m * kFlyFactor);
+        Q_EMIT gestureMade(MapAction::FlyThere);
     }
 }
 
 void GlobeView::wheelEvent(QWheelEvent* event)
 {
     const double notches = event->angleDelta().y() / kWheelNotch;
-    if (!terrain_ || notches == 0.0) {
+    if (scene_.isEmpty() || notches == 0.0) {
         return;
     }
     event->accept();
-    const bool is_fine = event->modifiers().testFlag(Qt::ControlModifier);
-    zoom(std::pow(is_fine ? kWheelFactorFine : kWheelFactor, notches), event->position(),
-         kWheelDuration);
+    const Gesture gesture = touch_.isPressing() ? Gesture::WheelWhilePressing : Gesture::Wheel;
+    const MapAction action = actionOf(gesture, Qt::NoButton, event->modifiers(), tool_);
+    if (action == MapAction::PressDeeper) {
+        touch_.deepen(std::pow(kDeeperPerNotch, -notches));
+        followTouch();
+    } else {
+        const double factor = action == MapAction::ZoomFinely ? kWheelFactorFine : kWheelFactor;
+        zoom(std::pow(factor, notches), event->position(), kWheelDuration);
+    }
+    Q_EMIT gestureMade(action);
 }
 
 void GlobeView::leaveEvent(QEvent* event)
 {
     QOpenGLWidget::leaveEvent(event);
     pointer_.reset();
+    followTouch();
     report();
 }
 
@@ -487,13 +723,18 @@ void GlobeView::focusOutEvent(QFocusEvent* event)
 
 void GlobeView::report()
 {
-    const auto hit = reading();
-    Q_EMIT readingChanged(hit);
+    const auto ground = reading();
+    Q_EMIT readingChanged(ground);
+    is_over_terrain_ = pointer_ && ground;
+    showCursor();
+    if (isCrosshairShown() != std::exchange(was_crosshair_shown_, isCrosshairShown())) {
+        Q_EMIT crosshairChanged(isCrosshairShown());
+    }
     // A ray takes what is loaded; where it is coarser, the samples themselves are requested.
-    if (hit && !isMoving() && drag_ == Drag::None) {
-        const Heightfield& heightfield = terrain_->map()->heightfield();
-        if (!heightfield.isExact(hit->grid)) {
-            static_cast<void>(heightfield.height(hit->grid));
+    if (ground && !isMoving() && drag_ == MapAction::None) {
+        const Heightfield& heightfield = layers_[ground->index].map->heightfield();
+        if (!heightfield.isExact(ground->hit.grid)) {
+            static_cast<void>(heightfield.height(ground->hit.grid));
             if (heightfield.tiles()->isLoading()) {
                 sample_timer_.start(kSampleInterval);
             }
@@ -505,6 +746,7 @@ void GlobeView::resizeEvent(QResizeEvent* event)
 {
     redraw();
     QOpenGLWidget::resizeEvent(event);
+    Q_EMIT sightChanged();
 }
 
 void GlobeView::redraw()
@@ -544,9 +786,12 @@ void GlobeView::initializeGL()
         return;
     }
     renderer_ = std::move(renderer).value();
+    if (auto solids = CursorSolids::create()) {
+        cursor_solids_ = std::move(solids).value();
+    }
     picture_ = std::make_unique<GovernedPicture>(*renderer_);
     picture_->setTarget(frame_target_);
-    is_layer_sent_ = false;
+    are_layers_sent_ = false;
 }
 
 void GlobeView::releaseGraphics()
@@ -554,26 +799,28 @@ void GlobeView::releaseGraphics()
     if (renderer_) {
         makeCurrent();
         picture_.reset();
+        cursor_solids_.reset();
         renderer_.reset();
         doneCurrent();
     }
 }
 
-void GlobeView::sendLayer()
+void GlobeView::sendLayers()
 {
-    if (std::exchange(is_layer_sent_, true)) {
+    if (std::exchange(are_layers_sent_, true)) {
         return;
     }
-    if (!terrain_ || !layer_) {
-        renderer_->setLayers({});
-        return;
+    std::vector<TerrainLayer> sent;
+    for (std::size_t i = 0; i < layers_.size(); ++i) {
+        const ShownLayer& shown = layers_[i];
+        TerrainLayer layer =
+            terrainLayer(shown.map, shown.map->georeference().sceneFrame(), *shown.ramp);
+        layer.tint_range = colorRangeOf(shown);
+        layer.slope_range = slopeRangeOf(shown);
+        layer.body = scene_.maps()[i].grid();
+        sent.push_back(std::move(layer));
     }
-    TerrainLayer layer =
-        terrainLayer(layer_->map, layer_->map->georeference().sceneFrame(), *layer_->ramp);
-    layer.tint_range = colorRangeOf(*layer_);
-    layer.slope_range = slopeRangeOf(*layer_);
-    layer.body = terrain_->grid();
-    renderer_->setLayers({layer});
+    renderer_->setLayers(sent);
 }
 
 void GlobeView::paintGL()
@@ -583,17 +830,19 @@ void GlobeView::paintGL()
     }
     if (is_current_) {
         renderer_->present(defaultFramebufferObject());
+        paintCursor();
         return;
     }
-    sendLayer();
+    sendLayers();
     const PictureStage last = has_antialiasing_ ? PictureStage::Smooth : PictureStage::Sharp;
     PictureRequest request{
         .camera = {}, .viewport = viewport(), .stage = stage_, .last_stage = last, .is_kept = true};
-    if (terrain_) {
-        request.body_pose = poseOf(motion_.camera(), terrain_->grid()->ellipsoid());
+    if (!scene_.isEmpty()) {
+        request.body_pose = poseOf(motion_.camera(), scene_.ellipsoid());
     }
     const DrawReport report = picture_->paint(request, style_, defaultFramebufferObject());
     is_current_ = true;
+    paintCursor();
     Q_EMIT detailChanged(report.error_px);
     const bool is_loading = stage_ != PictureStage::Moving && !report.is_complete;
     if (is_loading != std::exchange(is_loading_, is_loading)) {
@@ -631,6 +880,51 @@ void GlobeView::paintGL()
         QMetaObject::invokeMethod(
             this, [this] { Q_EMIT pictureCompleted(); }, Qt::QueuedConnection);
     }
+}
+
+// Around the place below the stylus, on the terrain.
+std::vector<ScenePoint> GlobeView::shadowAt(const StylusPose& pose, double radius_m) const
+{
+    const Ellipsoid& ellipsoid = scene_.ellipsoid();
+    const LocalAxes local = localAxes(ellipsoid, placeOf(pose.proxy, ellipsoid).foot);
+    std::vector<ScenePoint> shadow;
+    for (int i = 0; i < kShadowSides; ++i) {
+        const double around = 2.0 * std::numbers::pi * i / kShadowSides;
+        const BodyPlace place = placeOf(pose.proxy + local.east * (radius_m * std::cos(around)) +
+                                            local.north * (radius_m * std::sin(around)),
+                                        ellipsoid);
+        const double height_m = scene_.height(place.foot) * style_.exaggeration;
+        if (std::isfinite(height_m)) {
+            shadow.push_back(targetOf({.target = place.foot, .height_m = height_m}, ellipsoid));
+        }
+    }
+    return shadow;
+}
+
+void GlobeView::paintCursor()
+{
+    const auto& stylus = touch_.pose();
+    if (!stylus || !cursor_solids_ || scene_.isEmpty()) {
+        return;
+    }
+    const Ellipsoid& ellipsoid = scene_.ellipsoid();
+    const CameraPose pose = poseOf(motion_.camera(), ellipsoid);
+    const Viewport size = viewport();
+    CursorPicture cursor{.shape = stylus->is_in_contact ? CursorShape::Cone : CursorShape::Sphere,
+                         .position = stylus->proxy,
+                         .goal = std::nullopt,
+                         .shadow = {},
+                         .pixels_per_point = devicePixelRatioF()};
+    if (stylus->is_in_contact) {
+        cursor.goal = stylus->goal;
+    } else {
+        cursor.shadow = shadowAt(*stylus, kShadowPoints * devicePixelRatioF() *
+                                              metersPerPixel(pose, size, stylus->proxy));
+    }
+    const LocalAxes local = localAxes(ellipsoid, placeOf(stylus->proxy, ellipsoid).foot);
+    renderer_->presentDepth(defaultFramebufferObject(), areaOfCursor(cursor, pose, size));
+    cursor_solids_->draw(cursor, {.right = local.east, .ahead = local.north, .up = local.up}, pose,
+                         size, renderer_->clip(pose, style_.exaggeration));
 }
 
 } // namespace marsview

@@ -1,4 +1,4 @@
-// The globe: a layer on its body, with a camera from space to the ground.
+// The globe: layers on their body, with a camera from space to the ground.
 #pragma once
 
 #include "core/base/job_monitor.h"
@@ -7,10 +7,14 @@
 #include "core/session/body_terrain.h"
 #include "core/terrain/ray_cast.h"
 #include "ui/canvas/camera_controller.h"
+#include "ui/canvas/gestures.h"
+#include "ui/canvas/map_cursor.h"
 #include "ui/canvas/shown_layer.h"
 #include "ui/canvas/tool.h"
 #include "ui/controllers/detached_jobs.h"
 #include "ui/globe/globe_motion.h"
+#include "ui/globe/globe_touch.h"
+#include "ui/render/cursor_solids.h"
 #include "ui/render/governed_picture.h"
 #include "ui/render/terrain_renderer.h"
 
@@ -21,12 +25,13 @@
 #include <chrono>
 #include <memory>
 #include <optional>
+#include <vector>
 
 class QLabel;
 
 namespace marsview {
 
-/// Shows one layer where it lies on its body. Placing a layer takes place on a worker thread: until
+/// Shows layers where they lie on their body. Placing a layer takes place on a worker thread: until
 /// then the view says so. GUI thread.
 class GlobeView final : public QOpenGLWidget {
     Q_OBJECT
@@ -35,25 +40,43 @@ public:
     explicit GlobeView(QWidget* parent = nullptr);
     ~GlobeView() override;
 
-    /// The layer to show; nothing for an empty view. The camera stays if the layers have one body.
-    void setLayer(const std::optional<ShownLayer>& layer);
-    /// Null until a layer is placed.
-    const BodyTerrain* terrain() const noexcept { return terrain_ ? &*terrain_ : nullptr; }
-    /// A sentence over the picture, such as what it leaves out; empty for none.
-    void setNote(const QString& note);
+    /// The layers to show, top first, all of one body; none for an empty view. They lie on the
+    /// ellipsoid of the lowest one. The camera stays if the layers before were of the same body.
+    void setLayers(const std::vector<ShownLayer>& top_first);
+    /// Those that have been placed, and their terrain.
+    const std::vector<ShownLayer>& layers() const noexcept { return layers_; }
+    const BodyScene& scene() const noexcept { return scene_; }
+    /// The topmost one; null until a layer is placed.
+    const BodyTerrain* terrain() const noexcept
+    {
+        return scene_.isEmpty() ? nullptr : &scene_.maps().front();
+    }
     /// Keeps the camera over its ground.
     void setExaggeration(double exaggeration);
+    double exaggeration() const noexcept { return style_.exaggeration; }
     void setLook(const TerrainLook& look);
+    const TerrainLook& look() const noexcept { return style_.look; }
     void setAntialiasing(bool is_wanted);
     void setFrameTarget(std::chrono::milliseconds target);
-    /// Pan or Orbit: what a drag with the left button does. Others pan.
-    void setTool(Tool tool) { tool_ = tool; }
+    /// Pan, Touch or Orbit: what a drag with the left button does. Others pan.
+    void setTool(Tool tool);
+    /// What moves the stylus' proxy.
+    void setContactModel(ContactModelKind model) { touch_.setModel(model); }
+    /// The stylus of the mouse, in the body-fixed frame; nothing while it is lifted or another tool
+    /// is chosen.
+    const std::optional<StylusPose>& stylus() const noexcept { return touch_.pose(); }
+    /// The local vertical at the stylus.
+    const Vec3& stylusUp() const noexcept { return touch_.up(); }
+    /// The terrain can be pressed.
+    bool isTouchReady() const noexcept { return touch_.isReady(); }
 
     const BodyCamera& camera() const noexcept { return motion_.camera(); }
     const BodyCamera& cameraGoal() const noexcept { return motion_.goal(); }
     bool isMoving() const noexcept { return motion_.isMoving(); }
     /// Within the limits; before a layer is placed, when it is.
     void setCamera(const BodyCamera& camera);
+    /// At once, or when a layer is placed.
+    void setHomeCamera();
     Viewport viewport() const;
     BodyLimits limits() const;
 
@@ -62,24 +85,45 @@ public:
     void turnNorthUp();
     /// Flies along a great circle; `distance_m` of 0 keeps the distance.
     void flyTo(const GeographicPoint& place, double distance_m);
+    /// Looks at a place at once, from the same side and distance.
+    void lookAt(const GeographicPoint& place);
 
-    /// The terrain under a position of the widget.
+    /// The terrain under a position of the widget: the layer, and where it is on its grid.
+    std::optional<BodyScenePoint> groundAt(QPointF position) const;
     std::optional<BodyHit> hitAt(QPointF position) const;
-    /// Under the pointer, on the layer's grid; at the middle while the pointer is elsewhere and the
-    /// view has the focus.
-    std::optional<RayHit> reading() const;
+    /// Under the pointer; at the middle while the pointer is elsewhere and the view has the focus.
+    std::optional<BodyScenePoint> reading() const;
+    /// The reading is that of the middle, which the keyboard moves.
+    bool isCrosshairShown() const;
+    /// The pointer goes onto an overlay.
+    void forgetPointer();
     /// Meters on the terrain in one point of the screen.
-    double metersPerPoint(const RayHit& hit) const;
+    double metersPerPoint(const BodyHit& hit) const;
+    /// Meters along the ellipsoid in one point of the screen, across the view, for the terrain in
+    /// the middle of it; without terrain there, for the camera's target. 0 before a layer is
+    /// placed.
+    double metersPerPointInMiddle() const;
 
     /// True when the picture shows all there is, as well as can be, and nothing moves.
     bool isPictureComplete() const { return is_complete_ && !isMoving(); }
 
 Q_SIGNALS:
-    void readingChanged(const std::optional<RayHit>& hit);
+    void readingChanged(const std::optional<BodyScenePoint>& ground);
+    /// Camera or size of the picture.
+    void sightChanged();
+    /// The layer, its look or the exaggeration.
+    void sceneChanged();
+    void crosshairChanged(bool is_shown);
+    /// stylus() may have changed.
+    void stylusMoved();
+    /// Why the terrain cannot be touched.
+    void touchFailed(const QString& reason);
+    /// A gesture of the mouse moved the camera or the stylus.
+    void gestureMade(MapAction action);
     void detailChanged(double pixels);
     void loadingChanged(bool is_loading);
     void problemChanged(const QString& problem);
-    /// The layer is placed, or another one or none is shown.
+    /// A layer is placed, or others or none are shown.
     void placed();
     void pictureCompleted();
     /// No suitable graphics context, or a layer that has no place on its body.
@@ -99,11 +143,19 @@ protected:
     void focusOutEvent(QFocusEvent* event) override;
 
 private:
-    enum class Drag { None, Pan, Orbit };
+    // A map on its body, or why it has no place there.
+    struct Placed {
+        std::shared_ptr<const Map> map;
+        std::shared_ptr<const BodyGrid> grid;
+        QString problem;
+    };
 
-    void place(const ShownLayer& layer);
-    void showPlaced(const std::shared_ptr<const BodyGrid>& grid);
-    void sendLayer();
+    std::optional<Ellipsoid> sceneEllipsoid() const;
+    const Placed* placedOf(const ShownLayer& layer) const;
+    void placeNext();
+    void showPlaced();
+    void showMissing();
+    void sendLayers();
     void releaseGraphics();
     void redraw();
     void refine();
@@ -114,29 +166,40 @@ private:
     PixelPoint pixelAt(QPointF position) const;
     void fly(const BodyCamera& goal, std::chrono::milliseconds duration);
     void zoom(double factor, QPointF position, std::chrono::milliseconds duration);
+    void followTouch();
+    void showCursor();
+    void paintCursor();
+    std::vector<ScenePoint> shadowAt(const StylusPose& pose, double radius_m) const;
 
-    std::optional<ShownLayer> layer_;
-    std::optional<BodyTerrain> terrain_;
+    std::vector<ShownLayer> wanted_; // top first
+    std::vector<Placed> placed_;
+    std::vector<ShownLayer> layers_; // of those the ones that are shown
+    BodyScene scene_;                // of these
     std::shared_ptr<JobMonitor> placing_;
     DetachedJobs jobs_;
     DrawStyle style_;
-    std::optional<BodyCamera> first_camera_; // of a layer that is being placed
+    std::optional<BodyCamera> first_camera_; // when a layer is placed
     GlobeMotion motion_;
     Tool tool_ = Tool::Pan;
 
-    Drag drag_ = Drag::None;
+    MapAction drag_ = MapAction::None;
     Qt::MouseButton drag_button_ = Qt::NoButton;
     QPointF drag_position_;
+    bool was_crosshair_shown_ = false;
+    bool is_over_terrain_ = false; // the pointer
     std::optional<HeldPoint> held_;
     std::optional<QPointF> pointer_;
     double zoom_left_ = 1.0; // the whole factor of the zoom in progress
     bool is_zooming_ = false;
 
+    GlobeTouch touch_;
+    MapCursor cursor_ = MapCursor::Arrow;
     std::unique_ptr<TerrainRenderer> renderer_;
     std::unique_ptr<GovernedPicture> picture_;
+    std::unique_ptr<CursorSolids> cursor_solids_;
     std::chrono::milliseconds frame_target_{33};
     bool has_antialiasing_ = true;
-    bool is_layer_sent_ = true;
+    bool are_layers_sent_ = true;
     PictureStage stage_ = PictureStage::Moving;
     bool is_current_ = false; // the picture that was kept is of now
     bool is_complete_ = false;

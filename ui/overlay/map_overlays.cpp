@@ -12,13 +12,13 @@
 #include "ui/overlay/gesture_hint.h"
 #include "ui/overlay/hand_pointer.h"
 #include "ui/overlay/legend.h"
+#include "ui/overlay/legend_content.h"
 #include "ui/overlay/map_labels.h"
 #include "ui/overlay/minimap.h"
 #include "ui/overlay/overlay_layout.h"
 #include "ui/overlay/overview_picture.h"
 #include "ui/overlay/place_mark.h"
 #include "ui/overlay/scale_bar_view.h"
-#include "ui/text/coordinate_text.h"
 
 #include <QAction>
 #include <QApplication>
@@ -136,6 +136,7 @@ void MapOverlays::offerHint()
 {
     is_hint_offered_ = true;
     showMap();
+    Q_EMIT settingsChanged();
 }
 
 void MapOverlays::dismissHint()
@@ -146,6 +147,7 @@ void MapOverlays::dismissHint()
             view_.setFocus();
         }
         layout_->setWanted(hint_, false);
+        Q_EMIT settingsChanged();
         Q_EMIT hintDismissed();
     }
 }
@@ -211,6 +213,7 @@ void MapOverlays::setCovered(int height)
     covered_height_ = height;
     layout_->setCovered(height);
     showHand();
+    Q_EMIT settingsChanged();
 }
 
 void MapOverlays::markPlace(GridPoint grid)
@@ -290,6 +293,7 @@ void MapOverlays::setSession(const Session& session)
 {
     session_ = session;
     showLegend();
+    Q_EMIT settingsChanged();
 }
 
 void MapOverlays::setHeightUnit(HeightUnit unit)
@@ -297,6 +301,7 @@ void MapOverlays::setHeightUnit(HeightUnit unit)
     height_unit_ = unit;
     contour_labels_->setHeightUnit(unit);
     showLegend();
+    Q_EMIT settingsChanged();
 }
 
 bool MapOverlays::eventFilter(QObject* watched, QEvent* event)
@@ -354,23 +359,16 @@ void MapOverlays::showLegend()
     }
     const std::vector<ShownLayer>& shown = view_.shownLayers();
     const ShownLayer& layer = shown[explainedLayer()];
-    const TerrainLook& look = view_.look();
     const auto known =
         std::find_if(session_.layers.begin(), session_.layers.end(),
                      [&layer](const Layer& l) { return l.map.get() == layer.map.get(); });
     const bool is_named = shown.size() > 1 && known != session_.layers.end();
-    const HeightRange all = layer.map->heightfield().range().value_or(HeightRange{});
-    legend_->setContent(
-        {.mode = look.mode,
-         .ramp = layer.ramp,
-         .range = colorRangeOf(layer),
-         .slopes = slopeRangeOf(layer),
-         .contour_interval_m = contourInterval(
-             look, all, metersPerPixel(view_.camera(), view_.viewport()), view_.exaggeration()),
-         .unit = height_unit_,
-         .all = all,
-         .layer = is_named ? QString::fromStdString(known->name) : QString(),
-         .datum = datumText(layer.map->info())});
+    legend_->setContent(legendContent(
+        layer, {.look = view_.look(),
+                .pixel_m = metersPerPixel(view_.camera(), view_.viewport()),
+                .exaggeration = view_.exaggeration(),
+                .unit = height_unit_,
+                .layer = is_named ? QString::fromStdString(known->name) : QString()}));
 }
 
 void MapOverlays::showTouch()

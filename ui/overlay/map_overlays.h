@@ -85,10 +85,13 @@ public:
 
     /// Names of layers, and which one is active. After the view shows them.
     void setSession(const Session& session);
+    const Session& session() const noexcept { return session_; }
     void setHeightUnit(HeightUnit unit);
+    HeightUnit heightUnit() const noexcept { return height_unit_; }
 
     /// So much of the view's upper edge is covered by something else.
     void setCovered(int height);
+    int coveredHeight() const noexcept { return covered_height_; }
 
     /// Checkable actions that show and hide the overlays which people may not want; each has an
     /// object name to be remembered by.
@@ -99,6 +102,8 @@ public:
 Q_SIGNALS:
     /// By the user.
     void hintDismissed();
+    /// The session, the unit of elevations, what is covered, or whether the hint is offered.
+    void settingsChanged();
 
 protected:
     bool eventFilter(QObject* watched, QEvent* event) override;

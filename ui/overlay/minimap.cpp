@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace marsview {
 namespace {
@@ -27,10 +28,18 @@ constexpr double kKeyStepFine = 1.0 / 100.0;
 constexpr double kWedgeShortest = 20.0;
 constexpr double kWedgeLongest = 48.0;     // shows the direction, not the sight: the footprint does
 constexpr double kFootprintSmallest = 7.0; // below, a ring shows where it is
+constexpr double kOutlineSmallest = 4.0;
+constexpr int kArcSteps = 16;
+constexpr double kTurn = 360.0; // degrees
 
 QColor footprintColor()
 {
     return {255, 255, 255};
+}
+
+QColor outlineColor()
+{
+    return {150, 205, 255};
 }
 
 QColor cameraColor()
@@ -79,6 +88,8 @@ void Minimap::setMap(const QImage& preview,
         bounds_.north = std::max(bounds_.north, p.y);
     }
     camera_.reset();
+    sight_.reset();
+    outlines_.clear();
     footprint_.clear();
     is_dragged_ = false;
     place();
@@ -94,6 +105,8 @@ void Minimap::clear()
         map_.reset();
         preview_ = {};
         camera_.reset();
+        sight_.reset();
+        outlines_.clear();
         footprint_.clear();
         is_dragged_ = false;
         drawn_map_ = {};
@@ -114,6 +127,29 @@ void Minimap::setCamera(const OrbitCamera& camera, const Viewport& viewport)
     footprint_ = footprint(camera, viewport, *map_);
     describe();
     update();
+}
+
+void Minimap::setOutlines(std::vector<QPolygonF> outlines)
+{
+    outlines_ = std::move(outlines);
+    drawn_map_ = {};
+    update();
+}
+
+void Minimap::setSight(const MinimapSight& sight)
+{
+    if (map_) {
+        sight_ = sight;
+        describe();
+        update();
+    }
+}
+
+std::optional<ScenePoint> Minimap::target() const
+{
+    return sight_    ? std::optional(sight_->target)
+           : camera_ ? std::optional(camera_->target)
+                     : std::nullopt;
 }
 
 void Minimap::setLargestSize(QSize size)
@@ -166,9 +202,11 @@ QPointF Minimap::positionOf(const ScenePoint& place) const
     return middle_ + QPointF(place.x - middle_x, middle_y - place.y) * pixels_per_meter_;
 }
 
+// Longitude goes on behind the edge of a map of a whole body.
 ScenePoint Minimap::onMap(const ScenePoint& place) const
 {
-    GridPoint grid = map_->frame.toGrid(place);
+    const double x = sight_ ? std::remainder(place.x, kTurn) : place.x;
+    GridPoint grid = map_->frame.toGrid({x, place.y, place.z});
     grid.column = std::clamp(grid.column, 0.0, static_cast<double>(map_->columns - 1));
     grid.row = std::clamp(grid.row, 0.0, static_cast<double>(map_->rows - 1));
     return map_->frame.toScene(grid, place.z);
@@ -182,7 +220,7 @@ ScenePoint Minimap::placeAt(QPointF position) const
     const QPointF off = (position - middle_) / pixels_per_meter_;
     return onMap({(bounds_.west + bounds_.east) / 2.0 + off.x(),
                   (bounds_.south + bounds_.north) / 2.0 - off.y(),
-                  camera_ ? camera_->target.z : 0.0});
+                  target().value_or(ScenePoint{}).z});
 }
 
 void Minimap::resizeEvent(QResizeEvent* event)
@@ -230,35 +268,37 @@ void Minimap::mouseReleaseEvent(QMouseEvent* event)
 
 void Minimap::keyPressEvent(QKeyEvent* event)
 {
-    if (!map_ || !camera_ || !isArrow(event->key())) {
+    if (!map_ || !target() || !isArrow(event->key())) {
         QWidget::keyPressEvent(event);
         return;
     }
     const bool is_fine = (event->modifiers() & Qt::ShiftModifier) != 0;
     const double step_m = std::max(bounds_.east - bounds_.west, bounds_.north - bounds_.south) *
                           (is_fine ? kKeyStepFine : kKeyStep);
-    ScenePoint target = camera_->target;
-    target.x += event->key() == Qt::Key_Right ? step_m : event->key() == Qt::Key_Left ? -step_m : 0;
-    target.y += event->key() == Qt::Key_Up ? step_m : event->key() == Qt::Key_Down ? -step_m : 0;
-    Q_EMIT placeRequested(onMap(target));
+    ScenePoint to = *target();
+    to.x += event->key() == Qt::Key_Right ? step_m : event->key() == Qt::Key_Left ? -step_m : 0;
+    to.y += event->key() == Qt::Key_Up ? step_m : event->key() == Qt::Key_Down ? -step_m : 0;
+    Q_EMIT placeRequested(onMap(to));
 }
 
 void Minimap::describe()
 {
     QString text = tr("No map");
-    if (map_ && !camera_) {
+    if (map_ && !target()) {
         text = tr("The whole map");
     } else if (map_) {
         const auto percent = [](double share) {
             return QLocale().toString(static_cast<int>(std::lround(share * 100.0)));
         };
-        const double east = (camera_->target.x - bounds_.west) / (bounds_.east - bounds_.west);
-        const double north = (camera_->target.y - bounds_.south) / (bounds_.north - bounds_.south);
+        const ScenePoint at = *target();
+        const double east = (at.x - bounds_.west) / (bounds_.east - bounds_.west);
+        const double north = (at.y - bounds_.south) / (bounds_.north - bounds_.south);
+        const double seen = sight_ ? sight_->share : shareOfMap(footprint_, *map_);
         //: For screen readers: %1 and %2 are percentages of the map's width and height, %3 of its
         //: area
         text = tr("The view is at %1% of the way from west to east and %2% from south to north; "
                   "%3% of the map is in sight. Arrow keys move it.")
-                   .arg(percent(east), percent(north), percent(shareOfMap(footprint_, *map_)));
+                   .arg(percent(east), percent(north), percent(seen));
     }
     if (text != accessibleDescription()) {
         setAccessibleDescription(text);
@@ -278,27 +318,12 @@ void Minimap::paintEvent(QPaintEvent* /*event*/)
         drawn_map_.setDevicePixelRatio(ratio);
         drawn_map_.fill(Qt::transparent);
         QPainter map_painter(&drawn_map_);
-        map_painter.setRenderHint(QPainter::SmoothPixmapTransform);
-        map_painter.setRenderHint(QPainter::Antialiasing);
-        if (!preview_.isNull()) {
-            map_painter.setTransform(from_grid_);
-            map_painter.drawImage(QRectF(-0.5, -0.5, static_cast<double>(map_->columns),
-                                         static_cast<double>(map_->rows)),
-                                  preview_);
-            map_painter.resetTransform();
-        }
-        QPolygonF outline;
-        for (const GridPoint& corner : outerCorners(*map_)) {
-            outline << from_grid_.map(QPointF(corner.column, corner.row));
-        }
-        map_painter.setPen(QPen(overlayFaintColor(), 1.0));
-        map_painter.setBrush(Qt::NoBrush);
-        map_painter.drawPolygon(outline);
+        drawMap(map_painter);
     }
     painter.drawPixmap(0, 0, drawn_map_);
-    if (camera_) {
+    if (target()) {
         painter.setClipRect(QRectF(rect()).adjusted(2.0, 2.0, -2.0, -2.0));
-        drawCamera(painter);
+        sight_ ? drawSight(painter) : drawCamera(painter);
         painter.setClipping(false);
     }
     if (hasFocus()) {
@@ -335,17 +360,61 @@ void Minimap::drawCamera(QPainter& painter) const
     const auto end = [&](const Vec3& direction) {
         return eye + QPointF(direction.x, -direction.y) * reach;
     };
-    QPolygonF sight{eye, end(wedge.left)};
+    std::vector<QPointF> arc{end(wedge.left)};
     // An arc, as the corners of a wide wedge would cut off its front.
     const double from = std::atan2(wedge.left.x, wedge.left.y);
     double sweep = std::atan2(wedge.right.x, wedge.right.y) - from;
     sweep = sweep < 0.0 ? sweep + 2.0 * std::numbers::pi : sweep;
-    constexpr int kArcSteps = 16;
     for (int i = 1; i < kArcSteps; ++i) {
         const double heading = from + sweep * i / kArcSteps;
-        sight << end({std::sin(heading), std::cos(heading), 0.0});
+        arc.push_back(end({std::sin(heading), std::cos(heading), 0.0}));
     }
-    sight << end(wedge.right);
+    arc.push_back(end(wedge.right));
+    drawWedge(painter, eye, arc);
+}
+
+// On a map of a whole body, where shapes are wider toward the poles.
+void Minimap::drawSight(QPainter& painter) const
+{
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.setRenderHint(QPainter::SmoothPixmapTransform);
+    const QRectF map(positionOf({bounds_.west, bounds_.north, 0.0}),
+                     positionOf({bounds_.east, bounds_.south, 0.0}));
+    painter.drawImage(map, sight_->seen);
+    QPainterPath path;
+    for (const QLineF& edge : sight_->edges) {
+        path.moveTo(positionOf({edge.x1(), edge.y1(), 0.0}));
+        path.lineTo(positionOf({edge.x2(), edge.y2(), 0.0}));
+    }
+    const QRectF extent = path.boundingRect();
+    if (std::max(extent.width(), extent.height()) < kFootprintSmallest) {
+        path = {};
+        path.addEllipse(positionOf(sight_->target), kFootprintSmallest / 2.0,
+                        kFootprintSmallest / 2.0);
+        painter.fillPath(path, QColor(255, 255, 255, 40));
+    }
+    drawContrasting(painter, path, footprintColor(), 1.3);
+
+    const QPointF eye = positionOf(sight_->eye);
+    std::vector<QPointF> arc;
+    for (int i = 0; i <= kArcSteps && !sight_->is_from_above; ++i) {
+        const double heading =
+            sight_->heading.radians() +
+            sight_->half_width.radians() * (2.0 * static_cast<double>(i) / kArcSteps - 1.0);
+        arc.push_back(eye + QPointF(std::sin(heading), -std::cos(heading)) * kWedgeShortest);
+    }
+    drawWedge(painter, eye, arc);
+}
+
+// From the eye over an arc, which may be empty.
+void Minimap::drawWedge(QPainter& painter, QPointF eye, const std::vector<QPointF>& arc) const
+{
+    QPolygonF sight{eye};
+    double reach = 1.0;
+    for (const QPointF& end : arc) {
+        sight << end;
+        reach = std::hypot(end.x() - eye.x(), end.y() - eye.y());
+    }
     QColor color = cameraColor();
     QRadialGradient fade(eye, reach);
     color.setAlpha(170);
@@ -359,6 +428,42 @@ void Minimap::drawCamera(QPainter& painter) const
     painter.drawEllipse(eye, 4.5, 4.5);
     painter.setBrush(cameraColor());
     painter.drawEllipse(eye, 3.2, 3.2);
+}
+
+// What does not change with the camera.
+void Minimap::drawMap(QPainter& painter) const
+{
+    painter.setRenderHint(QPainter::SmoothPixmapTransform);
+    painter.setRenderHint(QPainter::Antialiasing);
+    if (!preview_.isNull()) {
+        painter.setTransform(from_grid_);
+        painter.drawImage(
+            QRectF(-0.5, -0.5, static_cast<double>(map_->columns), static_cast<double>(map_->rows)),
+            preview_);
+        painter.resetTransform();
+    }
+    QPolygonF edge;
+    for (const GridPoint& corner : outerCorners(*map_)) {
+        edge << from_grid_.map(QPointF(corner.column, corner.row));
+    }
+    painter.setPen(QPen(overlayFaintColor(), 1.0));
+    painter.setBrush(Qt::NoBrush);
+    painter.drawPolygon(edge);
+    for (const QPolygonF& outline : outlines_) {
+        QPolygonF line;
+        for (const QPointF& point : outline) {
+            line << positionOf({point.x(), point.y(), 0.0});
+        }
+        QPainterPath path;
+        path.addPolygon(line);
+        const QRectF extent = path.boundingRect();
+        if (std::max(extent.width(), extent.height()) < kOutlineSmallest) {
+            path = {};
+            path.addRect(QRectF(extent.center() - QPointF(kOutlineSmallest, kOutlineSmallest) / 2.0,
+                                QSizeF(kOutlineSmallest, kOutlineSmallest)));
+        }
+        drawContrasting(painter, path, outlineColor(), 1.0);
+    }
 }
 
 } // namespace marsview

@@ -5,6 +5,7 @@
 #include "core/view/footprint.h"
 
 #include <QImage>
+#include <QLineF>
 #include <QPixmap>
 #include <QPolygonF>
 #include <QTransform>
@@ -14,6 +15,18 @@
 #include <vector>
 
 namespace marsview {
+
+/// What a camera over a whole body sees, on a map of longitude (x) and latitude (y) in degrees.
+struct MinimapSight {
+    ScenePoint target;
+    ScenePoint eye;
+    Angle heading{};             // of the view, clockwise from north
+    Angle half_width{};          // to the left and right edge of the picture
+    bool is_from_above = true;   // the heading is not shown
+    QImage seen{};               // covers the map; opaque where the picture is
+    std::vector<QLineF> edges{}; // around it
+    double share = 0.0;          // of the body
+};
 
 /// Shows a map from above, north up and east to the right however its raster lies, with the part
 /// that the camera sees and the camera itself. A press or drag, or the arrow keys while it has the
@@ -30,6 +43,11 @@ public:
     setMap(const QImage& preview, const SceneFrame& frame, std::size_t columns, std::size_t rows);
     /// Removes the map.
     void clear();
+    /// Lines on the map, in scene coordinates; setMap() and clear() remove them. One that is too
+    /// small to be seen becomes a mark.
+    void setOutlines(std::vector<QPolygonF> outlines);
+    /// Instead of a camera over a plane.
+    void setSight(const MinimapSight& sight);
     /// `viewport` is the map's in device pixels.
     void setCamera(const OrbitCamera& camera, const Viewport& viewport);
 
@@ -68,14 +86,20 @@ private:
     };
 
     ScenePoint onMap(const ScenePoint& place) const;
+    std::optional<ScenePoint> target() const;
     void place();
+    void drawMap(QPainter& painter) const;
     void drawCamera(QPainter& painter) const;
+    void drawSight(QPainter& painter) const;
+    void drawWedge(QPainter& painter, QPointF eye, const std::vector<QPointF>& arc) const;
     void describe();
 
     QImage preview_;
     std::optional<MapPlan> map_;
     Bounds bounds_;
     std::optional<OrbitCamera> camera_;
+    std::optional<MinimapSight> sight_;
+    std::vector<QPolygonF> outlines_;
     Viewport viewport_;
     QSize largest_size_{220, 160};
     double pixels_per_meter_ = 1.0;

@@ -29,14 +29,18 @@ ScaleBarView::ScaleBarView(QWidget* parent)
 
 void ScaleBarView::setCamera(const OrbitCamera& camera, const Viewport& viewport)
 {
-    meters_per_pixel_ = metersPerPixel(camera, viewport) * devicePixelRatioF();
+    setScale(metersPerPixel(camera, viewport) * devicePixelRatioF());
+}
+
+void ScaleBarView::setScale(double meters_per_pixel)
+{
+    meters_per_pixel_ = meters_per_pixel;
     refresh();
 }
 
 void ScaleBarView::clear()
 {
-    meters_per_pixel_ = 0.0;
-    refresh();
+    setScale(0.0);
 }
 
 void ScaleBarView::setLongestBar(int width)

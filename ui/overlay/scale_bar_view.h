@@ -9,16 +9,18 @@
 
 namespace marsview {
 
-/// Shows a round length at the camera's target. The plate keeps its width, so that its neighbors
-/// stay in place while the bar grows and shrinks. Ignores the mouse.
+/// Shows a round length on the ground in the middle of the view. The plate keeps its width, so that
+/// its neighbors stay in place while the bar grows and shrinks. Ignores the mouse.
 class ScaleBarView final : public QWidget {
     Q_OBJECT
 
 public:
     explicit ScaleBarView(QWidget* parent = nullptr);
 
-    /// `viewport` is the map's in device pixels.
+    /// For a camera over a plane. `viewport` is the map's in device pixels.
     void setCamera(const OrbitCamera& camera, const Viewport& viewport);
+    /// The length of a pixel of the widget on the ground, in meters.
+    void setScale(double meters_per_pixel);
     /// Hides the bar: no map is shown.
     void clear();
     /// The length of the bar, in pixels, when it is longest. Positive.

@@ -96,6 +96,14 @@ void LayerModel::setHeightUnit(HeightUnit unit)
     }
 }
 
+void LayerModel::setSceneOfBody(bool is_of_body)
+{
+    is_scene_of_body_ = is_of_body;
+    if (rowCount() > 0) {
+        Q_EMIT dataChanged(index(0), index(rowCount() - 1));
+    }
+}
+
 LayerId LayerModel::idAt(const QModelIndex& index) const
 {
     return index.isValid() && !isHeader(index) ? layerAt(index).id : LayerId::None;
@@ -130,7 +138,8 @@ const Layer& LayerModel::layerAt(const QModelIndex& index) const
 
 LayerState LayerModel::stateAt(const QModelIndex& index) const
 {
-    return states_[rows_[static_cast<std::size_t>(index.row())].layer];
+    const LayerState state = states_[rows_[static_cast<std::size_t>(index.row())].layer];
+    return is_scene_of_body_ && state == LayerState::OtherCrs ? LayerState::Shown : state;
 }
 
 int LayerModel::rowCount(const QModelIndex& parent) const

@@ -38,6 +38,8 @@ public:
     void setSession(const Session& session);
     const Session& session() const noexcept { return session_; }
     void setHeightUnit(HeightUnit unit);
+    /// The picture has all layers of one body, whatever their CRS.
+    void setSceneOfBody(bool is_of_body);
 
     /// None for the name of a body.
     LayerId idAt(const QModelIndex& index) const;
@@ -92,6 +94,7 @@ private:
     Session session_;
     std::vector<Row> rows_;
     std::vector<LayerState> states_;
+    bool is_scene_of_body_ = false;
     HeightUnit unit_ = HeightUnit::Meters;
     HistogramMaker* histograms_ = nullptr;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace marsview {
 namespace {
@@ -57,8 +58,26 @@ std::array<float, 2> poleHeights(const DrawnSurface& surface, std::size_t top_le
     return {mean(0), mean(kNodeSide - 1)};
 }
 
+std::array<float, 3>
+placeOnCover(const BodyCover& cover, const Vec3& point, std::optional<GridPoint>& start)
+{
+    const std::optional<GridPoint> before = start;
+    start = cover.locator->find(point, start);
+    if (!start) {
+        return {};
+    }
+    if (before && cover.locator->grid().closes()) { // on the turn that is nearest to the last point
+        const auto turn = static_cast<double>(cover.locator->grid().columns() - 1);
+        start->column += turn * std::round((before->column - start->column) / turn);
+    }
+    return {static_cast<float>(start->column / cover.last_column),
+            static_cast<float>(start->row / cover.last_row), 1.0F};
+}
+
 BodyAtlas::BodyAtlas(std::size_t slot_columns, std::size_t slot_rows)
-    : slots_(slot_columns, slot_rows)
+    : columns_(slot_columns)
+    , rows_(slot_rows)
+    , slots_(slot_columns, slot_rows)
 {
     constexpr std::array<GLint, kTextures> kFormats{GL_RGBA32F, GL_RGBA16I, GL_RGB16F, GL_RGB16F};
     glActiveTexture(GL_TEXTURE0);
@@ -72,6 +91,26 @@ BodyAtlas::BodyAtlas(std::size_t slot_columns, std::size_t slot_rows)
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
     }
+}
+
+void BodyAtlas::reserveCovers(std::size_t count)
+{
+    if (count <= cover_textures_.size()) {
+        return;
+    }
+    glActiveTexture(GL_TEXTURE0);
+    while (cover_textures_.size() < count) {
+        cover_textures_.emplace_back();
+        cover_places_.emplace_back(4 * kVertices);
+        glBindTexture(GL_TEXTURE_2D, cover_textures_.back().id());
+        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, static_cast<GLsizei>(columns_ * kNodeSide),
+                     static_cast<GLsizei>(rows_ * kNodeSide), 0, GL_RGBA, GL_FLOAT, nullptr);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+    }
+    slots_ = NodeSlots(columns_, rows_); // all are filled again
+    slots_.beginRound();
 }
 
 std::optional<NodeSlots::Place> BodyAtlas::place(const LayerNode& node,
@@ -132,7 +171,44 @@ BodyAtlas::fill(const DetailNode& node, const BodySubject& subject, std::vector<
         }
         within_[4 * vertex + 3] = heights_[vertex];
     }
+    for (std::size_t i = 0; i < cover_places_.size(); ++i) {
+        fillCover(i, node, subject);
+    }
     return state;
+}
+
+void BodyAtlas::fillCover(std::size_t index, const DetailNode& node, const BodySubject& subject)
+{
+    std::vector<float>& places = cover_places_[index];
+    std::fill(places.begin(), places.end(), 0.0F);
+    if (index >= subject.covers.size()) {
+        return;
+    }
+    const BodyCover& cover = subject.covers[index];
+    const BodyGrid& grid = *subject.grid;
+    const auto cells = static_cast<double>(std::size_t{1} << node.level);
+    const double margin_m = 2.0 * grid.diagonalMaxM(cells, cells);
+    const auto sample = [&node](std::size_t first, std::size_t i, std::size_t count) {
+        return std::min((first * DetailErrors::kNodeCells + i) << node.level, count - 1);
+    };
+    std::optional<GridPoint> row_start;
+    for (std::size_t j = 0; j < kNodeSide; ++j) {
+        std::optional<GridPoint> start = row_start;
+        bool is_first = true;
+        for (std::size_t i = 0; i < kNodeSide; ++i) {
+            const Vec3 foot = grid.at(sample(node.column, i, grid.columns()),
+                                      sample(node.row, j, grid.rows()), 0.0);
+            if (!cover.locator->isNear(foot, margin_m)) {
+                continue;
+            }
+            const std::array<float, 3> place = placeOnCover(cover, foot, start);
+            std::copy(place.begin(), place.end(),
+                      places.begin() + static_cast<std::ptrdiff_t>(4 * (j * kNodeSide + i)));
+            if (std::exchange(is_first, false)) {
+                row_start = start;
+            }
+        }
+    }
 }
 
 // Through the first unit alone: the others have what the picture is drawn with.
@@ -149,6 +225,12 @@ void BodyAtlas::send(const NodeSlots::Place& place) const
     send_to(1, GL_RGBA_INTEGER, GL_SHORT, cubes_.data());
     send_to(2, GL_RGB, GL_FLOAT, east_.data());
     send_to(3, GL_RGB, GL_FLOAT, north_.data());
+    for (std::size_t i = 0; i < cover_textures_.size(); ++i) {
+        glBindTexture(GL_TEXTURE_2D, cover_textures_[i].id());
+        glTexSubImage2D(GL_TEXTURE_2D, 0, place.x, place.y, static_cast<GLsizei>(kNodeSide),
+                        static_cast<GLsizei>(kNodeSide), GL_RGBA, GL_FLOAT,
+                        cover_places_[i].data());
+    }
 }
 
 void BodyAtlas::bind(GLenum first) const
@@ -156,6 +238,10 @@ void BodyAtlas::bind(GLenum first) const
     for (unsigned i = 0; i < kTextures; ++i) {
         glActiveTexture(first + i);
         glBindTexture(GL_TEXTURE_2D, textures_[i].id());
+    }
+    for (std::size_t i = 0; i < cover_textures_.size(); ++i) {
+        glActiveTexture(first + kTextures + static_cast<GLenum>(i));
+        glBindTexture(GL_TEXTURE_2D, cover_textures_[i].id());
     }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/body/body_grid.h"
+#include "core/body/body_locator.h"
 #include "core/geo/scene_frame.h"
 #include "core/terrain/drawn_surface.h"
 #include "ui/render/gl_objects.h"
@@ -30,6 +31,20 @@ struct BodyLattice {
     Split split(const Vec3& point) const noexcept;
 };
 
+/// A map that covers another one on the body.
+struct BodyCover {
+    const BodyLocator* locator = nullptr;
+    double last_column = 1.0; // of its raster
+    double last_row = 1.0;
+    /// The width of a turn around the body, of that of the raster; 0 if it does not go around.
+    double turn() const
+    {
+        return locator->grid().closes()
+                   ? static_cast<double>(locator->grid().columns() - 1) / last_column
+                   : 0.0;
+    }
+};
+
 /// A map as it is drawn on its body.
 struct BodySubject {
     const DrawnSurface* surface = nullptr;
@@ -38,7 +53,13 @@ struct BodySubject {
     BodyLattice lattice;
     double exaggeration = 1.0;
     std::array<float, 2> pole_heights_m{}; // over the base: at the first and the last row
+    std::vector<BodyCover> covers{};       // the lowest first, at most kCoversMax
 };
+
+/// Where a point lies on a cover: shares of the way from its first to its last sample, and 1; or
+/// zeros where it is far from it. `start` is where the last point was, and becomes where this is.
+std::array<float, 3>
+placeOnCover(const BodyCover& cover, const Vec3& point, std::optional<GridPoint>& start);
 
 /// The mean heights over the base of a map's first and last row, from some of their samples that
 /// are always in memory.
@@ -50,6 +71,8 @@ public:
     BodyAtlas(std::size_t slot_columns, std::size_t slot_rows);
 
     void beginRound() { slots_.beginRound(); }
+    /// Makes room for the places of vertices on so many covers.
+    void reserveCovers(std::size_t count);
     /// As HeightAtlas::place().
     std::optional<NodeSlots::Place> place(const LayerNode& node,
                                           const BodySubject& subject,
@@ -59,15 +82,19 @@ public:
     /// Textures by unit from `first`: positions within a cube and heights over the base; cubes; and
     /// what a step to the relief's east and north is on the body.
     static constexpr unsigned kTextures = 4;
+    /// Then those of places on covers, as many as there is room for.
     void bind(GLenum first) const;
 
 private:
     NodeState
     fill(const DetailNode& node, const BodySubject& subject, std::vector<TileId>& missing);
+    void fillCover(std::size_t index, const DetailNode& node, const BodySubject& subject);
     void send(const NodeSlots::Place& place) const;
 
     static constexpr std::size_t kVertices = kNodeSide * kNodeSide;
 
+    std::size_t columns_; // of slots
+    std::size_t rows_;
     NodeSlots slots_;
     std::array<GlTexture, kTextures> textures_;
     std::array<float, kVertices> heights_{};
@@ -75,6 +102,9 @@ private:
     std::array<std::int16_t, 4 * kVertices> cubes_{};
     std::array<float, 3 * kVertices> east_{};
     std::array<float, 3 * kVertices> north_{};
+    // One a cover.
+    std::vector<GlTexture> cover_textures_;
+    std::vector<std::vector<float>> cover_places_;
 };
 
 } // namespace marsview

@@ -4,9 +4,14 @@
 
 #include <array>
 #include <cstddef>
+#include <fmt/format.h>
+#include <optional>
+#include <string>
 
 namespace marsview {
 namespace {
+
+constexpr double kOverlapCells = 0.05;
 
 GLfloat asFloat(double value)
 {
@@ -21,6 +26,39 @@ poleFromEye(const CameraPose& pose, const BodySubject& subject, BodyGrid::Pole p
         subject.exaggeration * (subject.surface->baseMeters() + static_cast<double>(height_m));
     const Vec3 p = subject.grid->atPole(pole, height) - pose.eye;
     return {asFloat(p.x), asFloat(p.y), asFloat(p.z), height_m};
+}
+
+// Where other maps lie over this one.
+void setCovers(const GlProgram& program, const BodySubject& subject, GLint first_unit)
+{
+    for (std::size_t i = 0; i < subject.covers.size(); ++i) {
+        const BodyCover& cover = subject.covers[i];
+        const auto set_pole = [&](std::size_t pole, BodyGrid::Pole at) {
+            std::optional<GridPoint> start;
+            const std::array<float, 3> place =
+                placeOnCover(cover, subject.grid->atPole(at, 0.0), start);
+            const std::string name =
+                fmt::format("u_cover_pole[{}]", pole * subject.covers.size() + i);
+            glUniform3fv(program.uniform(name.c_str()), 1, place.data());
+        };
+        set_pole(0, subject.grid->poleAtFirstRow());
+        set_pole(1, subject.grid->poleAtLastRow());
+        const std::string element = fmt::format("[{}]", i);
+        glUniform1i(program.uniform(("u_cover_place" + element).c_str()),
+                    first_unit + static_cast<GLint>(BodyAtlas::kTextures + i));
+        glUniform1f(program.uniform(("u_cover_turn" + element).c_str()), asFloat(cover.turn()));
+        // Its outermost samples overlap a little: places are exact to a few hundredths of a cell.
+        constexpr float kEverywhere = 1e6F;
+        const BodyGrid& above = cover.locator->grid();
+        const float columns = asFloat(kOverlapCells / cover.last_column);
+        const float rows = asFloat(kOverlapCells / cover.last_row);
+        const bool has_first_pole = above.poleAtFirstRow() != BodyGrid::Pole::None;
+        const bool has_last_pole = above.poleAtLastRow() != BodyGrid::Pole::None;
+        glUniform4f(
+            program.uniform(("u_cover_range" + element).c_str()),
+            above.closes() ? -kEverywhere : columns, above.closes() ? kEverywhere : 1.0F - columns,
+            has_first_pole ? -kEverywhere : rows, has_last_pole ? kEverywhere : 1.0F - rows);
+    }
 }
 
 } // namespace
@@ -63,6 +101,7 @@ void setBodyUniforms(const GlProgram& program,
         poleFromEye(pose, subject, subject.grid->poleAtLastRow(), subject.pole_heights_m.back());
     glUniform4fv(program.uniform("u_pole[0]"), 1, first.data());
     glUniform4fv(program.uniform("u_pole[1]"), 1, last.data());
+    setCovers(program, subject, first_unit);
 }
 
 } // namespace marsview

@@ -5,6 +5,7 @@
 #include "ui/render/terrain_renderer.h"
 
 #include "core/base/check.h"
+#include "core/body/body_locator.h"
 #include "core/globe/body_camera.h"
 #include "core/globe/body_nodes.h"
 #include "core/view/scene_box.h"
@@ -124,6 +125,11 @@ std::vector<Rgb8> rampTexels(const ColorRamp& ramp)
 struct Layer {
     TerrainLayer source;
     std::uint32_t number = 0; // never used twice
+    // For what vertices on a body depend on: the layers above, and the lowest terrain of all.
+    std::uint32_t body_number = 0;
+    std::vector<std::uint32_t> covered_by; // numbers of layers
+    double lowest_m = 0.0;
+    std::shared_ptr<const BodyLocator> locator;
     DrawnSurface surface;
     std::array<float, 2> pole_heights_m{};
     DetailSelector selector;
@@ -138,6 +144,7 @@ struct Layer {
           const std::function<void()>& notify)
         : source(layer)
         , number(layer_number)
+        , body_number(layer_number)
         , surface(*source.heightfield, source.analysis->means)
         , selector(selectorOf(source))
         , cover(*source.heightfield, source.analysis->means)
@@ -195,9 +202,28 @@ struct Layer {
                                            layer.heightfield->rows(), layer.frame);
     }
 
+    // The horizon hides nothing that rises over the lowest terrain of the scene.
+    void setLowest(double height_m)
+    {
+        if (source.body && std::exchange(lowest_m, height_m) != height_m) {
+            auto nodes = std::make_unique<BodyNodes>(source.analysis, source.body);
+            nodes->setLowest(height_m);
+            selector = DetailSelector(source.analysis, std::move(nodes));
+        }
+    }
+    BodyCover asCover()
+    {
+        if (!locator) {
+            locator = std::make_shared<const BodyLocator>(source.body);
+        }
+        return {.locator = locator.get(),
+                .last_column = static_cast<double>(source.heightfield->columns() - 1),
+                .last_row = static_cast<double>(source.heightfield->rows() - 1)};
+    }
+
     HeightRange range() const { return source.heightfield->range().value_or(HeightRange{}); }
     // Of a layer on its body.
-    BodySubject onBody(double exaggeration) const
+    BodySubject onBody(double exaggeration, std::vector<BodyCover> covers) const
     {
         const Ellipsoid& body = source.body->ellipsoid();
         const double radius_m = std::max(body.equatorial_m, body.polar_m);
@@ -211,7 +237,8 @@ struct Layer {
                 .lattice =
                     BodyLattice::reaching(std::max(kReachShare * radius_m, radius_m + reach_m)),
                 .exaggeration = exaggeration,
-                .pole_heights_m = pole_heights_m};
+                .pole_heights_m = pole_heights_m,
+                .covers = std::move(covers)};
     }
 
     SceneBox box(double exaggeration) const
@@ -320,6 +347,7 @@ struct TerrainRenderer::Impl {
     }
 
     void makeNodeMesh();
+    void relateLayers(); // after any change of them
     void drawSky(const DrawStyle& style) const;
     DetailSelection select(Layer& layer, const DrawRequest& request, double exaggeration) const;
     void drawLayer(std::size_t index,
@@ -341,8 +369,9 @@ struct TerrainRenderer::Impl {
     void drawInstances(std::vector<NodeInstance>& instances_of, const IndexRange& range) const;
     ClipRange clip(const CameraPose& camera, double exaggeration) const;
     std::optional<NodeSlots::Place>
-    placeOf(Layer& layer, const DetailNode& node, double exaggeration);
+    placeOf(Layer& layer, const DetailNode& node, const std::optional<BodySubject>& on_body);
     void beginRound(const Layer& layer);
+    BodySubject onBody(std::size_t index, double exaggeration) const;
     static void addPoles(const DetailNode& node,
                          const BodyGrid& body,
                          const NodeInstance& instance,
@@ -457,8 +486,7 @@ void TerrainRenderer::Impl::drawLayer(std::size_t index,
                                  ? GridPoint{}
                                  : nodeAnchor(layer.source.frame.toGrid(eyeOf(request.camera)),
                                               heightfield.columns(), heightfield.rows());
-    const auto cover_count =
-        body != nullptr ? 0 : static_cast<int>(std::min<std::size_t>(index, kCoversMax));
+    const auto cover_count = static_cast<int>(std::min<std::size_t>(index, kCoversMax));
     const GlProgram& program = shaders.terrain(
         {.mode = style.look.mode,
          .has_contours = style.look.has_contours,
@@ -477,14 +505,16 @@ void TerrainRenderer::Impl::drawLayer(std::size_t index,
                              .slope_max = layer.source.slope_max};
     };
     reliefs.find(request_of(layer.wholeNode()), top); // so that it is not given up
+    const std::optional<BodySubject> on_body =
+        body != nullptr ? std::optional(onBody(index, style.exaggeration)) : std::nullopt;
     beginRound(layer);
     layer.missing.clear();
     for (const SelectedNode& selected : selection.nodes) {
-        std::optional<NodeSlots::Place> slot = placeOf(layer, selected.node, style.exaggeration);
+        std::optional<NodeSlots::Place> slot = placeOf(layer, selected.node, on_body);
         if (!slot) {
             drawBatches(request);
             beginRound(layer);
-            slot = placeOf(layer, selected.node, style.exaggeration);
+            slot = placeOf(layer, selected.node, on_body);
         }
         const auto relief = reliefs.find(request_of(selected.relief), top);
         if (!relief) {
@@ -520,16 +550,27 @@ void TerrainRenderer::Impl::beginRound(const Layer& layer)
         body_atlas.emplace(stores.atlas_columns, stores.atlas_rows);
     }
     body_atlas->beginRound();
+    body_atlas->reserveCovers(std::min<std::size_t>(layers.size() - 1, kCoversMax));
     body_atlas->bind(GL_TEXTURE0 + FirstOnBody);
 }
 
-std::optional<NodeSlots::Place>
-TerrainRenderer::Impl::placeOf(Layer& layer, const DetailNode& node, double exaggeration)
+// With the layers right above it, the lowest first.
+BodySubject TerrainRenderer::Impl::onBody(std::size_t index, double exaggeration) const
 {
-    const LayerNode key{.layer = layer.number, .node = node};
-    return layer.source.body ? body_atlas->place(key, layer.onBody(exaggeration),
-                                                 layer.generation(), layer.missing)
-                             : atlas.place(key, layer.surface, layer.generation(), layer.missing);
+    std::vector<BodyCover> covers;
+    for (std::size_t i = 0; i < std::min<std::size_t>(index, kCoversMax); ++i) {
+        covers.push_back(layers[index - 1 - i]->asCover());
+    }
+    return layers[index]->onBody(exaggeration, std::move(covers));
+}
+
+std::optional<NodeSlots::Place> TerrainRenderer::Impl::placeOf(
+    Layer& layer, const DetailNode& node, const std::optional<BodySubject>& on_body)
+{
+    return on_body ? body_atlas->place({.layer = layer.body_number, .node = node}, *on_body,
+                                       layer.generation(), layer.missing)
+                   : atlas.place({.layer = layer.number, .node = node}, layer.surface,
+                                 layer.generation(), layer.missing);
 }
 
 // Triangles that close a map around its body at a pole.
@@ -615,7 +656,7 @@ void TerrainRenderer::Impl::setUniforms(const GlProgram& program,
     };
     const CameraPose pose = request.pose();
     if (layer.source.body) {
-        setBodyUniforms(program, pose, layer.onBody(style.exaggeration), FirstOnBody);
+        setBodyUniforms(program, pose, onBody(index, style.exaggeration), FirstOnBody);
     } else {
         atlas.bind(GL_TEXTURE0 + Heights);
         glUniform1i(program.uniform("u_heights"), Heights);
@@ -678,11 +719,18 @@ void TerrainRenderer::Impl::setUniforms(const GlProgram& program,
         set("u_contour", 0.0, 0.5);
     }
 
-    const std::size_t covers = layer.source.body ? 0 : std::min<std::size_t>(index, kCoversMax);
-    for (std::size_t i = 0; i < covers; ++i) {
+    for (std::size_t i = 0; i < std::min<std::size_t>(index, kCoversMax); ++i) {
         const Layer& cover = *layers[index - 1 - i];
         const GLint unit = FirstCover + static_cast<GLint>(i);
         cover.cover.bind(GL_TEXTURE0 + static_cast<GLenum>(unit));
+        const std::string element = fmt::format("[{}]", i);
+        glUniform1i(program.uniform(("u_cover" + element).c_str()), unit);
+        const CoverTexture::Placement& to = cover.cover.placement();
+        set(("u_cover_texture" + element).c_str(), to.column_scale, to.row_scale, to.column_offset,
+            to.row_offset);
+        if (layer.source.body) {
+            continue; // vertices have their places on covers
+        }
         const Heightfield& above = *cover.source.heightfield;
         const auto place = [&](GridPoint grid) {
             const GridPoint there = cover.source.frame.toGrid(frame.toScene(grid, 0.0));
@@ -692,14 +740,9 @@ void TerrainRenderer::Impl::setUniforms(const GlProgram& program,
         const GridPoint at = place(anchor);
         const GridPoint right = place({anchor.column + 1.0, anchor.row});
         const GridPoint down = place({anchor.column, anchor.row + 1.0});
-        const std::string element = fmt::format("[{}]", i);
-        glUniform1i(program.uniform(("u_cover" + element).c_str()), unit);
         set(("u_cover_linear" + element).c_str(), right.column - at.column, down.column - at.column,
             right.row - at.row, down.row - at.row);
         set(("u_cover_offset" + element).c_str(), at.column, at.row);
-        const CoverTexture::Placement& to = cover.cover.placement();
-        set(("u_cover_texture" + element).c_str(), to.column_scale, to.row_scale, to.column_offset,
-            to.row_offset);
     }
 }
 
@@ -823,6 +866,23 @@ void TerrainRenderer::setLayers(const std::vector<TerrainLayer>& layers)
             (*known)->sendRamp();
         }
         impl_->layers.push_back(std::move(*known));
+    }
+    impl_->relateLayers();
+}
+
+void TerrainRenderer::Impl::relateLayers()
+{
+    double lowest_m = HUGE_VAL;
+    for (const auto& layer : layers) {
+        lowest_m = std::min(lowest_m, static_cast<double>(layer->range().minimum_m));
+    }
+    std::vector<std::uint32_t> above;
+    for (const auto& layer : layers) {
+        layer->setLowest(lowest_m);
+        if (std::exchange(layer->covered_by, above) != above) {
+            layer->body_number = next_layer_number++; // places on covers are found again
+        }
+        above.push_back(layer->number);
     }
 }
 

@@ -113,6 +113,19 @@ uniform vec4 u_pole[2];  // from the eye; height over the base
 out mat2 v_turn;         // of slopes
 out vec3 v_ray;          // from the eye, in the directions that slopes are turned to
 
+#if COVERS > 0
+uniform sampler2D u_cover_place[COVERS]; // shares of a cover; 1 near it
+uniform vec3 u_cover_pole[2 * COVERS];
+out vec3 v_cover[COVERS];
+
+vec3 coverAt(sampler2D places, ivec2 own, ivec2 next, ivec2 last, float to_last, float to_next)
+{
+    return blend(texelFetch(places, own, 0).xyz,
+                 blend(texelFetch(places, next, 0).xyz, texelFetch(places, last, 0).xyz, to_last),
+                 to_next);
+}
+#endif
+
 // A vertex's position has the same bits whichever node it is drawn with: a difference of cubes is
 // exact, and so is its product with a power of two.
 vec3 fromEye(vec3 cube, vec3 within)
@@ -161,6 +174,23 @@ void main()
         surface.z = u_pole[pole].w;
     }
     setSurface(surface);
+
+    // Samplers of an array can be chosen by constants only.
+#if COVERS > 0
+    v_cover[0] = is_pole ? u_cover_pole[pole * COVERS]
+                         : coverAt(u_cover_place[0], own_texel, next_texel, last_texel, to_last,
+                                   to_next);
+#endif
+#if COVERS > 1
+    v_cover[1] = is_pole ? u_cover_pole[pole * COVERS + 1]
+                         : coverAt(u_cover_place[1], own_texel, next_texel, last_texel, to_last,
+                                   to_next);
+#endif
+#if COVERS > 2
+    v_cover[2] = is_pole ? u_cover_pole[pole * COVERS + 2]
+                         : coverAt(u_cover_place[2], own_texel, next_texel, last_texel, to_last,
+                                   to_next);
+#endif
 
     vec3 out_of = own_far * u_lattice + own_near.xyz;
     vec3 up = normalize(vec3(out_of.xy, out_of.z * u_axes_squared));
@@ -236,9 +266,26 @@ bool isInHole(vec2 place)
 
 #if COVERS > 0
 uniform sampler2D u_cover[COVERS];
+uniform vec4 u_cover_texture[COVERS]; // shares of the cover to its texture: × xy + zw
+#ifdef BODY
+in vec3 v_cover[COVERS];              // shares; 1 near the cover
+uniform vec4 u_cover_range[COVERS];   // least and most of the first share, and of the second
+uniform float u_cover_turn[COVERS];   // of the first; 0 where the cover does not go around
+
+bool isUnder(sampler2D cover, vec3 share, vec4 range, float turn, vec4 to_texture)
+{
+    vec2 place = share.xy;
+    place.x -= turn > 0.0 ? turn * floor(place.x / turn) : 0.0;
+    return share.z > 0.999 && all(greaterThanEqual(place, range.xz)) &&
+           all(lessThanEqual(place, range.yw)) &&
+           texture(cover, place * to_texture.xy + to_texture.zw).r >= 0.5;
+}
+
+#define IS_UNDER(i) \
+    isUnder(u_cover[i], v_cover[i], u_cover_range[i], u_cover_turn[i], u_cover_texture[i])
+#else
 uniform vec4 u_cover_linear[COVERS]; // sample relative to the anchor to a share of the cover
 uniform vec2 u_cover_offset[COVERS];
-uniform vec4 u_cover_texture[COVERS]; // that share to the cover's texture: × xy + zw
 
 bool isUnder(sampler2D cover, vec4 linear, vec2 offset, vec4 to_texture)
 {
@@ -247,15 +294,18 @@ bool isUnder(sampler2D cover, vec4 linear, vec2 offset, vec4 to_texture)
            texture(cover, place * to_texture.xy + to_texture.zw).r >= 0.5;
 }
 
+#define IS_UNDER(i) isUnder(u_cover[i], u_cover_linear[i], u_cover_offset[i], u_cover_texture[i])
+#endif
+
 // Samplers of an array can be chosen by constants only.
 bool isCovered()
 {
-    return isUnder(u_cover[0], u_cover_linear[0], u_cover_offset[0], u_cover_texture[0])
+    return IS_UNDER(0)
 #if COVERS > 1
-        || isUnder(u_cover[1], u_cover_linear[1], u_cover_offset[1], u_cover_texture[1])
+        || IS_UNDER(1)
 #endif
 #if COVERS > 2
-        || isUnder(u_cover[2], u_cover_linear[2], u_cover_offset[2], u_cover_texture[2])
+        || IS_UNDER(2)
 #endif
         ;
 }
@@ -410,10 +460,10 @@ void main()
 }
 )";
 
-std::string vertexSourceFor(bool is_on_body)
+std::string vertexSourceFor(bool is_on_body, int cover_count)
 {
-    return fmt::format("#version 330 core\n{}{}", is_on_body ? "#define BODY\n" : "",
-                       kTerrainVertex);
+    return fmt::format("#version 330 core\n#define COVERS {}\n{}{}", cover_count,
+                       is_on_body ? "#define BODY\n" : "", kTerrainVertex);
 }
 
 Result<GlProgram> compiledTerrain(const TerrainShaderKey& key)
@@ -426,7 +476,8 @@ Result<GlProgram> compiledTerrain(const TerrainShaderKey& key)
         key.is_ray_corrected ? "#define RAY_CORRECTED\n" : "",
         key.has_voids ? "#define VOIDS\n" : "", key.is_on_body ? "#define BODY\n" : "",
         kTerrainFragment);
-    return GlProgram::create(vertexSourceFor(key.is_on_body).c_str(), fragment.c_str());
+    return GlProgram::create(vertexSourceFor(key.is_on_body, key.cover_count).c_str(),
+                             fragment.c_str());
 }
 
 } // namespace
@@ -459,7 +510,7 @@ const GlProgram& TerrainShaders::terrain(const TerrainShaderKey& key)
 
 std::string TerrainShaders::vertexSource(bool is_on_body)
 {
-    return vertexSourceFor(is_on_body);
+    return vertexSourceFor(is_on_body, 0);
 }
 
 } // namespace marsview

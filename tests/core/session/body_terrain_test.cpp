@@ -135,5 +135,44 @@ TEST(BodyTerrain, PartsOfABodyEndAtTheirOutermostSamples)
     }
 }
 
+// A polar map in degrees, over its map of the pole, over all of Mars.
+TEST(BodyScene, TheTerrainIsThatOfTheUppermostMapWithASurface)
+{
+    MapMaker maker;
+    const auto level = [&maker](const MapMaker::Place& place, double height_m) {
+        const auto map =
+            maker.make(place, [height_m](std::size_t, std::size_t) { return height_m; });
+        JobMonitor monitor;
+        return BodyTerrain(map, BodyGrid::make(map->georeference(), monitor).value());
+    };
+    const BodyScene scene({level({90, 20, {100, 1, 0, 85, 0, -1}, "IAU_2015:49900"}, -300.0),
+                           level({80, 80, {-8e5, 2e4, 0, 8e5, 0, -2e4}, "IAU_2015:49930"}, 100.0),
+                           level({72, 36, {0, 5, 0, 90, 0, -5}, "IAU_2015:49900"}, 200.0)});
+    struct Known {
+        double longitude_deg;
+        double latitude_deg;
+        std::size_t index;
+        double height_m;
+    };
+    for (const Known& known :
+         {Known{120.0, 80.0, 0, -300.0}, Known{50.0, 80.0, 1, 100.0}, Known{-170.0, 89.9, 1, 100.0},
+          Known{120.0, 40.0, 2, 200.0}, Known{0.001, -89.0, 2, 200.0}}) {
+        const GeographicPoint place{.longitude = Angle::degrees(known.longitude_deg),
+                                    .latitude = Angle::degrees(known.latitude_deg)};
+        EXPECT_EQ(scene.mapAt(place), known.index);
+        EXPECT_DOUBLE_EQ(scene.height(place), known.height_m);
+        // From straight above, the rays pass through surfaces that are covered.
+        const CameraPose pose = poseOf({.target = place, .distance_m = 1e5}, scene.ellipsoid());
+        const auto ground = scene.cast({pose.eye, pose.axes.forward}, kExaggeration);
+        ASSERT_TRUE(ground) << known.latitude_deg;
+        EXPECT_EQ(ground->index, known.index);
+        EXPECT_NEAR(ground->hit.height_m, known.height_m, 1e-6);
+        EXPECT_NEAR(ground->hit.distance_m, 1e5 - kExaggeration * known.height_m, 1.0);
+    }
+    EXPECT_DOUBLE_EQ(scene.range().minimum_m, -300.0);
+    EXPECT_DOUBLE_EQ(scene.range().maximum_m, 200.0);
+    EXPECT_TRUE(BodyScene().isEmpty());
+}
+
 } // namespace
 } // namespace marsview

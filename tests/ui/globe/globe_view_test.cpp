@@ -1,17 +1,10 @@
 // The globe in the window: View › Scene, navigation, readout, and what it disables.
-#include "core/globe/body_motion.h"
 #include "tests/support/random.h"
-#include "tests/support/shared_data.h"
-#include "tests/ui/map_window.h"
+#include "tests/ui/globe/globe_window.h"
 #include "ui/commands/window_commands.h"
-#include "ui/globe/globe_view.h"
 #include "ui/window/status_readout.h"
-#include "ui/window/window_actions.h"
 
-#include <QAction>
-#include <QActionGroup>
 #include <QImage>
-#include <QWheelEvent>
 
 #include <gtest/gtest.h>
 
@@ -19,51 +12,6 @@
 
 namespace marsview {
 namespace {
-
-class GlobeTest : public MapWindowTest {
-protected:
-    void SetUp() override
-    {
-        makeWindow(kSmall);
-        ASSERT_TRUE(openAndWait(*window_, QString::fromStdString(test::bundledMars())));
-    }
-    QAction* scene(int index) { return window_->actionSet().scenes->actions().at(index); }
-    bool showGlobe()
-    {
-        scene(2)->trigger();
-        return waitFor([this] { return globe().terrain() != nullptr; });
-    }
-    GlobeView& globe() { return *window_->globe(); }
-    QPointF globeMiddle() { return QRectF(globe().rect()).center(); }
-    const Ellipsoid& body() { return globe().terrain()->grid()->ellipsoid(); }
-
-    void wheel(QPointF at, int notches)
-    {
-        QWheelEvent event(at, globe().mapToGlobal(at), {}, {0, 120 * notches}, Qt::NoButton,
-                          Qt::NoModifier, Qt::NoScrollPhase, false);
-        QApplication::sendEvent(&globe(), &event);
-    }
-    bool rests()
-    {
-        return waitFor([this] { return !globe().isMoving(); });
-    }
-    GeographicPoint placeAt(QPointF at)
-    {
-        const auto hit = globe().hitAt(at);
-        EXPECT_TRUE(hit);
-        return hit ? *globe().terrain()->map()->georeference().toGeographic(hit->grid)
-                   : GeographicPoint{};
-    }
-    // In the body-fixed frame, in meters.
-    ScenePoint pointAt(QPointF at)
-    {
-        const auto hit = globe().hitAt(at);
-        const CameraPose pose = poseOf(globe().camera(), body());
-        const Ray ray = pickRay(pose, globe().viewport(), {at.x(), at.y()});
-        EXPECT_TRUE(hit);
-        return hit ? ray.at(hit->distance_m) : ScenePoint{};
-    }
-};
 
 TEST_F(GlobeTest, ReplacesTheFlatMapAndHandsTheCameraOverBothWays)
 {
@@ -187,7 +135,7 @@ TEST_F(GlobeTest, ReadsTheFullResolutionElevationOfTheMapUnderThePointer)
     const auto reading = globe().reading();
     ASSERT_TRUE(reading);
     const GeographicPoint place = placeAt(at);
-    EXPECT_NEAR(reading->height_m, globe().terrain()->map()->height(place), 0.5);
+    EXPECT_NEAR(reading->hit.height_m, globe().terrain()->map()->height(place), 0.5);
     ASSERT_TRUE(waitFor([this] { return !window_->readout()->heightLabel().isEmpty(); }));
     EXPECT_FALSE(window_->readout()->coordinateLabel().isEmpty());
 }
@@ -197,7 +145,7 @@ TEST_F(GlobeTest, DisablesWithAReasonWhatItLacksAndGivesItBack)
     const WindowActions& actions = window_->actionSet();
     const QList<QAction*> lacking{actions.save_picture, actions.haptic_devices,
                                   actions.measure_kinds->actions().front(),
-                                  actions.tools->actions().at(static_cast<int>(Tool::Touch))};
+                                  actions.tools->actions().at(static_cast<int>(Tool::Measure))};
     for (const QAction* action : lacking) {
         ASSERT_TRUE(action->isEnabled()) << action->text().toStdString();
     }

@@ -1,0 +1,108 @@
+#include "haptics/interaction/body_stylus.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace marsview {
+
+void BodyStylus::setGround(std::vector<Surface> surfaces, SurfaceAt surface_at)
+{
+    lift();
+    surfaces_ = std::move(surfaces);
+    surface_at_ = std::move(surface_at);
+}
+
+void BodyStylus::setModel(ContactModelKind kind)
+{
+    if (kind == std::exchange(kind_, kind) || !model_) {
+        return;
+    }
+    // Slightly away from the proxy toward the goal, the proxy is the nearest point of the surface.
+    constexpr double kHair = 1e-6;
+    const auto [proxy, goal] = std::pair(pose_->proxy, pose_->goal);
+    model_.reset();
+    const Surface& surface = surfaces_[at_.index];
+    model_ = makeContactModel(kind_, BodySurface(surface.mesh), {.radius_m = surface.radius_m});
+    model_->place(proxy + (goal - proxy) * kHair);
+    model_->update(goal);
+    keepOnItsSurface(goal);
+    updatePose(pose_->mode, goal);
+}
+
+void BodyStylus::aim(const BodyAim& at, const StylusButtons& buttons, double point_m)
+{
+    const StylusMode mode =
+        buttons.is_pressing ? StylusMode::Press : StylusMode::Hover; // nothing to grab yet
+    if (at.index != at_.index) {
+        model_.reset();
+    }
+    at_ = at;
+    point_m_ = point_m;
+    const double up_points = buttons.is_pressing ? -reach_.depth_points : reach_.hover_points;
+    const ScenePoint goal = at_.point + at_.up * (up_points * point_m_);
+    if (buttons.is_pressing) {
+        press(goal);
+    } else {
+        model_.reset(); // a hovering stylus has no height of its own, so ridges cannot obstruct it
+    }
+    updatePose(mode, goal);
+}
+
+void BodyStylus::lift()
+{
+    model_.reset();
+    pose_.reset();
+}
+
+void BodyStylus::deepen(double factor)
+{
+    reach_.depth_points =
+        std::clamp(reach_.depth_points * factor, kStylusDepthMin, kStylusDepthMax);
+}
+
+void BodyStylus::press(const ScenePoint& goal)
+{
+    if (at_.index >= surfaces_.size() || !surfaces_[at_.index].mesh) {
+        return;
+    }
+    if (!model_) {
+        const Surface& surface = surfaces_[at_.index];
+        model_ = makeContactModel(kind_, BodySurface(surface.mesh), {.radius_m = surface.radius_m});
+        model_->place(goal); // from straight above: nothing next to it can obstruct it
+    }
+    model_->update(goal);
+    keepOnItsSurface(goal);
+}
+
+// A surface continues below those that cover it, and across its voids. The proxy must not slide
+// there: it is pressed less deep.
+void BodyStylus::keepOnItsSurface(const ScenePoint& goal)
+{
+    constexpr int kHalvings = 10;
+    Vec3 depth = goal - at_.point;
+    for (int i = 0; i < kHalvings && !isOnItsSurface(model_->state().proxy); ++i) {
+        depth = depth * 0.5;
+        model_->place(at_.point + depth);
+    }
+}
+
+bool BodyStylus::isOnItsSurface(const ScenePoint& proxy) const
+{
+    return !surface_at_ || surface_at_(proxy) == at_.index;
+}
+
+void BodyStylus::updatePose(StylusMode mode, const ScenePoint& goal)
+{
+    const ContactState state = model_ ? model_->state() : ContactState{};
+    // A press that no contact can be kept for rests on the ground that it was aimed at.
+    const ScenePoint free = mode == StylusMode::Press ? at_.point : goal;
+    const ScenePoint proxy = state.is_in_contact ? state.proxy : free;
+    pose_ =
+        StylusPose{.mode = mode,
+                   .proxy = proxy,
+                   .goal = goal,
+                   .is_in_contact = state.is_in_contact,
+                   .force_n = state.is_in_contact ? stylusForce(proxy, goal, point_m_) : Vec3{}};
+}
+
+} // namespace marsview

@@ -1,0 +1,71 @@
+// The stylus that the mouse moves over a body.
+#pragma once
+
+#include "core/body/body_mesh.h"
+#include "core/contact/contact_model.h"
+#include "haptics/interaction/stylus.h"
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace marsview {
+
+/// A point of the terrain of a body, in the body-fixed frame, and the local vertical there.
+struct BodyAim {
+    std::size_t index = 0; // of the surface
+    ScenePoint point;
+    Vec3 up;
+};
+
+/// As Stylus over flat maps: in contact while it presses, free while it hovers, in the direction of
+/// the local vertical under the pointer. Positions and forces are in the body-fixed frame. For the
+/// GUI thread: an update takes microseconds.
+class BodyStylus {
+public:
+    struct Surface {
+        std::shared_ptr<const BodyMesh> mesh; // null: cannot be pressed yet
+        double radius_m = 1.0;                // of the sphere of a VirtualProxy
+    };
+    /// Which surface is the terrain at a point, straight above or below it; nothing without
+    /// terrain there.
+    using SurfaceAt = std::function<std::optional<std::size_t>(const ScenePoint&)>;
+
+    /// The uppermost first. Lifts the stylus.
+    void setGround(std::vector<Surface> surfaces, SurfaceAt surface_at);
+
+    /// In contact, the proxy continues from its position.
+    void setModel(ContactModelKind kind);
+    ContactModelKind model() const noexcept { return kind_; }
+
+    /// The pointer is over this point, where a screen point has the positive length `point_m`.
+    void aim(const BodyAim& at, const StylusButtons& buttons, double point_m);
+    /// The pointer is not over the terrain, or has left the view.
+    void lift();
+    /// Changes the pressing depth, within bounds, from the next aim on: deeper if factor > 1.
+    void deepen(double factor);
+
+    /// Empty while lifted.
+    const std::optional<StylusPose>& pose() const noexcept { return pose_; }
+    /// The local vertical where the stylus was aimed at last.
+    const Vec3& up() const noexcept { return at_.up; }
+
+private:
+    void press(const ScenePoint& goal);
+    void keepOnItsSurface(const ScenePoint& goal);
+    bool isOnItsSurface(const ScenePoint& proxy) const;
+    void updatePose(StylusMode mode, const ScenePoint& goal);
+
+    std::vector<Surface> surfaces_;
+    SurfaceAt surface_at_;
+    StylusReach reach_;
+    BodyAim at_;
+    double point_m_ = 1.0;
+    ContactModelKind kind_ = kContactModelDefault;
+    std::unique_ptr<ContactModel> model_; // while in contact
+    std::optional<StylusPose> pose_;
+};
+
+} // namespace marsview

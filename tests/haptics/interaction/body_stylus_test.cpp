@@ -1,0 +1,113 @@
+#include "core/contact/body_surface.h"
+#include "core/globe/body_camera.h"
+#include "haptics/interaction/body_stylus.h"
+#include "tests/core/contact/body_maps.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace marsview {
+namespace {
+
+constexpr double kPointM = 2e4;
+
+class BodyStylusTest : public testing::Test {
+protected:
+    void SetUp() override
+    {
+        mesh_ = test::bodyMesh(test::wholeMars(120, 60), 2.0);
+        stylus_.setGround({{.mesh = mesh_, .radius_m = 1e4}}, {});
+    }
+    const Ellipsoid& body() const { return mesh_->positions().ellipsoid(); }
+    // The terrain along the vertical of a place.
+    BodyAim aimAt(double longitude_deg, double latitude_deg) const
+    {
+        const BodyCamera place{.target = {.longitude = Angle::degrees(longitude_deg),
+                                          .latitude = Angle::degrees(latitude_deg)},
+                               .height_m = -1e5};
+        const Vec3 up = localAxes(body(), place.target).up;
+        const auto model =
+            makeContactModel(kContactModelDefault, BodySurface(mesh_), ContactModelOptions{});
+        // A proxy placed from below is straight above.
+        const ScenePoint below = targetOf(place, body());
+        const ContactState state = model->place(below);
+        return {.index = 0, .point = below + up * dot(state.proxy - below, up), .up = up};
+    }
+
+    std::shared_ptr<const BodyMesh> mesh_;
+    BodyStylus stylus_;
+};
+
+TEST_F(BodyStylusTest, HoversAlongTheVerticalAndPressesAgainstIt)
+{
+    const BodyAim at = aimAt(20.0, 50.0);
+    stylus_.aim(at, {}, kPointM);
+    ASSERT_TRUE(stylus_.pose());
+    EXPECT_EQ(stylus_.pose()->mode, StylusMode::Hover);
+    EXPECT_FALSE(stylus_.pose()->is_in_contact);
+    EXPECT_NEAR(length(stylus_.pose()->proxy - (at.point + at.up * (26.0 * kPointM))), 0.0, 1e-3);
+    stylus_.aim(at, {.is_pressing = true}, kPointM);
+    EXPECT_EQ(stylus_.pose()->mode, StylusMode::Press);
+    EXPECT_TRUE(stylus_.pose()->is_in_contact);
+    EXPECT_NEAR(length(stylus_.pose()->goal - (at.point - at.up * (30.0 * kPointM))), 0.0, 1e-3);
+    EXPECT_GT(dot(stylus_.pose()->force_n, at.up), 0.5 * length(stylus_.pose()->force_n));
+    stylus_.aim(at, {}, kPointM);
+    EXPECT_FALSE(stylus_.pose()->is_in_contact);
+    EXPECT_EQ(length(stylus_.pose()->force_n), 0.0);
+    stylus_.lift();
+    EXPECT_FALSE(stylus_.pose());
+}
+
+TEST_F(BodyStylusTest, StrokesOverTheSeamAndOverThePoleWithoutAJump)
+{
+    const auto stroke = [&](auto aim_of) {
+        std::optional<ScenePoint> last;
+        for (int i = 0; i <= 400; ++i) {
+            stylus_.aim(aim_of(i), {.is_pressing = true}, kPointM);
+            ASSERT_TRUE(stylus_.pose()->is_in_contact) << i;
+            const ScenePoint proxy = stylus_.pose()->proxy;
+            // A tenth of a degree on Mars is 6 km; the proxy of a deep goal is pulled along ridges.
+            EXPECT_LT(last ? length(proxy - *last) : 0.0, 4e5) << i;
+            last = proxy;
+        }
+    };
+    stroke([&](int i) { return aimAt(340.0 + 0.1 * i, 10.0); });
+    stylus_.lift();
+    stroke([&](int i) {
+        const double latitude = 70.0 + 0.1 * i;
+        return latitude <= 90.0 ? aimAt(30.0, latitude) : aimAt(210.0, 180.0 - latitude);
+    });
+}
+
+TEST_F(BodyStylusTest, WithoutASurfaceItHoversAlone)
+{
+    const BodyAim at = aimAt(20.0, 50.0);
+    stylus_.setGround({}, {});
+    stylus_.aim(at, {.is_pressing = true}, kPointM);
+    EXPECT_FALSE(stylus_.pose()->is_in_contact);
+    EXPECT_EQ(length(stylus_.pose()->proxy - at.point), 0.0);
+}
+
+TEST_F(BodyStylusTest, IsNotPressedWhereAnotherSurfaceIsTheTerrain)
+{
+    const BodyAim at = aimAt(20.0, 50.0);
+    stylus_.setGround({{.mesh = mesh_, .radius_m = 1e4}},
+                      [&at](const ScenePoint& point) -> std::optional<std::size_t> {
+                          return length(point - at.point) < 3e4 ? 0U : 1U;
+                      });
+    stylus_.aim(at, {.is_pressing = true}, kPointM);
+    EXPECT_LT(length(stylus_.pose()->proxy - at.point), 3e4);
+}
+
+TEST_F(BodyStylusTest, AnotherModelContinuesFromTheProxy)
+{
+    const BodyAim at = aimAt(-60.0, -20.0);
+    stylus_.aim(at, {.is_pressing = true}, kPointM);
+    const ScenePoint before = stylus_.pose()->proxy;
+    stylus_.setModel(ContactModelKind::SurfaceWalk);
+    EXPECT_LT(length(stylus_.pose()->proxy - before), 1.0);
+}
+
+} // namespace
+} // namespace marsview

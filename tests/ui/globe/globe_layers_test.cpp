@@ -1,0 +1,231 @@
+// Several layers of one body on the globe, each in a projection of its own.
+#include "core/body/body_mesh.h"
+#include "core/globe/body_camera.h"
+#include "tests/ui/globe/globe_window.h"
+#include "ui/overlay/globe_overlays.h"
+#include "ui/overlay/legend.h"
+#include "ui/overlay/map_overlays.h"
+#include "ui/panels/layer_model.h"
+#include "ui/panels/layers_panel.h"
+#include "ui/window/status_readout.h"
+
+#include <QImage>
+#include <QMouseEvent>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <utility>
+
+namespace marsview {
+namespace {
+
+class GlobeLayersTest : public GlobeTest {
+protected:
+    // 40 × 30 samples of 20 km around 80° N, 0° E, over the whole of Mars.
+    QString nested()
+    {
+        return maps_.placed("polar", "IAU_2015:49930", {-400e3, 20e3, 0.0, -300e3, 0.0, -20e3});
+    }
+    bool openNested() { return openAndWait(*window_, nested()); }
+    bool showBoth()
+    {
+        return openNested() && showGlobe() &&
+               waitFor([this] { return globe().scene().maps().size() == 2; });
+    }
+    std::optional<std::size_t> layerAt(double longitude_deg, double latitude_deg)
+    {
+        globe().setCamera({.target = {.longitude = Angle::degrees(longitude_deg),
+                                      .latitude = Angle::degrees(latitude_deg)},
+                           .distance_m = 1e6});
+        const auto ground = globe().groundAt(globeMiddle());
+        return ground ? std::optional(ground->index) : std::nullopt;
+    }
+    LayerModel& list() { return *window_->datasetPanel()->findChild<LayerModel*>(); }
+};
+
+TEST_F(GlobeLayersTest, LayersInOtherProjectionsLieTogetherTheUpperOneOnTop)
+{
+    ASSERT_TRUE(openNested());
+    EXPECT_EQ(view().shownLayers().size(), 1U); // the flat map has one CRS
+    ASSERT_TRUE(showGlobe());
+    ASSERT_TRUE(waitFor([this] { return globe().scene().maps().size() == 2; }));
+    EXPECT_EQ(globe().layers().front().map, view().map());
+    EXPECT_EQ(layerAt(0.0, 80.0), 0U);
+    EXPECT_EQ(layerAt(90.0, 80.0), 1U);
+    EXPECT_EQ(layerAt(-120.0, 10.0), 1U);
+}
+
+TEST_F(GlobeLayersTest, TheElevationReadIsThatOfTheLayerInThePicture)
+{
+    ASSERT_TRUE(showBoth());
+    for (const auto& [longitude, latitude] :
+         {std::pair{0.0, 80.0}, {1.0, 81.0}, {60.0, 75.0}, {-133.0, 18.0}}) {
+        ASSERT_TRUE(layerAt(longitude, latitude));
+        const auto ground = *globe().groundAt(globeMiddle());
+        const Map& map = *globe().layers()[ground.index].map;
+        EXPECT_NEAR(ground.hit.height_m,
+                    map.height(*map.georeference().toGeographic(ground.hit.grid)), 0.5);
+        QMouseEvent event(QEvent::MouseMove, globeMiddle(), globe().mapToGlobal(globeMiddle()),
+                          Qt::NoButton, Qt::NoButton, Qt::NoModifier);
+        QApplication::sendEvent(&globe(), &event);
+        ASSERT_TRUE(globe().reading());
+        EXPECT_EQ(globe().reading()->index, ground.index);
+        EXPECT_FALSE(window_->readout()->heightLabel().isEmpty());
+    }
+}
+
+TEST_F(GlobeLayersTest, LayersOfAnotherBodyAndHiddenOnesAreLeftOut)
+{
+    ASSERT_TRUE(openAndWait(*window_, maps_.moon()));
+    ASSERT_TRUE(openNested());
+    ASSERT_TRUE(showGlobe());
+    ASSERT_TRUE(waitFor([this] { return globe().scene().maps().size() == 2; }));
+    const Session& session = window_->session();
+    ASSERT_EQ(session.layers.size(), 3U);
+    window_->controller().setVisible(session.layers.front().id, false);
+    // The Moon is topmost now.
+    ASSERT_TRUE(waitFor([this] { return globe().scene().maps().size() == 1; }));
+    EXPECT_EQ(globe().terrain()->map()->info().body->name, "Moon");
+    window_->controller().setVisible(session.layers.front().id, true);
+    ASSERT_TRUE(waitFor([this] { return globe().scene().maps().size() == 2; }));
+    EXPECT_EQ(globe().terrain()->map()->info().body->name, "Mars");
+}
+
+TEST_F(GlobeLayersTest, TheListOfLayersCountsThemAsShown)
+{
+    ASSERT_TRUE(openNested());
+    const auto shown = [this] {
+        int count = 0;
+        for (int row = 0; row < list().rowCount(); ++row) {
+            count += list().index(row).data(LayerModel::IsShownRole).toBool() ? 1 : 0;
+        }
+        return count;
+    };
+    EXPECT_EQ(shown(), 1);
+    ASSERT_TRUE(showGlobe());
+    EXPECT_EQ(shown(), 2);
+    scene(1)->trigger();
+    EXPECT_EQ(shown(), 1);
+}
+
+TEST_F(GlobeLayersTest, TheLegendNamesTheLayerInTheMiddle)
+{
+    ASSERT_TRUE(showBoth());
+    const auto* legend = globe().findChild<GlobeOverlays*>()->legend();
+    ASSERT_TRUE(layerAt(0.0, 80.0));
+    EXPECT_EQ(legend->content().layer.toStdString(), window_->session().layers.front().name);
+    ASSERT_TRUE(layerAt(-120.0, 10.0));
+    EXPECT_EQ(legend->content().layer.toStdString(), window_->session().layers.back().name);
+}
+
+// The whole of Mars is up to 20 km away from the slope: it must not show through.
+TEST_F(GlobeLayersTest, ThePictureShowsTheUpperLayerAlone)
+{
+    ASSERT_TRUE(showBoth());
+    ASSERT_TRUE(layerAt(0.0, 80.0));
+    globe().setCamera(
+        {.target = {.longitude = Angle::degrees(0.0), .latitude = Angle::degrees(80.0)},
+         .distance_m = 2e5});
+    ASSERT_TRUE(waitFor([this] { return globe().isPictureComplete(); }));
+    const QImage both = globe().grabFramebuffer();
+    window_->controller().setVisible(window_->session().layers.back().id, false);
+    ASSERT_TRUE(waitFor([this] { return globe().scene().maps().size() == 1; }));
+    ASSERT_TRUE(waitFor([this] { return globe().isPictureComplete(); }));
+    const QImage upper = globe().grabFramebuffer();
+    ASSERT_EQ(both.size(), upper.size());
+    int different = 0;
+    for (int y = 0; y < both.height(); ++y) {
+        for (int x = 0; x < both.width(); ++x) {
+            different += std::abs(qGray(both.pixel(x, y)) - qGray(upper.pixel(x, y))) > 8 ? 1 : 0;
+        }
+    }
+    EXPECT_LT(different, both.width() * both.height() / 1000);
+}
+
+// To the nearest triangle, for a point near it.
+double distanceM(const ScenePoint& point, const BodyMesh& mesh)
+{
+    constexpr double kAroundM = 10.0;
+    const Vec3 around{kAroundM, kAroundM, kAroundM};
+    double nearest_m = kAroundM;
+    mesh.tree().inBox(point - around, point + around, [&](std::uint32_t face) {
+        const auto [a, b, c] = mesh.points(face);
+        const Vec3 normal = normalized(cross(b - a, c - a));
+        const double above_m = dot(point - a, normal);
+        const Vec3 foot = point - normal * above_m;
+        double outside_m = 0.0;
+        for (const auto& [from, to] : {std::pair{a, b}, {b, c}, {c, a}}) {
+            const Vec3 inward = normalized(cross(normal, to - from));
+            outside_m = std::max(outside_m, -dot(foot - from, inward));
+        }
+        nearest_m = std::min(nearest_m, std::hypot(above_m, outside_m));
+    });
+    return nearest_m;
+}
+
+TEST_F(GlobeLayersTest, ATouchStrokesFromOneLayerOntoAnother)
+{
+    ASSERT_TRUE(showBoth());
+    window_->actionSet().tools->actions().at(static_cast<int>(Tool::Touch))->trigger();
+    globe().setCamera(
+        {.target = {.longitude = Angle::degrees(35.0), .latitude = Angle::degrees(80.0)},
+         .distance_m = 2e6});
+    ASSERT_TRUE(waitFor([this] { return globe().isTouchReady(); }));
+    const auto send = [this](QEvent::Type type, QPointF at) {
+        QMouseEvent event(type, at, globe().mapToGlobal(at),
+                          type == QEvent::MouseMove ? Qt::NoButton : Qt::LeftButton, Qt::LeftButton,
+                          Qt::NoModifier);
+        QApplication::sendEvent(&globe(), &event);
+    };
+    std::array<std::shared_ptr<const BodyMesh>, 2> meshes;
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+        const Map& map = *globe().layers()[i].map;
+        JobMonitor monitor;
+        meshes.at(i) = BodyMesh::build(map.filled(), map.georeference(), globe().exaggeration(),
+                                       monitor, body())
+                           .value();
+    }
+    send(QEvent::MouseButtonPress, globeMiddle() - QPointF(250.0, 0.0));
+    std::array<int, 2> touched{};
+    for (int x = -250; x <= 250; x += 5) {
+        const QPointF at = globeMiddle() + QPointF(x, 0.0);
+        send(QEvent::MouseMove, at);
+        const auto ground = globe().groundAt(at);
+        ASSERT_TRUE(ground && globe().stylus()) << x;
+        ASSERT_TRUE(globe().stylus()->is_in_contact) << x;
+        // On a triangle of the layer under the pointer.
+        EXPECT_LT(distanceM(globe().stylus()->proxy, *meshes.at(ground->index)), 1e-3) << x;
+        ++touched.at(ground->index);
+    }
+    EXPECT_GT(touched[0], 10);
+    EXPECT_GT(touched[1], 10);
+}
+
+// Its CRS has a sphere that is larger by 190 m.
+TEST_F(GlobeLayersTest, LayersInCrssWithOtherRadiiLieOnTheEllipsoidOfTheLowest)
+{
+    ASSERT_TRUE(showGlobe());
+    const Ellipsoid before = body();
+    const BodyCamera camera{
+        .target = {.longitude = Angle::degrees(0.0), .latitude = Angle::degrees(80.0)},
+        .distance_m = 1e6};
+    globe().setCamera(camera);
+    window_->open(nested());
+    ASSERT_TRUE(waitFor([this] { return globe().scene().maps().size() == 2; }));
+    ASSERT_NE(globe().layers()[0].map->georeference().crs()->ellipsoid(), before);
+    for (const BodyTerrain& terrain : globe().scene().maps()) {
+        EXPECT_EQ(terrain.grid()->ellipsoid(), before);
+    }
+    // Without it the nested layer lies on its own ellipsoid, below the same camera.
+    window_->controller().setVisible(window_->session().layers.back().id, false);
+    ASSERT_TRUE(waitFor([this] { return globe().scene().maps().size() == 1; }));
+    EXPECT_EQ(body(), globe().layers()[0].map->georeference().crs()->ellipsoid());
+    EXPECT_EQ(globe().camera().target, camera.target);
+    EXPECT_NEAR(globe().camera().distance_m, camera.distance_m, 1.0);
+}
+
+} // namespace
+} // namespace marsview

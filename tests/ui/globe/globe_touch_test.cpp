@@ -1,0 +1,174 @@
+// Touch with the mouse on the globe.
+#include "core/globe/body_camera.h"
+#include "tests/ui/globe/globe_window.h"
+#include "ui/overlay/force_meter.h"
+#include "ui/overlay/globe_overlays.h"
+#include "ui/overlay/hand_pointer.h"
+
+#include <QImage>
+#include <QMouseEvent>
+#include <QTest>
+
+#include <cmath>
+
+namespace marsview {
+namespace {
+
+class GlobeTouchTest : public GlobeTest {
+protected:
+    GlobeOverlays& overlays() { return *globe().findChild<GlobeOverlays*>(); }
+    QAction* tool(Tool tool)
+    {
+        return window_->actionSet().tools->actions().at(static_cast<int>(tool));
+    }
+    bool beginTouch(double longitude_deg, double latitude_deg, double distance_m)
+    {
+        if (!showGlobe()) {
+            return false;
+        }
+        tool(Tool::Touch)->trigger();
+        globe().setCamera({.target = {.longitude = Angle::degrees(longitude_deg),
+                                      .latitude = Angle::degrees(latitude_deg)},
+                           .distance_m = distance_m});
+        return waitFor([this] { return globe().isTouchReady(); });
+    }
+    void send(QEvent::Type type, QPointF at, Qt::MouseButtons buttons)
+    {
+        QMouseEvent event(type, at, globe().mapToGlobal(at),
+                          type == QEvent::MouseMove ? Qt::NoButton : Qt::LeftButton, buttons,
+                          Qt::NoModifier);
+        QApplication::sendEvent(&globe(), &event);
+    }
+    void move(QPointF at, Qt::MouseButtons buttons = Qt::NoButton)
+    {
+        send(QEvent::MouseMove, at, buttons);
+    }
+    void press(QPointF at) { send(QEvent::MouseButtonPress, at, Qt::LeftButton); }
+    void release(QPointF at) { send(QEvent::MouseButtonRelease, at, Qt::NoButton); }
+};
+
+TEST_F(GlobeTouchTest, TheKeyThatChoosesTheToolOnTheFlatMapDoesSoOnTheGlobe)
+{
+    ASSERT_TRUE(showGlobe());
+    globe().setFocus();
+    ASSERT_TRUE(waitFor([this] { return globe().hasFocus(); }));
+    EXPECT_TRUE(tool(Tool::Touch)->isEnabled());
+    QTest::keyClick(&globe(), Qt::Key_T);
+    EXPECT_TRUE(tool(Tool::Touch)->isChecked());
+    EXPECT_TRUE(waitFor([this] { return globe().isTouchReady(); }));
+}
+
+TEST_F(GlobeTouchTest, HoversOverTheGroundAndPressesIntoItAlongTheLocalVertical)
+{
+    ASSERT_TRUE(beginTouch(-133.0, 40.0, 1e6));
+    move(globeMiddle());
+    ASSERT_TRUE(globe().stylus());
+    EXPECT_EQ(globe().stylus()->mode, StylusMode::Hover);
+    EXPECT_EQ(overlays().forceMeter()->sizeHint().isEmpty(), true);
+    const ScenePoint ground = pointAt(globeMiddle());
+    const Vec3 up = localAxes(body(), placeOf(ground, body()).foot).up;
+    EXPECT_NEAR(dot(normalized(globe().stylus()->goal - ground), up), 1.0, 1e-9);
+
+    press(globeMiddle());
+    ASSERT_TRUE(globe().stylus());
+    EXPECT_EQ(globe().stylus()->mode, StylusMode::Press);
+    EXPECT_TRUE(globe().stylus()->is_in_contact);
+    EXPECT_NEAR(dot(normalized(globe().stylus()->goal - ground), up), -1.0, 1e-9);
+    // The proxy is on the terrain of the map.
+    const BodyPlace proxy = placeOf(globe().stylus()->proxy, body());
+    EXPECT_NEAR(proxy.height_m, globe().terrain()->height(proxy.foot) * globe().exaggeration(),
+                0.02 * globe().terrain()->map()->georeference().pixelHeightMeters());
+    EXPECT_TRUE(overlays().forceMeter()->isVisible());
+
+    const double before_n = length(globe().stylus()->force_n);
+    wheel(globeMiddle(), 3); // less deep
+    EXPECT_LT(length(globe().stylus()->force_n), before_n);
+    release(globeMiddle());
+    EXPECT_FALSE(globe().stylus()->is_in_contact);
+    EXPECT_FALSE(overlays().forceMeter()->isVisible());
+    EXPECT_EQ(globe().camera().distance_m, 1e6);
+}
+
+TEST_F(GlobeTouchTest, StrokesAcrossTheSeamOfTheMapAndOverThePole)
+{
+    for (const auto& [longitude, latitude] :
+         {std::pair{0.0, 5.0}, {180.0, -20.0}, {40.0, 89.0}, {-120.0, -89.5}}) {
+        ASSERT_TRUE(beginTouch(longitude, latitude, 1.5e6));
+        press(globeMiddle() - QPointF(200.0, 30.0));
+        std::optional<ScenePoint> last;
+        for (int x = -200; x <= 200; x += 4) {
+            move(globeMiddle() + QPointF(x, 0.15 * x), Qt::LeftButton);
+            ASSERT_TRUE(globe().stylus() && globe().stylus()->is_in_contact)
+                << longitude << ", " << latitude << ", " << x;
+            const ScenePoint proxy = globe().stylus()->proxy;
+            const Vec3 step = last ? proxy - *last : Vec3{};
+            EXPECT_LT(length(step), 1.5e5) << longitude << ", " << latitude << ", " << x;
+            last = proxy;
+        }
+        release(globeMiddle());
+    }
+}
+
+TEST_F(GlobeTouchTest, TheCursorIsDrawnOverThePicture)
+{
+    ASSERT_TRUE(beginTouch(-133.0, 10.0, 1e6));
+    ASSERT_TRUE(waitFor([this] { return globe().isPictureComplete(); }));
+    const QImage before = globe().grabFramebuffer();
+    press(globeMiddle());
+    const QImage after = globe().grabFramebuffer();
+    int red = 0;
+    for (int y = 0; y < after.height(); ++y) {
+        for (int x = 0; x < after.width(); ++x) {
+            const QColor color = after.pixelColor(x, y);
+            red +=
+                color.red() > 120 && color.green() < 40 && after.pixel(x, y) != before.pixel(x, y)
+                    ? 1
+                    : 0;
+        }
+    }
+    EXPECT_GT(red, 60);
+    release(globeMiddle());
+}
+
+TEST_F(GlobeTouchTest, AnArrowPointsToACursorOutsideThePicture)
+{
+    ASSERT_TRUE(beginTouch(-133.0, 10.0, 1e6));
+    press(globeMiddle());
+    EXPECT_FALSE(overlays().handPointer()->isVisible());
+    globe().setCamera(
+        {.target = {.longitude = Angle::degrees(-80.0), .latitude = Angle()}, .distance_m = 2e5});
+    release(globeMiddle());
+    EXPECT_TRUE(globe().stylus()); // under the pointer again
+    EXPECT_FALSE(overlays().handPointer()->isVisible());
+}
+
+TEST_F(GlobeTouchTest, OtherToolsLiftTheStylus)
+{
+    ASSERT_TRUE(beginTouch(-133.0, 10.0, 1e6));
+    press(globeMiddle());
+    ASSERT_TRUE(globe().stylus());
+    tool(Tool::Orbit)->trigger();
+    EXPECT_FALSE(globe().stylus());
+    tool(Tool::Touch)->trigger();
+    move(globeMiddle());
+    EXPECT_TRUE(globe().stylus());
+    scene(1)->trigger(); // the flat map
+    EXPECT_FALSE(globe().stylus());
+    EXPECT_TRUE(tool(Tool::Touch)->isChecked());
+}
+
+TEST_F(GlobeTouchTest, AnotherExaggerationIsFeltWhereItIsSeen)
+{
+    ASSERT_TRUE(beginTouch(-133.0, 18.0, 2e6));
+    view().setExaggeration(8.0);
+    ASSERT_TRUE(waitFor([this] { return globe().isTouchReady(); }));
+    press(globeMiddle());
+    ASSERT_TRUE(globe().stylus()->is_in_contact);
+    const BodyPlace proxy = placeOf(globe().stylus()->proxy, body());
+    EXPECT_NEAR(proxy.height_m, 8.0 * globe().terrain()->height(proxy.foot),
+                0.05 * globe().terrain()->map()->georeference().pixelHeightMeters());
+    release(globeMiddle());
+}
+
+} // namespace
+} // namespace marsview

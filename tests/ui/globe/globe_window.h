@@ -1,0 +1,65 @@
+// A window that shows the bundled Mars, on the flat map or as a globe.
+#pragma once
+
+#include "core/globe/body_motion.h"
+#include "tests/support/shared_data.h"
+#include "tests/ui/map_window.h"
+#include "ui/globe/globe_view.h"
+#include "ui/window/window_actions.h"
+
+#include <QAction>
+#include <QActionGroup>
+#include <QWheelEvent>
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace marsview {
+
+class GlobeTest : public MapWindowTest {
+protected:
+    void SetUp() override
+    {
+        makeWindow(kSmall);
+        ASSERT_TRUE(openAndWait(*window_, QString::fromStdString(test::bundledMars())));
+    }
+    QAction* scene(int index) { return window_->actionSet().scenes->actions().at(index); }
+    bool showGlobe()
+    {
+        scene(2)->trigger();
+        return waitFor([this] { return globe().terrain() != nullptr; });
+    }
+    GlobeView& globe() { return *window_->globe(); }
+    QPointF globeMiddle() { return QRectF(globe().rect()).center(); }
+    const Ellipsoid& body() { return globe().terrain()->grid()->ellipsoid(); }
+
+    void wheel(QPointF at, int notches)
+    {
+        QWheelEvent event(at, globe().mapToGlobal(at), {}, {0, 120 * notches}, Qt::NoButton,
+                          Qt::NoModifier, Qt::NoScrollPhase, false);
+        QApplication::sendEvent(&globe(), &event);
+    }
+    bool rests()
+    {
+        return waitFor([this] { return !globe().isMoving(); });
+    }
+    GeographicPoint placeAt(QPointF at)
+    {
+        const auto hit = globe().hitAt(at);
+        EXPECT_TRUE(hit);
+        return hit ? *globe().terrain()->map()->georeference().toGeographic(hit->grid)
+                   : GeographicPoint{};
+    }
+    // In the body-fixed frame, in meters.
+    ScenePoint pointAt(QPointF at)
+    {
+        const auto hit = globe().hitAt(at);
+        const CameraPose pose = poseOf(globe().camera(), body());
+        const Ray ray = pickRay(pose, globe().viewport(), {at.x(), at.y()});
+        EXPECT_TRUE(hit);
+        return hit ? ray.at(hit->distance_m) : ScenePoint{};
+    }
+};
+
+} // namespace marsview

@@ -1,0 +1,336 @@
+#include "ui/overlay/globe_overlays.h"
+
+#include "core/globe/body_sight.h"
+#include "core/view/edge_mark.h"
+#include "ui/canvas/map_mouse.h"
+#include "ui/globe/globe_view.h"
+#include "ui/overlay/body_overview.h"
+#include "ui/overlay/compass.h"
+#include "ui/overlay/crosshair.h"
+#include "ui/overlay/focus_frame.h"
+#include "ui/overlay/force_meter.h"
+#include "ui/overlay/gesture_hint.h"
+#include "ui/overlay/hand_pointer.h"
+#include "ui/overlay/legend.h"
+#include "ui/overlay/legend_content.h"
+#include "ui/overlay/map_overlays.h"
+#include "ui/overlay/minimap.h"
+#include "ui/overlay/overlay_layout.h"
+#include "ui/overlay/scale_bar_view.h"
+
+#include <QAction>
+#include <QApplication>
+#include <QHelpEvent>
+#include <QPainter>
+#include <QToolTip>
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <numbers>
+#include <utility>
+
+namespace marsview {
+namespace {
+
+// The places at which it is asked what the picture shows, 2° apart.
+constexpr std::size_t kSightColumns = 181;
+constexpr std::size_t kSightRows = 91;
+
+constexpr Angle kFromAbove = Angle::degrees(10.0);
+constexpr int kSeenAlpha = 40; // of 255
+
+ScenePoint inDegrees(const GeographicPoint& place)
+{
+    return {std::remainder(place.longitude.degrees(), 360.0), place.latitude.degrees(), 0.0};
+}
+
+QImage seenPicture(const BodySight& sight)
+{
+    QImage picture(static_cast<int>(sight.columns), static_cast<int>(sight.rows),
+                   QImage::Format_ARGB32);
+    for (int row = 0; row < picture.height(); ++row) {
+        for (int column = 0; column < picture.width(); ++column) {
+            const bool is_seen = sight.margin(static_cast<std::size_t>(column),
+                                              static_cast<std::size_t>(row)) > 0.0F;
+            picture.setPixel(column, row, qRgba(255, 255, 255, is_seen ? kSeenAlpha : 0));
+        }
+    }
+    return picture;
+}
+
+} // namespace
+
+GlobeOverlays::GlobeOverlays(GlobeView& globe, MapOverlays& flat)
+    : QObject(&globe)
+    , globe_(globe)
+    , flat_(flat)
+    , minimap_(new Minimap(&globe))
+    , compass_(new Compass(&globe))
+    , crosshair_(new Crosshair(&globe))
+    , scale_bar_(new ScaleBarView(&globe))
+    , legend_(new Legend(&globe))
+    , force_meter_(new ForceMeter(&globe))
+    , hand_pointer_(new HandPointer(&globe))
+    , hint_(new GestureHint(&globe))
+    , focus_frame_(new FocusFrame(&globe))
+    , layout_(new OverlayLayout(&globe,
+                                {.minimap = minimap_,
+                                 .legend = legend_,
+                                 .compass = compass_,
+                                 .scale_bar = scale_bar_,
+                                 .force_meter = force_meter_,
+                                 .hint = hint_}))
+    , jobs_(*this)
+{
+    for (QWidget* part : std::initializer_list<QWidget*>{minimap_, compass_, scale_bar_, legend_}) {
+        part->setCursor(Qt::ArrowCursor); // not the tool's
+    }
+    for (QWidget* plate : std::initializer_list<QWidget*>{legend_, scale_bar_}) {
+        plate->setProperty(kHidesTerrain, true);
+    }
+    for (QWidget* part : std::initializer_list<QWidget*>{minimap_, compass_, hint_}) {
+        part->installEventFilter(this);
+    }
+    crosshair_->lower();
+    connectParts();
+    placeCrosshair();
+    showSettings();
+    showScene();
+}
+
+void GlobeOverlays::connectParts()
+{
+    for (QAction* action : flat_.visibilityActions()) {
+        connect(action, &QAction::toggled, this, &GlobeOverlays::showSettings);
+    }
+    connect(&flat_, &MapOverlays::settingsChanged, this, &GlobeOverlays::showSettings);
+    connect(&globe_, &GlobeView::placed, this, &GlobeOverlays::readOverview);
+    connect(&globe_, &GlobeView::sceneChanged, this, &GlobeOverlays::showScene);
+    connect(&globe_, &GlobeView::sightChanged, this, &GlobeOverlays::showSight);
+    connect(&globe_, &GlobeView::stylusMoved, this, &GlobeOverlays::showTouch);
+    connect(&globe_, &GlobeView::crosshairChanged, crosshair_, &QWidget::setVisible);
+    connect(&globe_, &GlobeView::gestureMade, hint_, &GestureHint::markDone);
+    connect(minimap_, &Minimap::placeRequested, this, [this](const ScenePoint& place) {
+        globe_.lookAt({.longitude = Angle::degrees(place.x), .latitude = Angle::degrees(place.y)});
+    });
+    connect(compass_, &Compass::northRequested, &globe_, &GlobeView::turnNorthUp);
+    connect(hint_, &GestureHint::dismissed, this, [this] {
+        if (hint_->isAncestorOf(QApplication::focusWidget())) {
+            globe_.setFocus();
+        }
+        flat_.dismissHint();
+    });
+    globe_.installEventFilter(this); // the legend is transparent to the mouse
+}
+
+// What the flat map's overlays have been set to.
+void GlobeOverlays::showSettings()
+{
+    const bool has_terrain = globe_.terrain() != nullptr;
+    const auto is_on = [this](const char* name) {
+        for (const QAction* action : flat_.visibilityActions()) {
+            if (action->objectName() == QLatin1String(name)) {
+                return action->isChecked();
+            }
+        }
+        return true;
+    };
+    layout_->setCovered(flat_.coveredHeight());
+    layout_->setWanted(minimap_, is_on("minimap"));
+    layout_->setWanted(legend_, is_on("legend"));
+    layout_->setWanted(compass_, has_terrain && is_on("compass"));
+    layout_->setWanted(scale_bar_, is_on("compass"));
+    layout_->setWanted(hint_, has_terrain && flat_.isHintOffered());
+    showLegend();
+}
+
+// Heights of a whole map take a moment.
+void GlobeOverlays::readOverview()
+{
+    if (reading_) {
+        reading_->cancel();
+        reading_.reset();
+    }
+    overviews_m_.clear();
+    if (globe_.scene().isEmpty()) {
+        return;
+    }
+    reading_ = std::make_shared<JobMonitor>();
+    jobs_.run([this, scene = globe_.scene(),
+               monitor = reading_](const std::shared_ptr<DetachedJobs::Outlet>& outlet) {
+        std::vector<std::vector<float>> overviews_m;
+        for (const BodyTerrain& terrain : scene.maps()) {
+            overviews_m.push_back(overviewHeights(terrain, *monitor));
+        }
+        outlet->post([this, monitor, overviews_m = std::move(overviews_m)] {
+            if (monitor == reading_) {
+                overviews_m_ = overviews_m;
+                showOverview();
+            }
+        });
+    });
+}
+
+// All layers, on top of each other.
+void GlobeOverlays::showOverview()
+{
+    const BodyScene& scene = globe_.scene();
+    const double equator_m = 2.0 * std::numbers::pi * scene.ellipsoid().equatorial_m;
+    QImage picture;
+    std::vector<QPolygonF> outlines;
+    for (std::size_t i = scene.maps().size(); i > 0; --i) {
+        const std::vector<QPolygonF> pieces = outlineOf(scene.maps()[i - 1].map()->georeference());
+        outlines.insert(outlines.end(), pieces.begin(), pieces.end());
+        if (overviews_m_.size() != scene.maps().size()) {
+            continue; // on their way
+        }
+        const QImage layer = overviewOf(overviews_m_[i - 1], globe_.layers()[i - 1], globe_.look(),
+                                        globe_.exaggeration(), equator_m);
+        if (picture.isNull()) {
+            picture = layer.convertToFormat(QImage::Format_ARGB32_Premultiplied);
+        } else if (!layer.isNull()) {
+            QPainter(&picture).drawImage(0, 0, layer);
+        }
+    }
+    minimap_->setMap(picture, overviewFrame(), kOverviewColumns, kOverviewRows);
+    minimap_->setOutlines(std::move(outlines));
+    showSight();
+}
+
+void GlobeOverlays::showScene()
+{
+    showSettings();
+    if (globe_.terrain() == nullptr) {
+        minimap_->clear();
+        scale_bar_->clear();
+        return;
+    }
+    showOverview();
+}
+
+void GlobeOverlays::showSight()
+{
+    placeCrosshair();
+    showHand();
+    if (globe_.terrain() == nullptr || globe_.isHidden()) {
+        return;
+    }
+    const BodyCamera& camera = globe_.camera();
+    const Ellipsoid& ellipsoid = globe_.scene().ellipsoid();
+    const Viewport viewport = globe_.viewport();
+    const CameraPose pose = poseOf(camera, ellipsoid);
+    const BodySight seen = bodySight(pose, ellipsoid, viewport, kSightColumns, kSightRows);
+    MinimapSight sight{.target = inDegrees(camera.target),
+                       .eye = inDegrees(placeOf(pose.eye, ellipsoid).foot),
+                       .heading = camera.azimuth,
+                       .half_width = Angle::radians(std::atan(
+                           viewport.aspect() * std::tan(0.5 * camera.field_of_view.radians()))),
+                       .is_from_above = camera.tilt < kFromAbove,
+                       .seen = seenPicture(seen),
+                       .share = shareOfBody(seen)};
+    for (const auto& edge : edgesOf(seen)) {
+        sight.edges.emplace_back(edge[0].longitude.degrees(), edge[0].latitude.degrees(),
+                                 edge[1].longitude.degrees(), edge[1].latitude.degrees());
+    }
+    minimap_->setSight(sight);
+    // As over a plane at the target.
+    const OrbitCamera at_target{.distance_m = camera.distance_m,
+                                .azimuth = camera.azimuth,
+                                .tilt = camera.tilt,
+                                .field_of_view = camera.field_of_view};
+    compass_->setCamera(at_target);
+    scale_bar_->setScale(globe_.metersPerPointInMiddle());
+    showLegend();
+}
+
+// The layer in the middle of the picture, otherwise the topmost one.
+std::size_t GlobeOverlays::explainedLayer() const
+{
+    const auto ground =
+        globe_.layers().size() > 1 ? globe_.groundAt(QRectF(globe_.rect()).center()) : std::nullopt;
+    return ground ? ground->index : 0;
+}
+
+void GlobeOverlays::showLegend()
+{
+    if (globe_.scene().isEmpty()) {
+        legend_->setContent({});
+        return;
+    }
+    const ShownLayer& layer = globe_.layers()[explainedLayer()];
+    const std::vector<Layer>& known = flat_.session().layers;
+    const auto named = std::find_if(known.begin(), known.end(),
+                                    [&](const Layer& l) { return l.map == layer.map; });
+    const bool is_named = globe_.layers().size() > 1 && named != known.end();
+    const CameraPose pose = poseOf(globe_.camera(), globe_.scene().ellipsoid());
+    legend_->setContent(legendContent(
+        layer, {.look = globe_.look(),
+                .pixel_m = metersPerPixel(pose, globe_.viewport()),
+                .exaggeration = globe_.exaggeration(),
+                .unit = flat_.heightUnit(),
+                .layer = is_named ? QString::fromStdString(named->name) : QString()}));
+}
+
+void GlobeOverlays::showTouch()
+{
+    showHand();
+    const auto& stylus = globe_.stylus();
+    if (!stylus || !stylus->is_in_contact || globe_.terrain() == nullptr) {
+        force_meter_->release();
+        return;
+    }
+    // As the hand has it: to the right and away along the view, up along the local vertical.
+    const CameraPose pose = poseOf(globe_.camera(), globe_.scene().ellipsoid());
+    const Vec3& up = globe_.stylusUp();
+    const Vec3 away = normalized(cross(up, pose.axes.right));
+    const Vec3 right = cross(away, up);
+    const Vec3& force_n = stylus->force_n;
+    force_meter_->setForce({dot(force_n, right), dot(force_n, away), dot(force_n, up)},
+                           stylus->force_n_max);
+}
+
+// An arrow to the cursor, where that cannot be seen.
+void GlobeOverlays::showHand()
+{
+    const auto& stylus = globe_.stylus();
+    if (!stylus || globe_.terrain() == nullptr) {
+        hand_pointer_->release();
+        return;
+    }
+    const double scale = globe_.devicePixelRatioF();
+    const auto mark = edgeMark(poseOf(globe_.camera(), globe_.scene().ellipsoid()), stylus->proxy,
+                               {.viewport = globe_.viewport(),
+                                .inset_px = HandPointer::kInset * scale,
+                                .covered_px = flat_.coveredHeight() * scale});
+    if (mark) {
+        hand_pointer_->pointTo(QPointF(mark->at.x, mark->at.y) / scale, {mark->right, mark->down});
+    } else {
+        hand_pointer_->release();
+    }
+}
+
+void GlobeOverlays::placeCrosshair()
+{
+    QRect place(QPoint(), crosshair_->sizeHint());
+    place.moveCenter(globe_.rect().center());
+    crosshair_->setGeometry(place);
+    crosshair_->setVisible(globe_.isCrosshairShown());
+}
+
+bool GlobeOverlays::eventFilter(QObject* watched, QEvent* event)
+{
+    if (event->type() == QEvent::Enter && watched != &globe_) {
+        globe_.forgetPointer();
+    }
+    if (event->type() == QEvent::ToolTip && watched == &globe_ && legend_->isVisible()) {
+        const auto* help = static_cast<QHelpEvent*>(event);
+        if (legend_->geometry().contains(help->pos())) {
+            QToolTip::showText(help->globalPos(), legend_->summary(), &globe_, legend_->geometry());
+            return true;
+        }
+    }
+    return QObject::eventFilter(watched, event);
+}
+
+} // namespace marsview

@@ -1,0 +1,80 @@
+// The overlays on the globe, as those on the flat map.
+#pragma once
+
+#include "core/base/job_monitor.h"
+#include "ui/controllers/detached_jobs.h"
+
+#include <QObject>
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace marsview {
+
+class Compass;
+class Crosshair;
+class FocusFrame;
+class ForceMeter;
+class GestureHint;
+class GlobeView;
+class HandPointer;
+class Legend;
+class MapOverlays;
+class Minimap;
+class OverlayLayout;
+class ScaleBarView;
+
+/// Creates the overlays of a globe at the places that they have on the flat map, shows and hides
+/// them by the same actions, and passes their requests to the globe. The overview map shows the
+/// whole body. A child of the globe; `flat` outlives it.
+class GlobeOverlays final : public QObject {
+    Q_OBJECT
+
+public:
+    GlobeOverlays(GlobeView& globe, MapOverlays& flat);
+
+    Minimap* minimap() const noexcept { return minimap_; }
+    Compass* compass() const noexcept { return compass_; }
+    ScaleBarView* scaleBar() const noexcept { return scale_bar_; }
+    Legend* legend() const noexcept { return legend_; }
+    ForceMeter* forceMeter() const noexcept { return force_meter_; }
+    HandPointer* handPointer() const noexcept { return hand_pointer_; }
+    GestureHint* hint() const noexcept { return hint_; }
+    Crosshair* crosshair() const noexcept { return crosshair_; }
+    FocusFrame* focusFrame() const noexcept { return focus_frame_; }
+
+protected:
+    bool eventFilter(QObject* watched, QEvent* event) override;
+
+private:
+    void connectParts();
+    void showSettings();
+    void readOverview();
+    void showOverview();
+    void showScene();
+    void showSight();
+    void showLegend();
+    std::size_t explainedLayer() const;
+    void showTouch();
+    void showHand();
+    void placeCrosshair();
+
+    GlobeView& globe_;
+    MapOverlays& flat_;
+    Minimap* minimap_ = nullptr;
+    Compass* compass_ = nullptr;
+    Crosshair* crosshair_ = nullptr; // below those that follow
+    ScaleBarView* scale_bar_ = nullptr;
+    Legend* legend_ = nullptr;
+    ForceMeter* force_meter_ = nullptr;
+    HandPointer* hand_pointer_ = nullptr; // over all of them
+    GestureHint* hint_ = nullptr;
+    FocusFrame* focus_frame_ = nullptr;
+    OverlayLayout* layout_ = nullptr;
+    std::shared_ptr<JobMonitor> reading_;         // of the overview
+    std::vector<std::vector<float>> overviews_m_; // elevations, a map
+    DetachedJobs jobs_;
+};
+
+} // namespace marsview
