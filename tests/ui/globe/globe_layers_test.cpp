@@ -68,9 +68,7 @@ TEST_F(GlobeLayersTest, TheElevationReadIsThatOfTheLayerInThePicture)
         const Map& map = *globe().layers()[ground.index].map;
         EXPECT_NEAR(ground.hit.height_m,
                     map.height(*map.georeference().toGeographic(ground.hit.grid)), 0.5);
-        QMouseEvent event(QEvent::MouseMove, globeMiddle(), globe().mapToGlobal(globeMiddle()),
-                          Qt::NoButton, Qt::NoButton, Qt::NoModifier);
-        QApplication::sendEvent(&globe(), &event);
+        move(globeMiddle());
         ASSERT_TRUE(globe().reading());
         EXPECT_EQ(globe().reading()->index, ground.index);
         EXPECT_FALSE(window_->readout()->heightLabel().isEmpty());

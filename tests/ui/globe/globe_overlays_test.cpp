@@ -158,16 +158,11 @@ TEST_F(GlobeOverlaysTest, NothingIsReadUnderALegend)
 {
     ASSERT_TRUE(showGlobe());
     globe().setCamera({.target = {}, .distance_m = 1e6}); // ground everywhere
-    const auto move_to = [this](QPointF at) {
-        QMouseEvent event(QEvent::MouseMove, at, globe().mapToGlobal(at), Qt::NoButton,
-                          Qt::NoButton, Qt::NoModifier);
-        QApplication::sendEvent(&globe(), &event);
-    };
     view().clearFocus();
     globe().clearFocus();
-    move_to(globeMiddle());
+    move(globeMiddle());
     EXPECT_TRUE(globe().reading());
-    move_to(overlays().legend()->geometry().center());
+    move(overlays().legend()->geometry().center());
     EXPECT_FALSE(globe().reading());
 }
 

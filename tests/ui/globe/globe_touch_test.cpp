@@ -34,14 +34,9 @@ protected:
     }
     void send(QEvent::Type type, QPointF at, Qt::MouseButtons buttons)
     {
-        QMouseEvent event(type, at, globe().mapToGlobal(at),
-                          type == QEvent::MouseMove ? Qt::NoButton : Qt::LeftButton, buttons,
+        QMouseEvent event(type, at, globe().mapToGlobal(at), Qt::LeftButton, buttons,
                           Qt::NoModifier);
         QApplication::sendEvent(&globe(), &event);
-    }
-    void move(QPointF at, Qt::MouseButtons buttons = Qt::NoButton)
-    {
-        send(QEvent::MouseMove, at, buttons);
     }
     void press(QPointF at) { send(QEvent::MouseButtonPress, at, Qt::LeftButton); }
     void release(QPointF at) { send(QEvent::MouseButtonRelease, at, Qt::NoButton); }

@@ -85,7 +85,7 @@ TEST_F(GlobeTest, ADragHoldsTheGroundUnderThePointer)
     const ScenePoint held = pointAt(from);
     QTest::mousePress(&globe(), Qt::LeftButton, Qt::NoModifier, from);
     for (int i = 1; i <= 10; ++i) {
-        QTest::mouseMove(&globe(), from + (to - from) * i / 10);
+        move(from + (to - from) * i / 10, Qt::LeftButton);
     }
     QTest::mouseRelease(&globe(), Qt::LeftButton, Qt::NoModifier, to);
     const auto pixel = project(poseOf(globe().camera(), body()), globe().viewport(), held);
@@ -131,7 +131,7 @@ TEST_F(GlobeTest, ReadsTheFullResolutionElevationOfTheMapUnderThePointer)
          .distance_m = 1.2e6,
          .tilt = Angle::degrees(20.0)});
     const QPoint at = globeMiddle().toPoint() + QPoint(21, 13);
-    QTest::mouseMove(&globe(), at);
+    move(at);
     const auto reading = globe().reading();
     ASSERT_TRUE(reading);
     const GeographicPoint place = placeAt(at);
@@ -177,7 +177,7 @@ TEST_F(GlobeTest, RandomInputNeverTakesTheCameraUnderTheGround)
         if (i % 3 == 0) {
             const auto button = i % 2 == 0 ? Qt::LeftButton : Qt::RightButton;
             QTest::mousePress(&globe(), button, Qt::NoModifier, from);
-            QTest::mouseMove(&globe(), any());
+            move(any(), button);
             QTest::mouseRelease(&globe(), button, Qt::NoModifier, any());
         } else if (i % 3 == 1) {
             wheel(from, random.uniform(0.0, 1.0) < 0.55 ? 2 : -2);

@@ -9,6 +9,8 @@
 
 #include <QAction>
 #include <QActionGroup>
+#include <QApplication>
+#include <QMouseEvent>
 #include <QWheelEvent>
 
 #include <gtest/gtest.h>
@@ -38,6 +40,13 @@ protected:
     {
         QWheelEvent event(at, globe().mapToGlobal(at), {}, {0, 120 * notches}, Qt::NoButton,
                           Qt::NoModifier, Qt::NoScrollPhase, false);
+        QApplication::sendEvent(&globe(), &event);
+    }
+    // To the widget itself: a motion of the real pointer arrives when the X server sends it.
+    void move(QPointF at, Qt::MouseButtons buttons = Qt::NoButton)
+    {
+        QMouseEvent event(QEvent::MouseMove, at, globe().mapToGlobal(at), Qt::NoButton, buttons,
+                          Qt::NoModifier);
         QApplication::sendEvent(&globe(), &event);
     }
     bool rests()
