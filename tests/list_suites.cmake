@@ -15,7 +15,7 @@ foreach(line IN LISTS lines)
   if(line MATCHES "^([^ ]+)\\.( .*)?$")
     set(suite "${CMAKE_MATCH_1}")
     string(APPEND script
-      "add_test([==[${PREFIX}.${suite}]==] [==[${PROGRAM}]==] [==[--gtest_filter=${suite}.*]==])\n"
+      "add_test([==[${PREFIX}.${suite}]==] [==[${PROGRAM}]==] [==[--gtest_filter=${suite}.*]==] --gtest_brief=1)\n"
       "set_tests_properties([==[${PREFIX}.${suite}]==] PROPERTIES TIMEOUT ${TIMEOUT}"
       " LABELS ${PREFIX} SKIP_REGULAR_EXPRESSION [==[${all_skipped}]==])\n")
   endif()

@@ -59,7 +59,7 @@ protected:
             }
         }
         // The panel below the map makes it smaller.
-        ASSERT_TRUE(QTest::qWaitFor([this] { return list().isVisible(); }));
+        ASSERT_TRUE(QTest::qWaitFor([this] { return list().isVisible(); }, kTimeout));
         ASSERT_TRUE(QTest::qWaitFor([this] { return view().isPictureComplete(); }, kTimeout));
     }
     // So far from the middle of the view, in shares of its sides.

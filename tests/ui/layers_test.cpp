@@ -1,6 +1,7 @@
 // Layers as the user sees them: opening, order, undo.
 
 #include "tests/ui/test_map.h"
+#include "tests/ui/timeout.h"
 #include "ui/canvas/terrain_view.h"
 #include "ui/panels/georeferencing_panel.h"
 #include "ui/panels/layer_model.h"
@@ -56,7 +57,7 @@ protected:
     bool settle() { return waitUntilSettled(*window_); }
     bool waitForLoads()
     {
-        return QTest::qWaitFor([this] { return !controller().isBusy(); }, 30000);
+        return QTest::qWaitFor([this] { return !controller().isBusy(); }, kTimeout);
     }
 
     TestMaps maps_;
@@ -337,7 +338,7 @@ TEST_F(LayersTest, AllHiddenIsAnEmptyView)
 {
     ASSERT_TRUE(openAndWait(*window_, maps_.hill()));
     controller().setVisible(id(0), false);
-    ASSERT_TRUE(QTest::qWaitFor([this] { return !window_->view()->map(); }, 5000));
+    ASSERT_TRUE(QTest::qWaitFor([this] { return !window_->view()->map(); }, kTimeout));
     EXPECT_FALSE(window_->actionSet().home->isEnabled());
     EXPECT_FALSE(window_->actionSet().go_to_place->isEnabled());
     controller().setVisible(id(0), true);

@@ -40,7 +40,7 @@ protected:
     std::string shownFile() { return view().map() ? view().map()->spec().path : std::string(); }
     bool waitForLoad()
     {
-        return QTest::qWaitFor([this] { return !window_->loader().isLoading(); }, 30000);
+        return QTest::qWaitFor([this] { return !window_->loader().isLoading(); }, kTimeout);
     }
 
     // As from a file manager.

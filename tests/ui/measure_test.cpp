@@ -61,7 +61,7 @@ protected:
             }
         }
         // The panel below the map makes it smaller.
-        ASSERT_TRUE(QTest::qWaitFor([this] { return panel().isVisible(); }));
+        ASSERT_TRUE(QTest::qWaitFor([this] { return panel().isVisible(); }, kTimeout));
         QTest::qWait(50);
     }
     // So far from the middle of the view, in shares of its sides.

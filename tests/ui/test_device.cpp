@@ -35,8 +35,8 @@ public:
         if (const std::unique_lock lock(hand_->mutex, std::try_to_lock); lock.owns_lock()) {
             wanted_ = hand_->position;
         }
-        // No faster than a hand.
-        constexpr double kStepM = 1e-3;
+        // As a hand moves, 0.2 m/s: one that jumps slips (see PanOptions::grip_rate_n_per_s_max).
+        constexpr double kStepM = 2e-4;
         const Vec3 way = wanted_ - at_;
         const double far_m = length(way);
         at_ = far_m > kStepM ? at_ + way * (kStepM / far_m) : wanted_;

@@ -3,6 +3,6 @@
 
 namespace marsview {
 
-inline constexpr int kTimeout = 30000; // ms; far more than is ever needed on an idle machine
+inline constexpr int kTimeout = 120000; // ms; far more than is ever needed on an idle machine
 
 } // namespace marsview

@@ -1,6 +1,7 @@
 // The state that one window stores for the next.
 
 #include "tests/ui/test_map.h"
+#include "tests/ui/timeout.h"
 #include "ui/canvas/terrain_view.h"
 #include "ui/commands/window_commands.h"
 #include "ui/controllers/recent_files.h"
@@ -93,13 +94,13 @@ TEST_F(WindowMemoryTest, RestoresAPanelThatOnlyLackedRoom)
         const auto window = makeWindow({1280, 800});
         EXPECT_TRUE(window->docks()->georeferencing()->isVisible());
         window->resize(640, 480);
-        ASSERT_TRUE(
-            QTest::qWaitFor([&] { return !window->docks()->georeferencing()->isVisible(); }, 5000));
+        ASSERT_TRUE(QTest::qWaitFor([&] { return !window->docks()->georeferencing()->isVisible(); },
+                                    kTimeout));
         window->close();
     }
     const auto window = makeWindow({1280, 800});
     EXPECT_TRUE(
-        QTest::qWaitFor([&] { return window->docks()->georeferencing()->isVisible(); }, 5000));
+        QTest::qWaitFor([&] { return window->docks()->georeferencing()->isVisible(); }, kTimeout));
 }
 
 TEST_F(WindowMemoryTest, OpensARecentFile)
@@ -215,7 +216,7 @@ TEST_F(WindowMemoryTest, TheMapKeepsTwoThirdsAtEveryWidth)
             [&] {
                 return window->width() == width && window->view()->width() * 3 >= width * 2 - 40;
             },
-            5000))
+            kTimeout))
             << width << ": " << window->view()->width();
     }
     // In a narrow window, the panel opened last replaces the other one.
@@ -225,7 +226,8 @@ TEST_F(WindowMemoryTest, TheMapKeepsTwoThirdsAtEveryWidth)
     EXPECT_TRUE(window->docks()->georeferencing()->isVisible());
     EXPECT_FALSE(window->docks()->datasets()->isVisible());
     window->resize(1600, 600);
-    EXPECT_TRUE(QTest::qWaitFor([&] { return window->docks()->datasets()->isVisible(); }, 5000));
+    EXPECT_TRUE(
+        QTest::qWaitFor([&] { return window->docks()->datasets()->isVisible(); }, kTimeout));
 }
 
 } // namespace

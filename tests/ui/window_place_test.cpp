@@ -1,3 +1,4 @@
+#include "tests/ui/timeout.h"
 #include "ui/window/window_place.h"
 
 #include <QGuiApplication>
@@ -27,7 +28,8 @@ TEST(WindowPlace, KeepsAShownWindowOnItsScreen)
     new WindowPlace(window);
     window.setGeometry(QRect(available.topLeft() + QPoint(300, 300), available.size() * 2));
     window.show();
-    EXPECT_TRUE(QTest::qWaitFor([&] { return available.contains(window.frameGeometry()); }, 5000));
+    EXPECT_TRUE(
+        QTest::qWaitFor([&] { return available.contains(window.frameGeometry()); }, kTimeout));
 }
 
 TEST(WindowPlace, ShrinksAWindowBeforeItIsShown)

@@ -1,6 +1,7 @@
 #include "core/view/navigation.h"
 #include "tests/support/shared_data.h"
 #include "tests/ui/test_map.h"
+#include "tests/ui/timeout.h"
 #include "ui/canvas/terrain_view.h"
 
 #include <QApplication>
@@ -30,11 +31,11 @@ protected:
     // Waits until the camera has arrived. The picture may not yet have its full detail.
     bool arrive()
     {
-        return QTest::qWaitFor([this] { return !view().isMoving(); }, 10000);
+        return QTest::qWaitFor([this] { return !view().isMoving(); }, kTimeout);
     }
     bool rest()
     {
-        return QTest::qWaitFor([this] { return view().isPictureComplete(); }, 10000);
+        return QTest::qWaitFor([this] { return view().isPictureComplete(); }, kTimeout);
     }
     void wheel(QPointF position, int angle, Qt::KeyboardModifiers modifiers = Qt::NoModifier)
     {
@@ -253,7 +254,7 @@ TEST_F(TerrainViewTest, AResizeKeepsTheViewThatHomeOrNorthUpLeft)
         const OrbitCamera camera = view().camera();
         const QSize size = view().size();
         window_->resize(window_->width(), window_->height() - 150);
-        ASSERT_TRUE(QTest::qWaitFor([&] { return view().size() != size; }, 5000));
+        ASSERT_TRUE(QTest::qWaitFor([&] { return view().size() != size; }, kTimeout));
         EXPECT_EQ(view().camera(), camera);
     }
 }
@@ -262,7 +263,7 @@ TEST_F(TerrainViewTest, ObeysTheKeys)
 {
     QApplication::setActiveWindow(window_.get()); // possibly without a window manager
     view().setFocus();
-    ASSERT_TRUE(QTest::qWaitFor([this] { return view().hasFocus(); }, 5000));
+    ASSERT_TRUE(QTest::qWaitFor([this] { return view().hasFocus(); }, kTimeout));
     const OrbitCamera before = view().camera();
     QTest::keyClick(&view(), Qt::Key_E);
     ASSERT_TRUE(arrive());
@@ -337,7 +338,7 @@ TEST_F(TerrainViewTest, DrawsNothingWhenNothingChanges)
         QTest::qWait(300);
         return frames == 0;
     };
-    EXPECT_TRUE(QTest::qWaitFor(is_quiet, 5000));
+    EXPECT_TRUE(QTest::qWaitFor(is_quiet, kTimeout));
 }
 
 } // namespace

@@ -1,4 +1,5 @@
 #include "tests/ui/test_map.h"
+#include "tests/ui/timeout.h"
 #include "ui/controllers/recent_files.h"
 #include "ui/dialogs/address_dialog.h"
 #include "ui/window/window_actions.h"
@@ -92,7 +93,7 @@ TEST(AddressDialog, IsOpenedFromTheMenuAndReportsWhyOpeningFailed)
     dialog->findChild<QComboBox*>(QStringLiteral("address"))
         ->setEditText(QStringLiteral("http://127.0.0.1:1/mars.tif"));
     openButton(*dialog)->click();
-    ASSERT_TRUE(QTest::qWaitFor([&] { return failures.count() > 0; }, 30000));
+    ASSERT_TRUE(QTest::qWaitFor([&] { return failures.count() > 0; }, kTimeout));
     EXPECT_TRUE(failures[0][0].toString().contains(QStringLiteral("http://127.0.0.1:1/mars.tif")));
 }
 

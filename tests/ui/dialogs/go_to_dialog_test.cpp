@@ -178,14 +178,15 @@ TEST_F(GoToDialogTest, FliesThereAndRemembersTheText)
         if (round == 0) {
             field->setText(QStringLiteral("17 N 13 E"));
             QTest::keyClick(field, Qt::Key_Return);
-            ASSERT_TRUE(QTest::qWaitFor([&] { return window.view()->isPictureComplete(); }, 10000));
+            ASSERT_TRUE(
+                QTest::qWaitFor([&] { return window.view()->isPictureComplete(); }, kTimeout));
             const OrbitCamera& camera = window.view()->camera();
             const GridPoint target =
                 window.view()->map()->georeference().sceneFrame().toGrid(camera.target);
             EXPECT_NEAR(target.column, 11.5, 0.01);
             EXPECT_NEAR(target.row, 11.5, 0.01);
-            ASSERT_TRUE(
-                QTest::qWaitFor([&] { return window.findChild<GoToDialog*>() == nullptr; }, 5000));
+            ASSERT_TRUE(QTest::qWaitFor([&] { return window.findChild<GoToDialog*>() == nullptr; },
+                                        kTimeout));
         } else {
             EXPECT_EQ(field->text(), QStringLiteral("17 N 13 E"));
         }

@@ -5,6 +5,7 @@
 #include "tests/support/scoped_variable.h"
 #include "tests/support/temp_folder.h"
 #include "tests/ui/test_map.h"
+#include "tests/ui/timeout.h"
 #include "ui/canvas/terrain_view.h"
 #include "ui/dialogs/large_maps_page.h"
 #include "ui/dialogs/preferences_dialog.h"
@@ -129,8 +130,8 @@ TEST_F(LargeMapsPageTest, ListsAndRemovesDownloadedTiles)
     page.fill({});
     const auto* total = page.findChild<QLabel*>(QStringLiteral("fetchedTotal"));
     auto* empty = page.findChild<QPushButton*>(QStringLiteral("emptyFetched"));
-    ASSERT_TRUE(
-        QTest::qWaitFor([&] { return total->text() == QStringLiteral("2 tiles, 2.0 MB"); }));
+    ASSERT_TRUE(QTest::qWaitFor([&] { return total->text() == QStringLiteral("2 tiles, 2.0 MB"); },
+                                kTimeout));
     empty->click();
     auto* box = page.findChild<QMessageBox*>();
     ASSERT_NE(box, nullptr);
@@ -141,7 +142,7 @@ TEST_F(LargeMapsPageTest, ListsAndRemovesDownloadedTiles)
         }
     }
     ASSERT_TRUE(QTest::qWaitFor(
-        [&] { return total->text() == QStringLiteral("No tiles are stored here."); }));
+        [&] { return total->text() == QStringLiteral("No tiles are stored here."); }, kTimeout));
     EXPECT_EQ(keptTilesIn(fetched()).count, 0U);
     EXPECT_FALSE(empty->isEnabled());
 }
@@ -152,11 +153,11 @@ TEST_F(LargeMapsPageTest, DownloadedTilesAreKeptNextToPreparedMaps)
     LargeMapsPage page(standard());
     page.fill({});
     const auto* total = page.findChild<QLabel*>(QStringLiteral("fetchedTotal"));
-    ASSERT_TRUE(
-        QTest::qWaitFor([&] { return total->text() == QStringLiteral("One tile, 1.5 MB"); }));
+    ASSERT_TRUE(QTest::qWaitFor([&] { return total->text() == QStringLiteral("One tile, 1.5 MB"); },
+                                kTimeout));
     page.fill({.map_folder = QString::fromStdString(root_.file("elsewhere"))});
     ASSERT_TRUE(QTest::qWaitFor(
-        [&] { return total->text() == QStringLiteral("No tiles are stored here."); }));
+        [&] { return total->text() == QStringLiteral("No tiles are stored here."); }, kTimeout));
     EXPECT_FALSE(std::filesystem::exists(root_.file("elsewhere")));
 }
 

@@ -1,5 +1,6 @@
 #include "core/view/footprint.h"
 #include "tests/support/random.h"
+#include "tests/ui/timeout.h"
 #include "ui/overlay/compass.h"
 #include "ui/overlay/force_meter.h"
 #include "ui/overlay/gesture_hint.h"
@@ -307,7 +308,7 @@ TEST_F(MinimapTest, RepaintsOnlyForAnotherView)
     OrbitCamera other = someCamera();
     other.azimuth = Angle::degrees(10.0);
     minimap_.setCamera(other, kViewport);
-    EXPECT_TRUE(QTest::qWaitFor([&] { return counter.paints > 0; }, 5000));
+    EXPECT_TRUE(QTest::qWaitFor([&] { return counter.paints > 0; }, kTimeout));
     minimap_.removeEventFilter(&counter);
 }
 
@@ -380,7 +381,7 @@ TEST(Compass, TurnsNorthUpByMouseKeyAndScreenReader)
     ASSERT_NE(spoken, nullptr);
     EXPECT_EQ(spoken->role(), QAccessible::Button);
     spoken->actionInterface()->doAction(QAccessibleActionInterface::pressAction());
-    EXPECT_TRUE(QTest::qWaitFor([&] { return asked.size() == 3; }, 5000)) << "shown as a press";
+    EXPECT_TRUE(QTest::qWaitFor([&] { return asked.size() == 3; }, kTimeout)) << "shown as a press";
 }
 
 TEST(ScaleBarView, ReportsItsLengthToScreenReaders)

@@ -1,4 +1,5 @@
 #include "tests/ui/test_map.h"
+#include "tests/ui/timeout.h"
 #include "ui/canvas/terrain_view.h"
 #include "ui/panels/layer_model.h"
 #include "ui/panels/layers_panel.h"
@@ -59,7 +60,7 @@ TEST_F(LayersPanelTest, ShowsSizeRangeAndHistogram)
     EXPECT_EQ(top.data().toString(), QStringLiteral("c.asc"));
     EXPECT_EQ(top.data(LayerModel::SizeRole).toString(), QStringLiteral("60 × 40"));
     EXPECT_EQ(top.data(LayerModel::RangeRole).toString(), QStringLiteral("100 … 300 m"));
-    ASSERT_TRUE(QTest::qWaitFor([&] { return model().histogramAt(top) != nullptr; }, 5000));
+    ASSERT_TRUE(QTest::qWaitFor([&] { return model().histogramAt(top) != nullptr; }, kTimeout));
     const auto& counts = model().histogramAt(top)->counts;
     EXPECT_EQ(std::accumulate(counts.begin(), counts.end(), std::uint64_t{0}), 2400U);
     panel().setHeightUnit(HeightUnit::Feet);

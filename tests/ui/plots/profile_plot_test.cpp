@@ -1,3 +1,4 @@
+#include "tests/ui/timeout.h"
 #include "ui/plots/profile_plot.h"
 
 #include <QImage>
@@ -59,8 +60,8 @@ TEST_F(ProfilePlotTest, ThePointerMovesTheCursorAndTheArrowKeysMoveItOn)
                      [&](std::optional<double> distance_m) { cursor_m = distance_m; });
     QTest::mouseMove(canvas_, at(0.3));
     QTest::mouseMove(canvas_, at(0.6));
-    ASSERT_TRUE(
-        QTest::qWaitFor([&] { return cursor_m && *cursor_m > 9000.0 && *cursor_m < 14000.0; }));
+    ASSERT_TRUE(QTest::qWaitFor(
+        [&] { return cursor_m && *cursor_m > 9000.0 && *cursor_m < 14000.0; }, kTimeout));
     const double before_m = *cursor_m;
     QTest::keyClick(&plot_, Qt::Key_Right);
     EXPECT_NEAR(*cursor_m, before_m + 100.0, 1.0) << "a 200th of what is shown";

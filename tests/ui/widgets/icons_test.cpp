@@ -2,6 +2,7 @@
 
 #include "tests/ui/color_contrast.h"
 #include "tests/ui/test_map.h"
+#include "tests/ui/timeout.h"
 #include "ui/dialogs/about_dialog.h"
 #include "ui/widgets/icons.h"
 #include "ui/window/theme.h"
@@ -148,7 +149,7 @@ TEST_F(IconsTest, TheToolbarShowsAllItsButtonsInAWindowOf1280AndOf853Points)
     auto* more = bar->findChild<QToolButton*>(QStringLiteral("qt_toolbar_ext_button"));
     for (const int width : {1280, 853}) { // 1280 pixels at 100 and at 150 %
         window.resize(width, 700);
-        ASSERT_TRUE(QTest::qWaitFor([&] { return bar->width() == width; }, 5000)) << width;
+        ASSERT_TRUE(QTest::qWaitFor([&] { return bar->width() == width; }, kTimeout)) << width;
         QCoreApplication::processEvents();
         EXPECT_FALSE(more->isVisible()) << width;
         for (const QToolButton* button :
@@ -157,7 +158,7 @@ TEST_F(IconsTest, TheToolbarShowsAllItsButtonsInAWindowOf1280AndOf853Points)
         }
     }
     window.resize(1600, 700);
-    ASSERT_TRUE(QTest::qWaitFor([&] { return bar->width() == 1600; }, 5000));
+    ASSERT_TRUE(QTest::qWaitFor([&] { return bar->width() == 1600; }, kTimeout));
     const auto* open = qobject_cast<QToolButton*>(bar->widgetForAction(window.actionSet().open));
     EXPECT_EQ(open->toolButtonStyle(), Qt::ToolButtonTextBesideIcon) << "space for every text";
 }

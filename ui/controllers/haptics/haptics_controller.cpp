@@ -41,7 +41,7 @@ HapticsController::HapticsController(TerrainView& view, DriverMaker make_drivers
     connect(device_, &DeviceSession::polled, this, &HapticsController::follow);
     connect(&view_, &TerrainView::layersChanged, this, &HapticsController::takeGround);
     connect(&view_, &TerrainView::exaggerationChanged, this, &HapticsController::takeExaggeration);
-    connect(&view_, &TerrainView::sightChanged, this, &HapticsController::takeSight);
+    connect(&view_, &TerrainView::sightChanged, this, &HapticsController::followSight);
     // Terrain that arrived since then may be higher or lower.
     connect(&view_, &TerrainView::pictureCompleted, this, [this] {
         if (device_->loop() != nullptr && device_->isSimulated() && !view_.ground().isEmpty()) {
@@ -281,7 +281,26 @@ void HapticsController::chooseMap(const LoopState& state)
     }
 }
 
-// The user or a flight moved the camera: the workspace is mapped to the visible area again.
+// A camera that moved takes the workspace along at once. If it only tilted, or the picture got
+// another size, the ground stays where the hand feels it until the tick can fit the workspace in
+// free space.
+void HapticsController::followSight()
+{
+    if (device_->loop() == nullptr || is_following_ || view_.ground().isEmpty()) {
+        return;
+    }
+    const LimitedView seen = limitedView(hand_view_, view_.camera());
+    if (seen.is_moved) {
+        takeSight();
+        return;
+    }
+    hand_view_ = seen.view;
+    is_fitted_ = false;
+    takeStrokes();
+    push();
+}
+
+// Maps the workspace to the visible area.
 void HapticsController::takeSight()
 {
     if (device_->loop() == nullptr || is_following_ || view_.ground().isEmpty()) {

@@ -76,6 +76,7 @@ private:
     void tellReplay();
     void setMap(std::size_t index);
     void makeMapAgain();
+    void followSight();
     void takeSight();
     void takeBounds();
     void takeFit(const LoopState& state);

@@ -74,9 +74,8 @@ TEST_F(DeviceSessionTest, ALostDeviceThatIsThereAgainIsConnectedAnew)
     // The panel is hidden; the search for the device continues all the same.
     hand_->is_lost = false;
     hand_->is_there = true;
-    constexpr int kPatienceMs = 20'000; // the search runs every few seconds
     EXPECT_TRUE(QTest::qWaitFor(
-        [&] { return device().connection() == HapticsConnection::Connected; }, kPatienceMs));
+        [&] { return device().connection() == HapticsConnection::Connected; }, kTimeout));
     EXPECT_EQ(device().state(), DeviceState::Reconnected);
     EXPECT_TRUE(device().isLost()) << "its diagnostic log begins before the loss";
 }
