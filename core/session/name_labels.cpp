@@ -1,8 +1,11 @@
 #include "core/session/name_labels.h"
 
+#include "core/globe/body_camera.h"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 namespace marsview {
@@ -68,11 +71,11 @@ struct Seen {
 // The camera of one picture.
 class Picture {
 public:
-    Picture(const OrbitCamera& camera, const NameLabelOptions& options)
+    Picture(const CameraPose& camera, const NameLabelOptions& options)
         : camera_(camera)
         , viewport_(options.viewport)
-        , eye_(eyeOf(camera))
-        , axes_(axesOf(camera))
+        , eye_(camera.eye)
+        , axes_(camera.axes)
         , pixels_at_unit_(0.5 * viewport_.height / std::tan(0.5 * camera.field_of_view.radians()))
     {}
 
@@ -96,7 +99,7 @@ public:
     }
 
 private:
-    const OrbitCamera& camera_;
+    const CameraPose& camera_;
     Viewport viewport_;
     ScenePoint eye_;
     CameraAxes axes_;
@@ -105,32 +108,68 @@ private:
 
 } // namespace
 
+namespace {
+
+template <typename Ground>
+bool isVisibleOn(const Ground& ground,
+                 const CameraPose& camera,
+                 double exaggeration,
+                 const ScenePoint& place)
+{
+    const Vec3 to = place - camera.eye;
+    const double distance_m = length(to);
+    const auto hit =
+        ground.cast({.origin = camera.eye, .direction = to * (1.0 / distance_m)}, exaggeration);
+    if constexpr (std::is_same_v<Ground, BodyScene>) {
+        return !hit || hit->hit.distance_m >= distance_m;
+    } else {
+        return !hit || hit->distance_m >= distance_m;
+    }
+}
+
+// Above the terrain, or the ray may hit it just before the place.
+double liftM(const CameraPose& camera,
+             const Viewport& viewport,
+             const ScenePoint& place,
+             double pixels_per_point)
+{
+    return kLiftPoints * pixels_per_point * metersPerPixel(camera, viewport, place);
+}
+
+} // namespace
+
 bool isVisible(const SceneSurface& ground,
-               const OrbitCamera& camera,
+               const CameraPose& camera,
                const Viewport& viewport,
                double exaggeration,
                ScenePoint place,
                double pixels_per_point)
 {
-    // Above the terrain, or the ray may hit it just before the place.
-    place.z += kLiftPoints * pixels_per_point * metersPerPixel(camera, viewport, place);
-    const ScenePoint eye = eyeOf(camera);
-    const Vec3 to = place - eye;
-    const double distance_m = length(to);
-    const auto hit =
-        ground.cast({.origin = eye, .direction = to * (1.0 / distance_m)}, exaggeration);
-    return !hit || hit->distance_m >= distance_m;
+    place.z += liftM(camera, viewport, place, pixels_per_point);
+    return isVisibleOn(ground, camera, exaggeration, place);
+}
+
+bool isVisible(const BodyScene& ground,
+               const CameraPose& camera,
+               const Viewport& viewport,
+               double exaggeration,
+               ScenePoint place,
+               double pixels_per_point)
+{
+    const Vec3 up = localAxes(ground.ellipsoid(), placeOf(place, ground.ellipsoid()).foot).up;
+    return isVisibleOn(ground, camera, exaggeration,
+                       place + up * liftM(camera, viewport, place, pixels_per_point));
 }
 
 NameLabels::NameLabels(std::shared_ptr<const Gazetteer> names, const SceneSurface& ground)
     : names_(std::move(names))
-    , ground_(ground)
+    , flat_(ground)
 {
-    if (ground_.isEmpty()) {
+    if (flat_.isEmpty()) {
         return;
     }
-    const Georeference& scene = ground_.maps().front().map->georeference();
-    const SceneBox box = ground_.box(1.0);
+    const Georeference& scene = flat_.maps().front().map->georeference();
+    const SceneBox box = flat_.box(1.0);
     for (std::size_t i = 0; i < names_->names().size(); ++i) {
         const auto grid = scene.toGrid(names_->names()[i].position);
         if (!grid) {
@@ -139,17 +178,51 @@ NameLabels::NameLabels(std::shared_ptr<const Gazetteer> names, const SceneSurfac
         const ScenePoint point = scene.sceneFrame().toScene(*grid, 0.0);
         if (point.x >= box.minimum.x && point.x <= box.maximum.x && point.y >= box.minimum.y &&
             point.y <= box.maximum.y) {
-            const double height_m = ground_.height(point.x, point.y);
+            places_.push_back({.name = i, .foot = {point.x, point.y, 0.0}, .up = {0.0, 0.0, 1.0}});
+        }
+    }
+    for (Place& place : places_) {
+        const double height_m = heightAt(place);
+        place.height_m = std::isfinite(height_m) ? height_m : 0.0;
+    }
+}
+
+NameLabels::NameLabels(std::shared_ptr<const Gazetteer> names, const BodyScene& ground)
+    : names_(std::move(names))
+    , body_(ground)
+{
+    if (body_.isEmpty()) {
+        return;
+    }
+    for (std::size_t i = 0; i < names_->names().size(); ++i) {
+        const GeographicPoint& position = names_->names()[i].position;
+        const double height_m = body_.height(position);
+        if (std::isfinite(height_m)) {
             places_.push_back({.name = i,
-                               .x_m = point.x,
-                               .y_m = point.y,
-                               .height_m = std::isfinite(height_m) ? height_m : 0.0});
+                               .foot = targetOf({.target = position}, body_.ellipsoid()),
+                               .up = localAxes(body_.ellipsoid(), position).up,
+                               .height_m = height_m});
         }
     }
 }
 
+double NameLabels::heightAt(const Place& place) const
+{
+    return body_.isEmpty() ? flat_.height(place.foot.x, place.foot.y)
+                           : body_.height(names_->names()[place.name].position);
+}
+
+HeightRange NameLabels::range() const
+{
+    if (!body_.isEmpty()) {
+        return body_.range();
+    }
+    const SceneBox box = flat_.box(1.0);
+    return {box.minimum.z, box.maximum.z};
+}
+
 std::vector<NameLabel>
-NameLabels::inPicture(const OrbitCamera& camera,
+NameLabels::inPicture(const CameraPose& camera,
                       const NameLabelOptions& options,
                       const std::function<LabelSize(std::size_t, double)>& size_of)
 {
@@ -157,14 +230,16 @@ NameLabels::inPicture(const OrbitCamera& camera,
     const double scale = options.pixels_per_point;
     const bool has_sizes = names_->hasSizes();
     const double across_px_max = kPicturesAcrossMax * options.viewport.width;
-    const SceneBox box = ground_.box(1.0);
-    const HeightRange heights{box.minimum.z, box.maximum.z};
+    const HeightRange heights = range();
     std::vector<Seen> seen;
     for (std::size_t i = 0; i < places_.size(); ++i) {
         const Place& place = places_[i];
         const PlaceName& name = names_->names()[place.name];
-        const auto pixels_per_m =
-            picture.scaleAt({place.x_m, place.y_m, place.height_m * options.exaggeration});
+        const ScenePoint point = place.point(options.exaggeration);
+        if (!body_.isEmpty() && !(dot(camera.eye - point, place.up) > 0.0)) {
+            continue; // behind the horizon
+        }
+        const auto pixels_per_m = picture.scaleAt(point);
         if (!pixels_per_m) {
             continue;
         }
@@ -196,12 +271,12 @@ NameLabels::inPicture(const OrbitCamera& camera,
     std::vector<Seen> requested;
     for (const Seen& feature : seen) {
         Place& place = places_[feature.place];
-        const double height_m = ground_.height(place.x_m, place.y_m);
+        const double height_m = heightAt(place);
         if (!std::isfinite(height_m)) {
             continue; // no terrain there
         }
         place.height_m = height_m;
-        const ScenePoint point{place.x_m, place.y_m, height_m * options.exaggeration};
+        const ScenePoint point = place.point(options.exaggeration);
         const auto pixel = picture.pixel(point);
         if (!pixel) {
             continue;
@@ -226,8 +301,11 @@ NameLabels::inPicture(const OrbitCamera& camera,
                          std::clamp(square_points / kPointsPerLabel, kLabelsMin, kLabelsMax)),
                      .obstacles = options.obstacles},
                     [&](std::size_t index) {
-                        return isVisible(ground_, camera, options.viewport, options.exaggeration,
-                                         points[index], scale);
+                        return body_.isEmpty()
+                                   ? isVisible(flat_, camera, options.viewport,
+                                               options.exaggeration, points[index], scale)
+                                   : isVisible(body_, camera, options.viewport,
+                                               options.exaggeration, points[index], scale);
                     });
     for (Place& place : places_) {
         place.was_shown = false;

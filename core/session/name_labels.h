@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/names/gazetteer.h"
+#include "core/session/body_terrain.h"
 #include "core/session/scene_surface.h"
 #include "core/view/label_placement.h"
 
@@ -16,7 +17,15 @@ namespace marsview {
 /// Whether no terrain is between the eye and a place on the terrain, with a tolerance of three
 /// points of the screen.
 bool isVisible(const SceneSurface& ground,
-               const OrbitCamera& camera,
+               const CameraPose& camera,
+               const Viewport& viewport,
+               double exaggeration,
+               ScenePoint place,
+               double pixels_per_point = 1.0);
+
+/// The same in the scene of a body.
+bool isVisible(const BodyScene& ground,
+               const CameraPose& camera,
                const Viewport& viewport,
                double exaggeration,
                ScenePoint place,
@@ -44,12 +53,14 @@ struct NameLabelOptions {
     std::span<const LabelBox> obstacles = {};
 };
 
-/// The names of a gazetteer on the terrain of a scene. Not copyable; one thread at a time.
+/// The names of a gazetteer on the terrain of a scene, flat or on its body. Not copyable; one
+/// thread at a time.
 class NameLabels {
 public:
     /// Finds where in the scene the names are: some 10 ms for ten thousand names on a projected
     /// map.
     NameLabels(std::shared_ptr<const Gazetteer> names, const SceneSurface& ground);
+    NameLabels(std::shared_ptr<const Gazetteer> names, const BodyScene& ground);
 
     const Gazetteer& names() const noexcept { return *names_; }
     /// Names that are on a map of the scene.
@@ -66,21 +77,30 @@ public:
     ///
     /// `size_of` returns the size of a label that spans `across_px`.
     std::vector<NameLabel>
-    inPicture(const OrbitCamera& camera,
+    inPicture(const CameraPose& camera,
               const NameLabelOptions& options,
               const std::function<LabelSize(std::size_t name, double across_px)>& size_of);
 
 private:
     struct Place {
         std::size_t name = 0;
-        double x_m = 0.0;
-        double y_m = 0.0;
+        ScenePoint foot; // at height 0
+        Vec3 up;
         double height_m = 0.0; // as read last
         bool was_shown = false;
+
+        ScenePoint point(double exaggeration) const
+        {
+            return foot + up * (height_m * exaggeration);
+        }
     };
 
+    double heightAt(const Place& place) const;
+    HeightRange range() const;
+
     std::shared_ptr<const Gazetteer> names_;
-    SceneSurface ground_;
+    SceneSurface flat_;
+    BodyScene body_;            // or this; the other is empty
     std::vector<Place> places_; // the largest first
 };
 

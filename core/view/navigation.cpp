@@ -264,13 +264,16 @@ OrbitCamera homeCamera(const SceneBox& box, const Viewport& viewport, Angle fiel
     return camera;
 }
 
-std::optional<OrbitCamera> openingCamera(const Georeference& georeference)
+namespace {
+
+constexpr Angle kOpeningTilt = Angle::degrees(52.0);
+// The widest picture that is filled, and how far it reaches toward the edges of the map.
+constexpr double kOpeningAspect = 2.0;
+constexpr double kOpeningShare = 0.85;
+
+// Between the Tharsis volcanoes (247° E) and the canyons of Valles Marineris (255° to 310° E).
+std::optional<OrbitCamera> openingCameraOfMars(const Georeference& georeference)
 {
-    const Body* body = georeference.body();
-    if (body == nullptr || body->name != "Mars" || !georeference.wrapsAround()) {
-        return std::nullopt;
-    }
-    // Between the Tharsis volcanoes (247° E) and the canyons of Valles Marineris (255° to 310° E).
     const auto grid = georeference.toGrid(
         GeographicPoint{.longitude = Angle::degrees(266.0), .latitude = Angle::degrees(-1.0)});
     const double last_column = static_cast<double>(georeference.columns() - 1);
@@ -283,7 +286,44 @@ std::optional<OrbitCamera> openingCamera(const Georeference& georeference)
     camera.target = georeference.sceneFrame().toScene(*grid, 0.0);
     camera.distance_m = 5.6e6;
     camera.azimuth = Angle::degrees(-28.0);
-    camera.tilt = Angle::degrees(52.0);
+    camera.tilt = kOpeningTilt;
+    return camera;
+}
+
+} // namespace
+
+std::optional<OrbitCamera> openingCamera(const Georeference& georeference)
+{
+    const Body* body = georeference.body();
+    if (body == nullptr || !georeference.wrapsAround()) {
+        return std::nullopt;
+    }
+    if (body->name == "Mars") {
+        if (const auto camera = openingCameraOfMars(georeference)) {
+            return camera;
+        }
+    }
+    const SceneFrame frame = georeference.sceneFrame();
+    const ScenePoint first = frame.toScene(GridPoint{0.0, 0.0}, 0.0);
+    const ScenePoint last = frame.toScene(GridPoint{static_cast<double>(georeference.columns() - 1),
+                                                    static_cast<double>(georeference.rows() - 1)},
+                                          0.0);
+    const double width_m = std::abs(last.x - first.x);
+    const double height_m = std::abs(last.y - first.y);
+    OrbitCamera camera;
+    camera.tilt = kOpeningTilt;
+    // From the near to the far edge of the picture, along the ground, in camera distances.
+    const double half_field = 0.5 * camera.field_of_view.radians();
+    const double tilt = camera.tilt.radians();
+    const double near_edge = std::cos(tilt) * (std::tan(tilt - half_field) - std::tan(tilt));
+    const double far_edge = std::cos(tilt) * (std::tan(tilt + half_field) - std::tan(tilt));
+    const double far_width = 2.0 * kOpeningAspect * std::tan(half_field) * std::cos(tilt) *
+                             std::cos(half_field) / std::cos(tilt + half_field);
+    camera.distance_m =
+        kOpeningShare * std::min(height_m / (far_edge - near_edge), width_m / far_width);
+    camera.target = {0.5 * (first.x + last.x),
+                     0.5 * (first.y + last.y) - 0.5 * (near_edge + far_edge) * camera.distance_m,
+                     0.0};
     return camera;
 }
 

@@ -83,8 +83,8 @@ OrbitCamera retargeted(OrbitCamera camera, double distance_m);
 OrbitCamera
 homeCamera(const SceneBox& box, const Viewport& viewport, Angle field_of_view = Angle::degrees(40));
 
-/// An attractive first view: Tharsis and Valles Marineris from the southeast for a global map of
-/// Mars. Empty for other maps.
+/// A first view of a map around its body, oblique and filled by the map: on Mars, Tharsis and Valles
+/// Marineris from the southeast, otherwise its middle from the south. Empty for other maps.
 std::optional<OrbitCamera> openingCamera(const Georeference& georeference);
 
 /// The intersection of a ray with the level z = `level_m`, at most `distance_max_m` away; the point

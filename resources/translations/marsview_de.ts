@@ -853,6 +853,10 @@
         <source>Chooses the azimuth and altitude of the light that shades the terrain.</source>
         <translation>Wählt Azimut und Höhe des Lichts, das das Gelände schattiert.</translation>
     </message>
+    <message>
+        <source>Shows all layers of one body where they lie on it, or the flat map again.</source>
+        <translation>Zeigt alle Layer eines Himmelskörpers dort, wo sie auf ihm liegen, oder wieder die ebene Karte.</translation>
+    </message>
 </context>
 <context>
     <name>WindowCommands</name>
@@ -2159,6 +2163,13 @@ y %2</translation>
         <source>%1. %2</source>
         <extracomment>A list that is read aloud: %1 is what comes before, %2 a sentence</extracomment>
         <translation>%1. %2</translation>
+    </message>
+</context>
+<context>
+    <name>marsview::GlobeLabels</name>
+    <message>
+        <source>Names</source>
+        <translation>Namen</translation>
     </message>
 </context>
 <context>
@@ -4499,6 +4510,14 @@ Bewegen Sie die Karte zu einer Ansicht, die Sie behalten wollen, und drücken Si
         <source>Show all layers of one body where they lie on it</source>
         <translation>Alle Layer eines Himmelskörpers dort zeigen, wo sie auf ihm liegen</translation>
     </message>
+    <message>
+        <source>Show the flat map again (G)</source>
+        <translation>Wieder die ebene Karte zeigen (G)</translation>
+    </message>
+    <message>
+        <source>Show all layers of one body on it, as a globe (G)</source>
+        <translation>Alle Layer eines Himmelskörpers auf ihm zeigen, als Globus (G)</translation>
+    </message>
 </context>
 <context>
     <name>marsview::SessionController</name>
@@ -5690,6 +5709,15 @@ A scene: the one that suits the layers</extracomment>
     <message>
         <source>Show the topmost layer where it lies on its body</source>
         <translation>Den obersten Layer dort zeigen, wo er auf seinem Himmelskörper liegt</translation>
+    </message>
+    <message>
+        <source>&amp;Switch to Globe or Back</source>
+        <extracomment>In the menu of scenes: shows the globe, or the flat map again</extracomment>
+        <translation>&amp;Zum Globus und zurück wechseln</translation>
+    </message>
+    <message>
+        <source>Globe</source>
+        <translation>Globus</translation>
     </message>
 </context>
 <context>

@@ -75,6 +75,8 @@ void SceneCommands::connectParts()
     TerrainView* view = &parts_.view;
     connect(parts_.actions.scenes, &QActionGroup::triggered, this,
             [this](QAction* action) { choose(static_cast<SceneChoice>(action->data().toInt())); });
+    connect(parts_.actions.globe, &QAction::triggered, this,
+            [this](bool is_on) { choose(is_on ? SceneChoice::Globe : SceneChoice::Flat); });
     connect(view, &TerrainView::layersChanged, this, &SceneCommands::follow);
     connect(&parts_.session, &SessionController::sessionChanged, this, &SceneCommands::follow);
     connect(view, &TerrainView::lookChanged, this, &SceneCommands::follow);
@@ -173,6 +175,15 @@ void SceneCommands::showChoices()
             action->setToolTip(tip);
         }
     }
+    QAction& globe = *parts_.actions.globe;
+    globe.setChecked(is_globe_shown_);
+    globe.setEnabled(is_globe_shown_ || why_not.isEmpty());
+    const QString tip = is_globe_shown_ ? tr("Show the flat map again (G)")
+                        : why_not.isEmpty()
+                            ? tr("Show all layers of one body on it, as a globe (G)")
+                            : why_not;
+    globe.setStatusTip(tip);
+    globe.setToolTip(tip);
 }
 
 void SceneCommands::choose(SceneChoice choice)

@@ -37,9 +37,14 @@ NoticeCommands noticeCommandsOf(const WindowParts& parts)
 QList<QAction*>
 flatActions(const MapOverlays& overlays, const SavedViews& views, const ReportExporter& reports)
 {
-    return overlays.terrainActions() + QList<QAction*>{views.menu()->menuAction(),
-                                                       views.actions().fly_through,
-                                                       reports.action()};
+    QList<QAction*> actions{views.menu()->menuAction(), views.actions().fly_through,
+                            reports.action()};
+    for (QAction* action : overlays.terrainActions()) {
+        if (action->objectName() != QStringLiteral("names")) {
+            actions.append(action);
+        }
+    }
+    return actions;
 }
 
 } // namespace

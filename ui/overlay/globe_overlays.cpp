@@ -3,6 +3,7 @@
 #include "core/globe/body_sight.h"
 #include "core/view/edge_mark.h"
 #include "ui/canvas/map_mouse.h"
+#include "ui/globe/globe_labels.h"
 #include "ui/globe/globe_view.h"
 #include "ui/overlay/body_overview.h"
 #include "ui/overlay/compass.h"
@@ -13,6 +14,7 @@
 #include "ui/overlay/hand_pointer.h"
 #include "ui/overlay/legend.h"
 #include "ui/overlay/legend_content.h"
+#include "ui/overlay/map_labels.h"
 #include "ui/overlay/map_overlays.h"
 #include "ui/overlay/minimap.h"
 #include "ui/overlay/overlay_layout.h"
@@ -67,6 +69,7 @@ GlobeOverlays::GlobeOverlays(GlobeView& globe, MapOverlays& flat)
     , flat_(flat)
     , minimap_(new Minimap(&globe))
     , compass_(new Compass(&globe))
+    , labels_(new GlobeLabels(globe))
     , crosshair_(new Crosshair(&globe))
     , scale_bar_(new ScaleBarView(&globe))
     , legend_(new Legend(&globe))
@@ -93,6 +96,9 @@ GlobeOverlays::GlobeOverlays(GlobeView& globe, MapOverlays& flat)
         part->installEventFilter(this);
     }
     crosshair_->lower();
+    labels_->lower();
+    labels_->setObstacles({minimap_, compass_, scale_bar_, legend_, hint_, force_meter_});
+    labels_->setNames(flat_.labels()->names());
     connectParts();
     placeCrosshair();
     showSettings();
@@ -101,9 +107,11 @@ GlobeOverlays::GlobeOverlays(GlobeView& globe, MapOverlays& flat)
 
 void GlobeOverlays::connectParts()
 {
-    for (QAction* action : flat_.visibilityActions()) {
+    for (QAction* action : flat_.visibilityActions() + flat_.terrainActions()) {
         connect(action, &QAction::toggled, this, &GlobeOverlays::showSettings);
     }
+    connect(flat_.labels(), &MapLabels::namesChanged, labels_,
+            [this] { labels_->setNames(flat_.labels()->names()); });
     connect(&flat_, &MapOverlays::settingsChanged, this, &GlobeOverlays::showSettings);
     connect(&globe_, &GlobeView::placed, this, &GlobeOverlays::readOverview);
     connect(&globe_, &GlobeView::sceneChanged, this, &GlobeOverlays::showScene);
@@ -129,7 +137,7 @@ void GlobeOverlays::showSettings()
 {
     const bool has_terrain = globe_.terrain() != nullptr;
     const auto is_on = [this](const char* name) {
-        for (const QAction* action : flat_.visibilityActions()) {
+        for (const QAction* action : flat_.visibilityActions() + flat_.terrainActions()) {
             if (action->objectName() == QLatin1String(name)) {
                 return action->isChecked();
             }
@@ -137,6 +145,7 @@ void GlobeOverlays::showSettings()
         return true;
     };
     layout_->setCovered(flat_.coveredHeight());
+    labels_->setNamesShown(is_on("names"));
     layout_->setWanted(minimap_, is_on("minimap"));
     layout_->setWanted(legend_, is_on("legend"));
     layout_->setWanted(compass_, has_terrain && is_on("compass"));

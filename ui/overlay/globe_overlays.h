@@ -17,6 +17,7 @@ class Crosshair;
 class FocusFrame;
 class ForceMeter;
 class GestureHint;
+class GlobeLabels;
 class GlobeView;
 class HandPointer;
 class Legend;
@@ -42,6 +43,7 @@ public:
     HandPointer* handPointer() const noexcept { return hand_pointer_; }
     GestureHint* hint() const noexcept { return hint_; }
     Crosshair* crosshair() const noexcept { return crosshair_; }
+    GlobeLabels* labels() const noexcept { return labels_; }
     FocusFrame* focusFrame() const noexcept { return focus_frame_; }
 
 protected:
@@ -64,7 +66,8 @@ private:
     MapOverlays& flat_;
     Minimap* minimap_ = nullptr;
     Compass* compass_ = nullptr;
-    Crosshair* crosshair_ = nullptr; // below those that follow
+    GlobeLabels* labels_ = nullptr;  // below those that follow
+    Crosshair* crosshair_ = nullptr; // also
     ScaleBarView* scale_bar_ = nullptr;
     Legend* legend_ = nullptr;
     ForceMeter* force_meter_ = nullptr;

@@ -4,12 +4,9 @@
 #include "ui/canvas/terrain_view.h"
 #include "ui/overlay/drawn_marks.h"
 #include "ui/text/coordinate_text.h"
-#include "ui/widgets/plate.h"
 
 #include <QEvent>
-#include <QFontMetricsF>
 #include <QPainter>
-#include <QPainterPath>
 
 #include <algorithm>
 #include <cmath>
@@ -18,18 +15,13 @@
 namespace marsview {
 namespace {
 
-constexpr double kHaloWidth = 3.0; // points around letters, half of it visible
-constexpr double kLargeFont = 1.25;
-constexpr double kLargeShare = 0.25; // of the picture's height, across what has a large label
-constexpr double kDotRadius = 2.5;
+constexpr double kLargeShare = 0.25;  // of the picture's height, across what has a large label
 constexpr double kCursorReach = 22.0; // points around the cursor that it needs
 constexpr double kEdge = 4.0;         // points between the edge of the picture and a label
 constexpr qsizetype kPicturesMax = 600;
 constexpr qint64 kRestShare = 9;   // at most a tenth of the time goes into lines while moving
 constexpr double kGridWidth = 1.0; // points
 constexpr Rgb8 kGridColor{225, 225, 225};
-
-const QColor kRimColor(0, 0, 0, 200);
 
 LabelBox scaled(const QRectF& box, double scale)
 {
@@ -39,15 +31,6 @@ LabelBox scaled(const QRectF& box, double scale)
 QRectF points(const LabelBox& box, double scale)
 {
     return {QPointF(box.left, box.top) / scale, QPointF(box.right, box.bottom) / scale};
-}
-
-void drawDot(QPainter& painter, QPointF place)
-{
-    QPainterPath dot;
-    dot.addEllipse(place, kDotRadius, kDotRadius);
-    painter.setRenderHint(QPainter::Antialiasing);
-    painter.strokePath(dot, QPen(kRimColor, kHaloWidth));
-    painter.fillPath(dot, Qt::white);
 }
 
 } // namespace
@@ -80,6 +63,7 @@ void MapLabels::setNames(std::shared_ptr<const Gazetteer> names)
         maps_.clear();
         pictures_.clear();
         showScene();
+        Q_EMIT namesChanged();
     }
 }
 
@@ -294,13 +278,13 @@ std::vector<PicturePart> MapLabels::partsFor(const OrbitCamera& camera,
     std::vector<PicturePart> parts;
     for (const Mark& mark : marksOf(sight, names.get(), std::move(taken))) {
         if (mark.point) {
-            const QPointF margin(kDotRadius + kHaloWidth, kDotRadius + kHaloWidth);
+            const QPointF margin(kLabelDotRadius + kLabelRim, kLabelDotRadius + kLabelRim);
             QImage dot((QSizeF(2.0 * margin.x(), 2.0 * margin.y()) * sight.scale).toSize(),
                        QImage::Format_ARGB32_Premultiplied);
             dot.fill(Qt::transparent);
             QPainter painter(&dot);
             painter.scale(sight.scale, sight.scale);
-            drawDot(painter, margin);
+            drawLabelDot(painter, margin);
             painter.end();
             parts.push_back(
                 {.image = std::move(dot), .at = ((*mark.point - margin) * sight.scale).toPoint()});
@@ -404,35 +388,17 @@ void MapLabels::placeNames(const Sight& sight,
 
 QFont MapLabels::fontOf(Size size) const
 {
-    QFont result = font();
-    result.setWeight(QFont::DemiBold);
-    if (size == Size::Large) {
-        result.setPointSizeF(result.pointSizeF() * kLargeFont);
-    }
-    return result;
+    return labelFont(font(), size);
 }
 
 QSizeF MapLabels::sizeOf(const QString& text, Size size) const
 {
-    const QFontMetricsF metrics(fontOf(size));
-    return {std::ceil(metrics.horizontalAdvance(text) + 2.0 * kHaloWidth),
-            std::ceil(metrics.height() + kHaloWidth)};
+    return labelSize(text, fontOf(size));
 }
 
 QImage MapLabels::drawn(const QString& text, Size size, double scale) const
 {
-    QImage image((sizeOf(text, size) * scale).toSize(), QImage::Format_ARGB32_Premultiplied);
-    image.fill(Qt::transparent);
-    const QFont letters = fontOf(size);
-    QPainterPath path;
-    path.addText(kHaloWidth, 0.5 * kHaloWidth + QFontMetricsF(letters).ascent(), letters, text);
-    QPainter painter(&image);
-    painter.setRenderHint(QPainter::Antialiasing);
-    painter.scale(scale, scale);
-    painter.strokePath(path,
-                       QPen(kRimColor, kHaloWidth, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
-    painter.fillPath(path, Qt::white);
-    return image;
+    return labelPicture(text, fontOf(size), scale);
 }
 
 const QPixmap& MapLabels::picture(const QString& text, Size size)
@@ -459,7 +425,7 @@ void MapLabels::paintEvent(QPaintEvent* /*event*/)
             continue;
         }
         if (mark.point) {
-            drawDot(painter, *mark.point);
+            drawLabelDot(painter, *mark.point);
         }
         painter.drawPixmap(mark.label.box.topLeft().toPoint(), picture(mark.label.text, mark.size));
     }

@@ -5,6 +5,7 @@
 #include "core/session/graticule.h"
 #include "core/session/name_labels.h"
 #include "ui/overlay/picture_part.h"
+#include "ui/widgets/rimmed_label.h"
 
 #include <QElapsedTimer>
 #include <QHash>
@@ -32,6 +33,7 @@ public:
 
     /// Null: none.
     void setNames(std::shared_ptr<const Gazetteer> names);
+    const std::shared_ptr<const Gazetteer>& names() const noexcept { return gazetteer_; }
     void setNamesShown(bool is_shown);
     void setGraticuleShown(bool is_shown);
     void setCoordinateFormat(const CoordinateFormat& format);
@@ -56,13 +58,17 @@ public:
     std::vector<PicturePart>
     partsFor(const OrbitCamera& camera, const QSize& size, const std::vector<QRect>& obstacles);
 
+Q_SIGNALS:
+    /// Others are to be shown.
+    void namesChanged();
+
 protected:
     void paintEvent(QPaintEvent* event) override;
     void changeEvent(QEvent* event) override;
     bool eventFilter(QObject* watched, QEvent* event) override;
 
 private:
-    enum class Size { Small, Large };
+    using Size = LabelFont;
     struct Mark {
         Label label;
         bool is_name = false; // or a value of the graticule

@@ -28,6 +28,7 @@ void setIcons(const WindowActions& actions)
              std::pair{actions.quit, "quit"},
              std::pair{actions.home, "home"},
              std::pair{actions.north, "north"},
+             std::pair{actions.globe, "globe"},
              std::pair{actions.go_to_place, "go-to"},
              std::pair{actions.copy_coordinates, "copy"},
              std::pair{actions.exaggerate_more, "exaggerate-more"},

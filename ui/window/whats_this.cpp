@@ -72,6 +72,8 @@ void explainControls(const ExplainedControls& controls)
         helpTr(QT_TRANSLATE_NOOP("WhatsThis", "Shows the whole map from the south.")));
     actions.north->setWhatsThis(
         helpTr(QT_TRANSLATE_NOOP("WhatsThis", "Turns the view until north is at the top.")));
+    actions.globe->setWhatsThis(helpTr(QT_TRANSLATE_NOOP(
+        "WhatsThis", "Shows all layers of one body where they lie on it, or the flat map again.")));
     actions.light->setWhatsThis(helpTr(QT_TRANSLATE_NOOP(
         "WhatsThis", "Chooses the azimuth and altitude of the light that shades the terrain.")));
 }

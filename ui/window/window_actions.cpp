@@ -238,6 +238,7 @@ void WindowActions::makeViewMenu(QMainWindow& window, QWidget& map)
     coordinate_format = menu->addMenu(tr("Coordinate &Format"));
     menu->addSeparator();
     makeSceneMenu(window, *menu);
+    add_key(globe, {Qt::Key_G});
     makeToolMenu(window, *menu, map);
     QMenu* move = menu->addMenu(tr("&Move"));
     for (const StepAction& entry : kStepActions) {
@@ -286,6 +287,11 @@ void WindowActions::makeSceneMenu(QMainWindow& window, QMenu& view)
     add(tr("&Flat Map"), tr("Lay the topmost layer out in the plane of its CRS"));
     //: A scene: the topmost layer where it lies on its body
     add(tr("&Globe"), tr("Show the topmost layer where it lies on its body"));
+    menu->addSeparator();
+    //: In the menu of scenes: shows the globe, or the flat map again
+    globe = menu->addAction(tr("&Switch to Globe or Back"));
+    globe->setIconText(tr("Globe"));
+    globe->setCheckable(true);
 }
 
 void WindowActions::makeToolMenu(QMainWindow& window, QMenu& view, QWidget& map)

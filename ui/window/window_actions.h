@@ -42,6 +42,7 @@ struct WindowActions {
     QAction* preferences = nullptr;
 
     QActionGroup* scenes = nullptr; // data(): the SceneChoice
+    QAction* globe = nullptr;       // on or off
     QActionGroup* tools = nullptr;  // data(): the Tool
     QAction* home = nullptr;
     QAction* north = nullptr;

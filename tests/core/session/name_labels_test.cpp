@@ -1,3 +1,4 @@
+#include "core/globe/body_camera.h"
 #include "core/names/names_file.h"
 #include "core/session/name_labels.h"
 #include "tests/support/random.h"
@@ -154,6 +155,48 @@ TEST_F(NameLabelsTest, HighMountainsKeepTheirNamesWhereLabelsAreFew)
         EXPECT_TRUE(rank.contains("Olympus Mons")) << azimuth;
         EXPECT_TRUE(rank.contains("Ascraeus Mons")) << azimuth;
     }
+}
+
+TEST_F(NameLabelsTest, OnTheGlobeNamesLieOverTheirPlacesInFrontOfTheHorizon)
+{
+    JobMonitor monitor;
+    const BodyTerrain terrain(map_, BodyGrid::make(map_->georeference(), monitor).value());
+    const BodyScene scene({terrain});
+    NameLabels all(names_, scene);
+    EXPECT_EQ(all.count(), names_->names().size());
+    Random random;
+    std::size_t labels = 0;
+    for (int i = 0; i < 300; ++i) {
+        const double exaggeration = std::pow(10.0, random.uniform(0.0, 1.0));
+        const GeographicPoint place{.longitude = Angle::degrees(random.uniform(-180.0, 180.0)),
+                                    .latitude = Angle::degrees(random.uniform(-90.0, 90.0))};
+        const CameraPose camera = poseOf({.target = place,
+                                          .height_m = scene.height(place) * exaggeration,
+                                          .distance_m = std::pow(10.0, random.uniform(5.0, 7.2)),
+                                          .azimuth = Angle::degrees(random.uniform(0.0, 360.0)),
+                                          .tilt = Angle::degrees(random.uniform(0.0, 70.0))},
+                                         scene.ellipsoid());
+        const auto shown =
+            all.inPicture(camera, {.viewport = kPicture, .exaggeration = exaggeration},
+                          [this](std::size_t name, double) { return sizeOf(*names_, name); });
+        labels += shown.size();
+        for (std::size_t j = 0; j < shown.size(); ++j) {
+            for (std::size_t k = j + 1; k < shown.size(); ++k) {
+                EXPECT_FALSE(shown[j].box.overlaps(shown[k].box)) << i;
+            }
+            // Straight through the place, a ray meets the terrain where the name is.
+            const GeographicPoint named = names_->names()[shown[j].name].position;
+            const ScenePoint point =
+                targetOf({.target = named, .height_m = scene.height(named) * exaggeration},
+                         scene.ellipsoid());
+            const auto pixel = project(camera, kPicture, point);
+            ASSERT_TRUE(pixel);
+            EXPECT_NEAR(pixel->x, shown[j].place.x, 1e-6);
+            EXPECT_NEAR(pixel->y, shown[j].place.y, 1e-6);
+            EXPECT_GT(dot(camera.eye - point, localAxes(scene.ellipsoid(), named).up), 0.0);
+        }
+    }
+    EXPECT_GT(labels, 1000U);
 }
 
 TEST_F(NameLabelsTest, LargeFeaturesAreNamedFromAfarAndSmallOnesNearby)

@@ -39,6 +39,49 @@ TEST(HomeCamera, ShowsTheWholeBoxFromTheSouth)
     }
 }
 
+// Of other bodies than Mars, which has a view of its own; whole bodies, and a belt.
+TEST(OpeningCamera, AMapAroundItsBodyFillsThePictureObliquely)
+{
+    struct Whole {
+        const char* crs;
+        std::size_t columns;
+        std::size_t rows;
+        GeoTransform::Terms terms;
+    };
+    constexpr const char* kEquirectangular = "+proj=eqc +R=1737400 +units=m";
+    for (const Whole& map : {Whole{"IAU_2015:30100", 1440, 720, {0, 0.25, 0, 90, 0, -0.25}},
+                             {"EPSG:4326", 360, 180, {-180, 1, 0, 90, 0, -1}},
+                             {"IAU_2015:30100", 360, 60, {0, 1, 0, 30, 0, -1}},
+                             {kEquirectangular,
+                              1440,
+                              720,
+                              {-5458203.08, 7580.83761, 0, 2729101.54, 0, -7580.83761}}}) {
+        const Georeference georeference(map.columns, map.rows, *GeoTransform::fromTerms(map.terms),
+                                        *Crs::fromText(map.crs));
+        const auto camera = openingCamera(georeference);
+        ASSERT_TRUE(camera) << map.crs;
+        EXPECT_GT(camera->tilt.degrees(), 45.0);
+        for (const Viewport viewport : {kViewport, Viewport{1600, 800}, Viewport{900, 900}}) {
+            const double right = viewport.width;
+            const double bottom = viewport.height;
+            for (const PixelPoint corner :
+                 {PixelPoint{0.0, 0.0}, {right, 0.0}, {0.0, bottom}, {right, bottom}}) {
+                const Ray ray = pickRay(*camera, viewport, corner);
+                ASSERT_LT(ray.direction.z, 0.0);
+                const GridPoint grid =
+                    georeference.sceneFrame().toGrid(ray.at(-ray.origin.z / ray.direction.z));
+                EXPECT_GE(grid.column, 0.0) << map.crs;
+                EXPECT_LE(grid.column, static_cast<double>(map.columns - 1)) << map.crs;
+                EXPECT_GE(grid.row, 0.0) << map.crs;
+                EXPECT_LE(grid.row, static_cast<double>(map.rows - 1)) << map.crs;
+            }
+        }
+    }
+    const Georeference part(60, 50, *GeoTransform::fromTerms({130, 0.01, 0, -4.5, 0, -0.01}),
+                            *Crs::fromText("IAU_2015:30100"));
+    EXPECT_FALSE(openingCamera(part)) << "it is shown whole";
+}
+
 TEST(Zoomed, KeepsTheAnchorFixed)
 {
     const NavigationLimits limits = navigationLimits(kBox, 30.0);

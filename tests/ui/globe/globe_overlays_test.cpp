@@ -2,6 +2,7 @@
 #include "core/globe/body_sight.h"
 #include "core/measure/ground.h"
 #include "tests/ui/globe/globe_window.h"
+#include "ui/globe/globe_labels.h"
 #include "ui/overlay/compass.h"
 #include "ui/overlay/crosshair.h"
 #include "ui/overlay/gesture_hint.h"
@@ -14,6 +15,7 @@
 #include <QMouseEvent>
 #include <QTest>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -75,6 +77,36 @@ TEST_F(GlobeOverlaysTest, TheLegendExplainsTheColorsAsOnTheFlatMap)
     flat().setHeightUnit(HeightUnit::Feet);
     EXPECT_EQ(overlays().legend()->content().unit, HeightUnit::Feet);
     EXPECT_EQ(overlays().legend()->content(), flat().legend()->content());
+}
+
+TEST_F(GlobeOverlaysTest, NamesLieOnTheGlobeAndTheActionOfTheFlatMapHidesThem)
+{
+    ASSERT_TRUE(showGlobe());
+    // Over Olympus Mons: it is named, what is on the other side of Mars is not.
+    globe().setCamera(
+        {.target = {.longitude = Angle::degrees(-133.8), .latitude = Angle::degrees(18.65)},
+         .distance_m = 3e6});
+    const auto has = [this](const char* name) {
+        const auto& labels = overlays().labels()->labels();
+        return std::any_of(labels.begin(), labels.end(), [name](const GlobeLabels::Label& label) {
+            return label.text == QLatin1String(name);
+        });
+    };
+    EXPECT_TRUE(waitFor([&] { return has("Olympus Mons"); }));
+    EXPECT_FALSE(has("Hellas Planitia"));
+    for (const GlobeLabels::Label& label : overlays().labels()->labels()) {
+        EXPECT_FALSE(label.box.intersects(QRectF(overlays().legend()->geometry())));
+    }
+    QAction* names = nullptr;
+    for (QAction* action : flat().terrainActions()) {
+        names = action->objectName() == QStringLiteral("names") ? action : names;
+    }
+    ASSERT_NE(names, nullptr);
+    ASSERT_TRUE(names->isEnabled());
+    names->trigger();
+    EXPECT_TRUE(overlays().labels()->labels().empty());
+    names->trigger();
+    EXPECT_TRUE(has("Olympus Mons"));
 }
 
 TEST_F(GlobeOverlaysTest, TheScaleBarIsALengthOnTheGroundInTheMiddle)

@@ -5,6 +5,7 @@
 #include "ui/window/status_readout.h"
 
 #include <QImage>
+#include <QTest>
 
 #include <gtest/gtest.h>
 
@@ -50,6 +51,29 @@ TEST_F(GlobeTest, ShowsABallBeforeTheSky)
     EXPECT_LT(brightness(0.99, 0.98), 60);
     EXPECT_FALSE(globe().hitAt({1.0, 1.0}));
     EXPECT_TRUE(globe().hitAt(globeMiddle()));
+}
+
+TEST_F(GlobeTest, AnActionAndItsKeySwitchToItAndBack)
+{
+    QAction* action = window_->actionSet().globe;
+    EXPECT_FALSE(action->icon().isNull());
+    EXPECT_TRUE(action->isEnabled());
+    EXPECT_FALSE(action->isChecked());
+    action->trigger();
+    ASSERT_TRUE(waitFor([this] { return globe().terrain() != nullptr; }));
+    EXPECT_TRUE(view().isHidden());
+    EXPECT_TRUE(action->isChecked());
+    EXPECT_TRUE(scene(2)->isChecked());
+    globe().setFocus();
+    ASSERT_TRUE(waitFor([this] { return globe().hasFocus(); }));
+    QTest::keyClick(&globe(), Qt::Key_G);
+    EXPECT_TRUE(globe().isHidden());
+    EXPECT_FALSE(action->isChecked());
+    EXPECT_TRUE(scene(1)->isChecked());
+    // Where the globe cannot be shown, the tip says why.
+    ASSERT_TRUE(openAndWait(*window_, maps_.hill()));
+    EXPECT_FALSE(action->isEnabled());
+    EXPECT_TRUE(action->toolTip().contains(QStringLiteral("Set Body, CRS")));
 }
 
 TEST_F(GlobeTest, AWindowClosesWhileTheGlobeHasTheFocus)
