@@ -173,7 +173,9 @@ std::pair<AngleParts, AngleParts> longitudeSpanParts(
         break;
     }
     if (is_turn) {
-        return {part(turn / 2, 'W'), part(turn / 2, 'E')};
+        // As the raster has it: many run from 0° to 360°.
+        return from == 0 ? std::pair{part(0, 'E'), part(turn, 'E')}
+                         : std::pair{part(turn / 2, 'W'), part(turn / 2, 'E')};
     }
     return {2 * from >= turn ? part(turn - from, 'W') : part(from, 'E'),
             longitudePartsOf(to, range, notation, digits)};

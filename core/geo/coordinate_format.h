@@ -68,8 +68,8 @@ AngleParts
 longitudeParts(Angle longitude, LongitudeNotation range, AngleNotation notation, int digits);
 
 /// The western and the eastern end of a span, `east` from 0 to 360° east of `west`. A full turn
-/// covers the whole range of the notation. An end at the seam is written as an end of the span:
-/// 350° E to 360° E.
+/// covers the whole range of the notation, or 0° to 360° E where it begins at 0°. An end at the
+/// seam is written as an end of the span: 350° E to 360° E.
 std::pair<AngleParts, AngleParts> longitudeSpanParts(
     Angle west, Angle east, LongitudeNotation range, AngleNotation notation, int digits);
 

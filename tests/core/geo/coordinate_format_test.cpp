@@ -101,7 +101,9 @@ TEST(LongitudeSpan, EndsAtTheEndOfTheRange)
 {
     using L = LongitudeNotation;
     EXPECT_EQ(span(-180.0, 180.0, L::EastWest180), "180° W – 180° E");
-    EXPECT_EQ(span(0.0, 360.0, L::EastWest180), "180° W – 180° E");
+    EXPECT_EQ(span(0.0, 360.0, L::EastWest180), "0° E – 360° E");
+    EXPECT_EQ(span(-0.04, 359.96, L::EastWest180), "0° E – 360° E");
+    EXPECT_EQ(span(30.0, 390.0, L::EastWest180), "180° W – 180° E");
     EXPECT_EQ(span(-180.0, 180.0, L::East360), "0° E – 360° E");
     EXPECT_EQ(span(0.0, 360.0, L::West360), "360° W – 0° W");
     EXPECT_EQ(span(-72.0, -71.0, L::EastWest180), "72° W – 71° W");
