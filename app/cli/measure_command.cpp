@@ -129,18 +129,29 @@ struct AttitudeCommand {
     std::optional<double> elevation_error_m;
 };
 
-void printForPeople(const Attitude& attitude)
+// Three positions lie exactly on a plane, and on a circle.
+constexpr std::size_t kExactPoints = 3;
+constexpr const char* kNoErrors = "three points: no error estimate";
+
+// Errors are estimated from residuals, or from an elevation error that the user states.
+void printForPeople(const Attitude& attitude, bool is_estimated)
 {
     const auto line = [](const char* label, const std::string& text) {
         printLine(fmt::format("{:<16}{}", label, text));
     };
     const AttitudeUncertainty& uncertainty = attitude.uncertainty;
-    line("Strike:", fmt::format("{}° ± {}°", asText(attitude.strike_deg),
-                                asText(uncertainty.strike_error_deg)));
-    line("Dip:",
-         fmt::format("{}° ± {}°", asText(attitude.dip_deg), asText(uncertainty.dip_error_deg)));
+    const auto with_error = [&](double degrees, double error_deg) {
+        return is_estimated ? fmt::format("{}° ± {}°", asText(degrees), asText(error_deg))
+                            : fmt::format("{}°", asText(degrees));
+    };
+    line("Strike:", with_error(attitude.strike_deg, uncertainty.strike_error_deg));
+    line("Dip:", with_error(attitude.dip_deg, uncertainty.dip_error_deg));
     line("Dip direction:", fmt::format("{}°", asText(attitude.dip_direction_deg)));
-    line("RMS:", fmt::format("{} m", asText(attitude.rms_m)));
+    if (!is_estimated) {
+        line("Errors:", kNoErrors);
+    }
+    line("RMS:",
+         attitude.points > kExactPoints ? fmt::format("{} m", asText(attitude.rms_m)) : kNoErrors);
     line("Points:", std::to_string(attitude.points));
 }
 
@@ -165,12 +176,13 @@ Status runAttitude(const AttitudeCommand& options)
         printJson(withSchema(
             reportOf(*attitude, input->lonLat(input->terrain->inTurn(attitude->center)))));
     } else {
-        printForPeople(*attitude);
+        printForPeople(*attitude,
+                       attitude->points > kExactPoints || options.elevation_error_m.has_value());
     }
     if (!options.elevation_error_m && attitude->uncertainty.elevation_error_m) {
         std::fprintf(stderr,
-                     "marsview-cli: %s: three points have no residuals; the errors follow from an "
-                     "elevation error of %s m, half the step of the samples; state another with "
+                     "marsview-cli: %s: three points have no residuals; errors in JSON follow from "
+                     "an elevation error of %s m, half the step of the samples; state yours with "
                      "--elevation-error\n",
                      asOneLine(options.common.map.path).c_str(),
                      asText(*attitude->uncertainty.elevation_error_m).c_str());
@@ -308,7 +320,7 @@ Status runCrater(const MeasureOptions& options)
         line("d/D:", asText(crater->depth_m / crater->diameter_m));
         line("Rim:", asText(crater->rim_m) + " m");
         line("Floor:", asText(crater->floor_m) + " m");
-        line("RMS:", asText(crater->rms_m) + " m");
+        line("RMS:", crater->points > kExactPoints ? asText(crater->rms_m) + " m" : kNoErrors);
     }
     printNotices(input->raster->info);
     return Done{};

@@ -234,6 +234,16 @@ TEST(MeasureAttitude, RefusesPointsOnALineAndStatesTheErrorOfThree)
         "attitude", bundledMars(), "226.2 18.65\n230 20\n228 15\n", {"--elevation-error", "5"});
     EXPECT_NEAR(stated["uncertainty"]["dip_error_deg"].get<double>(),
                 10.0 * attitude["uncertainty"]["dip_error_deg"].get<double>(), 1e-4);
+    // For people, three points have errors only if those of the elevations are stated.
+    const ProgramOutput three =
+        measured("attitude", bundledMars(), "226.2 18.65\n230 20\n228 15\n");
+    EXPECT_THAT(three.out, HasSubstr("Errors:         three points: no error estimate\n"));
+    EXPECT_THAT(three.out, HasSubstr("RMS:            three points: no error estimate\n"));
+    EXPECT_THAT(three.out, testing::Not(HasSubstr("±")));
+    EXPECT_THAT(measured("attitude", bundledMars(), "226.2 18.65\n230 20\n228 15\n227 17\n").out,
+                HasSubstr(" ± "));
+    EXPECT_THAT(measured("crater", bundledMars(), "226.2 18.65\n230 20\n228 15\n").out,
+                HasSubstr("RMS:        three points: no error estimate\n"));
     const ProgramOutput line = measured("attitude", bundledMars(), "226 18\n227 18\n228 18\n");
     EXPECT_EQ(line.exit_status, 1);
     EXPECT_THAT(line.err, HasSubstr("nearly on a line"));
