@@ -30,9 +30,16 @@ protected:
         hand_->moveTo({x, y, -0.055});
         return waitFor([&] {
             const LoopState now = state();
-            return std::hypot(now.hand.x - x, now.hand.y - y) < 1e-9 && now.hand.z < -0.0549 &&
-                   now.contact.is_in_contact;
+            return std::hypot(now.hand.x - x, now.hand.y - y) < 1e-9 &&
+                   now.hand.z < -0.055 + 1e-9 && now.contact.is_in_contact;
         });
+    }
+    // The panel of the tool changes the picture, and in free space the workspace is fitted to it.
+    bool isFitted()
+    {
+        const LoopState before = state();
+        return waitFor([&] { return state().tick > before.tick + 100; }) &&
+               state().frame == before.frame;
     }
     // Until the window has heard of both.
     bool clickButton()
@@ -94,7 +101,7 @@ TEST_F(StylusDrawingTest, AHandInTheAirSetsPointsStraightBelow)
 {
     measuring().begin(MeasurementKind::Slope);
     hand_->moveTo({0.01, 0.01, 0.05});
-    ASSERT_TRUE(waitFor([&] { return state().hand.z > 0.0499; }));
+    ASSERT_TRUE(waitFor([&] { return state().hand.z > 0.05 - 1e-9 && isFitted(); }));
     ASSERT_FALSE(state().contact.is_in_contact);
     const ScenePoint hand = state().goal;
     ASSERT_TRUE(clickButton());
