@@ -27,4 +27,19 @@ Vec3 stylusForce(const ScenePoint& proxy, const ScenePoint& goal, double point_m
     return magnitude_n > kForceNMax ? force_n * (kForceNMax / magnitude_n) : force_n;
 }
 
+StylusPose stylusPose(StylusMode mode,
+                      const ContactState& contact,
+                      const ScenePoint& goal,
+                      const ScenePoint& free,
+                      double point_m) noexcept
+{
+    StylusPose pose{.mode = mode, .proxy = free, .goal = goal};
+    if (contact.is_in_contact) {
+        pose.proxy = contact.proxy;
+        pose.is_in_contact = true;
+        pose.force_n = stylusForce(contact.proxy, goal, point_m);
+    }
+    return pose;
+}
+
 } // namespace marsview

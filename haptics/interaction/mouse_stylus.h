@@ -1,7 +1,8 @@
-// The mouse as a stylus: mode, goal and force.
+// The mouse as a stylus: mode, goal, force and pose.
 #pragma once
 
 #include "core/base/vec.h"
+#include "core/contact/contact.h"
 #include "core/geo/frames.h"
 #include "haptics/device/recorded_tick.h"
 
@@ -47,5 +48,25 @@ inline constexpr double kForceNMax = 3.3;
 /// The force on the hand in newtons: the spring from `goal` to `proxy`, limited to kForceNMax.
 /// `point_m` > 0.
 Vec3 stylusForce(const ScenePoint& proxy, const ScenePoint& goal, double point_m) noexcept;
+
+/// The stylus and its contact force. In scene coordinates.
+struct StylusPose {
+    StylusMode mode = StylusMode::Hover;
+    ScenePoint proxy;
+    ScenePoint goal;
+    bool is_in_contact = false;
+    Vec3 force_n{};                  // on the hand
+    double force_n_max = kForceNMax; // its maximum
+
+    bool operator==(const StylusPose&) const = default;
+};
+
+/// While a contact is kept, at its proxy and with its force; otherwise at `free`, without a force.
+/// `point_m` > 0.
+StylusPose stylusPose(StylusMode mode,
+                      const ContactState& contact,
+                      const ScenePoint& goal,
+                      const ScenePoint& free,
+                      double point_m) noexcept;
 
 } // namespace marsview

@@ -194,16 +194,9 @@ bool Stylus::isOnItsMap(const ScenePoint& proxy) const
 
 void Stylus::updatePose(StylusMode mode, const ScenePoint& goal)
 {
-    const ContactState state = model_ ? model_->state() : ContactState{};
     // A press that no contact can be kept for rests on the ground that it was aimed at.
-    const ScenePoint free = mode == StylusMode::Press ? aimedGround() : goal;
-    const ScenePoint proxy = state.is_in_contact ? state.proxy : free;
-    pose_ =
-        StylusPose{.mode = mode,
-                   .proxy = proxy,
-                   .goal = goal,
-                   .is_in_contact = state.is_in_contact,
-                   .force_n = state.is_in_contact ? stylusForce(proxy, goal, point_m_) : Vec3{}};
+    pose_ = stylusPose(mode, model_ ? model_->state() : ContactState{}, goal,
+                       mode == StylusMode::Press ? aimedGround() : goal, point_m_);
 }
 
 } // namespace marsview

@@ -11,18 +11,6 @@
 
 namespace marsview {
 
-/// The stylus and its contact force. In scene coordinates.
-struct StylusPose {
-    StylusMode mode = StylusMode::Hover;
-    ScenePoint proxy;
-    ScenePoint goal;
-    bool is_in_contact = false;
-    Vec3 force_n{};                  // on the hand
-    double force_n_max = kForceNMax; // its maximum
-
-    bool operator==(const StylusPose&) const = default;
-};
-
 /// In contact while it presses, free while it hovers; a grab keeps that state. The proxy is never
 /// below the surface. For the GUI thread: an update takes microseconds.
 ///

@@ -439,7 +439,7 @@ TEST_F(BodyPicture, TheUpperLayerIsSeenWhereItHasDataWhateverItsProjection)
             EXPECT_GT(upper, 200U) << nested.map.georeference.crs()->name();
             EXPECT_LE(wrong, (upper + others) / 2000)
                 << nested.map.georeference.crs()->name() << " from " << camera.distance_m
-                << " m: of " << upper << " above and " << others << " beside";
+                << " m: of " << upper << " above and " << others << " elsewhere";
         }
     }
 }

@@ -18,7 +18,7 @@ namespace marsview {
 inline constexpr std::size_t kOverviewColumns = 440;
 inline constexpr std::size_t kOverviewRows = 220;
 
-/// The mean elevations of a map around each pixel, in meters, NaN beside the map. Some 10 ms, or
+/// The mean elevations of a map around each pixel, in meters, NaN outside the map. Some 10 ms, or
 /// some 100 ms for a projected map of half the body. Any thread; empty if canceled.
 std::vector<float> overviewHeights(const BodyTerrain& terrain, JobMonitor& monitor);
 

@@ -5,7 +5,6 @@
 #include "ui/overlay/drawn_marks.h"
 #include "ui/text/coordinate_text.h"
 
-#include <QEvent>
 #include <QPainter>
 
 #include <algorithm>
@@ -15,38 +14,18 @@
 namespace marsview {
 namespace {
 
-constexpr double kLargeShare = 0.25;  // of the picture's height, across what has a large label
-constexpr double kCursorReach = 22.0; // points around the cursor that it needs
-constexpr double kEdge = 4.0;         // points between the edge of the picture and a label
-constexpr qsizetype kPicturesMax = 600;
+constexpr double kEdge = 4.0;      // points between the edge of the picture and a label
 constexpr qint64 kRestShare = 9;   // at most a tenth of the time goes into lines while moving
 constexpr double kGridWidth = 1.0; // points
 constexpr Rgb8 kGridColor{225, 225, 225};
 
-LabelBox scaled(const QRectF& box, double scale)
-{
-    return {box.left() * scale, box.top() * scale, box.right() * scale, box.bottom() * scale};
-}
-
-QRectF points(const LabelBox& box, double scale)
-{
-    return {QPointF(box.left, box.top) / scale, QPointF(box.right, box.bottom) / scale};
-}
-
 } // namespace
 
 MapLabels::MapLabels(TerrainView& view)
-    : QWidget(&view)
+    : LabelsOverlay(view)
     , view_(view)
 {
-    setAttribute(Qt::WA_TransparentForMouseEvents);
-    setFocusPolicy(Qt::NoFocus);
     setAccessibleName(tr("Names and graticule"));
-    setGeometry(view.rect());
-    view.installEventFilter(this);
-    obstacles_timer_.setSingleShot(true);
-    obstacles_timer_.setInterval(0);
-    connect(&obstacles_timer_, &QTimer::timeout, this, &MapLabels::showSight);
     connect(&view, &TerrainView::layersChanged, this, &MapLabels::showScene);
     connect(&view, &TerrainView::mapShown, this, &MapLabels::showScene);
     connect(&view, &TerrainView::exaggerationChanged, this, &MapLabels::showSight);
@@ -61,7 +40,7 @@ void MapLabels::setNames(std::shared_ptr<const Gazetteer> names)
         gazetteer_ = std::move(names);
         names_.reset();
         maps_.clear();
-        pictures_.clear();
+        forgetPictures();
         showScene();
         Q_EMIT namesChanged();
     }
@@ -85,20 +64,12 @@ void MapLabels::setCoordinateFormat(const CoordinateFormat& format)
     showSight();
 }
 
-void MapLabels::setObstacles(std::vector<QWidget*> obstacles)
-{
-    obstacles_ = std::move(obstacles);
-    for (QWidget* obstacle : obstacles_) {
-        obstacle->installEventFilter(this);
-    }
-}
-
 void MapLabels::keepClearOf(const DrawnMarks& marks)
 {
     marked_.push_back(&marks);
     connect(&marks, &DrawnMarks::marksChanged, this, [this] {
         if (markedBoxes() != marked_boxes_) {
-            obstacles_timer_.start();
+            showSightSoon();
         }
     });
 }
@@ -130,28 +101,7 @@ void MapLabels::setCursorPlace(const std::optional<QPointF>& place)
 
 bool MapLabels::isOnCursor(const Mark& mark) const
 {
-    const QPointF reach(kCursorReach, kCursorReach);
-    return cursor_ && mark.label.box.intersects(QRectF(*cursor_ - reach, *cursor_ + reach));
-}
-
-bool MapLabels::eventFilter(QObject* watched, QEvent* event)
-{
-    if (watched == parent() && event->type() == QEvent::Resize) {
-        setGeometry(parentWidget()->rect());
-    } else if (watched != parent() &&
-               (event->type() == QEvent::Show || event->type() == QEvent::Hide ||
-                event->type() == QEvent::Move || event->type() == QEvent::Resize)) {
-        obstacles_timer_.start();
-    }
-    return QWidget::eventFilter(watched, event);
-}
-
-void MapLabels::changeEvent(QEvent* event)
-{
-    if (event->type() == QEvent::FontChange || event->type() == QEvent::StyleChange) {
-        pictures_.clear();
-    }
-    QWidget::changeEvent(event);
+    return cursor_ && mark.label.box.intersects(aroundCursor(*cursor_));
 }
 
 // Looks do not move names: only other maps do.
@@ -185,12 +135,7 @@ void MapLabels::showSight()
         const Sight sight{.camera = view_.camera(),
                           .viewport = view_.viewport(),
                           .scale = view_.devicePixelRatioF()};
-        std::vector<LabelBox> taken;
-        for (const QWidget* obstacle : obstacles_) {
-            if (obstacle->isVisible()) {
-                taken.push_back(scaled(obstacle->geometry(), sight.scale));
-            }
-        }
+        std::vector<LabelBox> taken = obstacleBoxes(sight.scale);
         marked_boxes_ = markedBoxes();
         for (const QRectF& box : marked_boxes_) {
             taken.push_back(scaled(box, sight.scale));
@@ -289,8 +234,9 @@ std::vector<PicturePart> MapLabels::partsFor(const OrbitCamera& camera,
             parts.push_back(
                 {.image = std::move(dot), .at = ((*mark.point - margin) * sight.scale).toPoint()});
         }
-        parts.push_back({.image = drawn(mark.label.text, mark.size, sight.scale),
-                         .at = (mark.label.box.topLeft() * sight.scale).toPoint()});
+        parts.push_back(
+            {.image = labelPicture(mark.label.text, labelFont(font(), mark.size), sight.scale),
+             .at = (mark.label.box.topLeft() * sight.scale).toPoint()});
     }
     return parts;
 }
@@ -322,7 +268,7 @@ void MapLabels::placeValues(const Sight& sight,
             continue;
         }
         const QString text = valueText(line);
-        const QSizeF size = sizeOf(text, Size::Small) * scale;
+        const QSizeF size = labelSize(text, labelFont(font(), LabelFont::Small)) * scale;
         const double edge = kEdge * scale;
         const auto inside = [edge](double middle, double length, int side) {
             const double low = edge + 0.5 * length;
@@ -346,7 +292,7 @@ void MapLabels::placeValues(const Sight& sight,
         taken.push_back(label.box);
         marks.push_back({.label = {.text = texts[label.request], .box = points(label.box, scale)},
                          .is_name = false,
-                         .size = Size::Small,
+                         .size = LabelFont::Small,
                          .point = {}});
     }
 }
@@ -356,65 +302,17 @@ void MapLabels::placeNames(const Sight& sight,
                            const std::vector<LabelBox>& taken,
                            std::vector<Mark>& marks)
 {
-    const double scale = sight.scale;
-    const auto size_of_label = [large_px = kLargeShare * sight.viewport.height](double across_px) {
-        return across_px >= large_px ? Size::Large : Size::Small;
-    };
-    const auto text_of = [this](std::size_t name) {
-        return QString::fromStdString(gazetteer_->names()[name].name);
-    };
-    const auto labels =
-        names.inPicture(sight.camera,
-                        {.viewport = sight.viewport,
-                         .pixels_per_point = scale,
-                         .exaggeration = view_.exaggeration(),
-                         .obstacles = taken},
-                        [&](std::size_t name, double across_px) {
-                            const QSizeF size =
-                                sizeOf(text_of(name), size_of_label(across_px)) * scale;
-                            return LabelSize{.width_px = size.width(), .height_px = size.height()};
-                        });
-    for (const NameLabel& label : labels) {
-        Mark mark{.label = {.text = text_of(label.name), .box = points(label.box, scale)},
-                  .is_name = true,
-                  .size = size_of_label(label.across_px),
-                  .point = {}};
-        if (label.anchor == LabelAnchor::Point) {
-            mark.point = QPointF(label.place.x, label.place.y) / scale;
-        }
-        marks.push_back(std::move(mark));
+    for (PlacedName& name : namesIn(sight.camera,
+                                    {.viewport = sight.viewport,
+                                    .pixels_per_point = sight.scale,
+                                    .exaggeration = view_.exaggeration(),
+                                    .obstacles = taken},
+                                    names)) {
+        marks.push_back({.label = {.text = std::move(name.text), .box = name.box},
+                         .is_name = true,
+                         .size = name.size,
+                         .point = name.point});
     }
-}
-
-QFont MapLabels::fontOf(Size size) const
-{
-    return labelFont(font(), size);
-}
-
-QSizeF MapLabels::sizeOf(const QString& text, Size size) const
-{
-    return labelSize(text, fontOf(size));
-}
-
-QImage MapLabels::drawn(const QString& text, Size size, double scale) const
-{
-    return labelPicture(text, fontOf(size), scale);
-}
-
-const QPixmap& MapLabels::picture(const QString& text, Size size)
-{
-    const QString key = text + (size == Size::Large ? QLatin1Char('+') : QLatin1Char('-'));
-    auto found = pictures_.find(key);
-    const double scale = devicePixelRatioF();
-    if (found != pictures_.end() && found->devicePixelRatio() == scale) {
-        return *found;
-    }
-    if (pictures_.size() > kPicturesMax) {
-        pictures_.clear();
-    }
-    QPixmap pixmap = QPixmap::fromImage(drawn(text, size, scale));
-    pixmap.setDevicePixelRatio(scale);
-    return *pictures_.insert(key, pixmap);
 }
 
 void MapLabels::paintEvent(QPaintEvent* /*event*/)

@@ -5,13 +5,9 @@
 #include "core/session/graticule.h"
 #include "core/session/name_labels.h"
 #include "ui/overlay/picture_part.h"
-#include "ui/widgets/rimmed_label.h"
+#include "ui/widgets/labels_overlay.h"
 
 #include <QElapsedTimer>
-#include <QHash>
-#include <QPixmap>
-#include <QTimer>
-#include <QWidget>
 
 #include <memory>
 #include <optional>
@@ -22,10 +18,10 @@ namespace marsview {
 class DrawnMarks;
 class TerrainView;
 
-/// Covers the view and is transparent to the mouse. Labels are white with a dark rim, so that they
-/// can be read over any color; none lies over another, over another overlay, or names what the
-/// terrain hides. The lines of the graticule are drawn by the view.
-class MapLabels final : public QWidget {
+/// Labels are white with a dark rim, so that they can be read over any color; none lies over
+/// another, over another overlay, or names what the terrain hides. The lines of the graticule are
+/// drawn by the view.
+class MapLabels final : public LabelsOverlay {
     Q_OBJECT
 
 public:
@@ -37,8 +33,6 @@ public:
     void setNamesShown(bool is_shown);
     void setGraticuleShown(bool is_shown);
     void setCoordinateFormat(const CoordinateFormat& format);
-    /// Widgets that labels keep clear of while they are visible.
-    void setObstacles(std::vector<QWidget*> obstacles);
     /// Marks whose labels no name covers, or is covered by; they outlive this.
     void keepClearOf(const DrawnMarks& marks);
     /// Where the cursor of a touch is, in points; nothing while it is not seen. Names that would
@@ -63,16 +57,14 @@ Q_SIGNALS:
     void namesChanged();
 
 protected:
+    void showSight() override;
     void paintEvent(QPaintEvent* event) override;
-    void changeEvent(QEvent* event) override;
-    bool eventFilter(QObject* watched, QEvent* event) override;
 
 private:
-    using Size = LabelFont;
     struct Mark {
         Label label;
         bool is_name = false; // or a value of the graticule
-        Size size = Size::Small;
+        LabelFont size = LabelFont::Small;
         std::optional<QPointF> point; // next to the label
     };
     // Of a picture of the view.
@@ -83,7 +75,6 @@ private:
     };
 
     void showScene();
-    void showSight();
     std::vector<QRectF> markedBoxes() const;
     bool isOnCursor(const Mark& mark) const;
     void drawGraticule();
@@ -93,10 +84,6 @@ private:
                     NameLabels& names,
                     const std::vector<LabelBox>& taken,
                     std::vector<Mark>& marks);
-    QFont fontOf(Size size) const;
-    QSizeF sizeOf(const QString& text, Size size) const;
-    QImage drawn(const QString& text, Size size, double scale) const;
-    const QPixmap& picture(const QString& text, Size size);
     QString valueText(const GraticuleLine& line) const;
 
     TerrainView& view_;
@@ -104,10 +91,8 @@ private:
     std::unique_ptr<NameLabels> names_;          // on the terrain that is shown
     std::vector<std::weak_ptr<const Map>> maps_; // that it was made for
     CoordinateFormat format_;
-    std::vector<QWidget*> obstacles_;
     std::vector<const DrawnMarks*> marked_;
     std::vector<QRectF> marked_boxes_; // of the labels of these, as of the last showSight()
-    QTimer obstacles_timer_;           // until all of them have moved
     std::optional<QPointF> cursor_;
     bool are_names_shown_ = true;
     bool is_graticule_shown_ = false;
@@ -117,7 +102,6 @@ private:
     std::vector<Mark> marks_;
     std::vector<Label> names_shown_;
     std::vector<Label> values_shown_;
-    QHash<QString, QPixmap> pictures_; // of texts, by text and size
 };
 
 } // namespace marsview
