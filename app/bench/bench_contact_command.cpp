@@ -49,6 +49,7 @@ struct BenchContactOptions {
     std::string sample_type = "float32";
     std::vector<std::string> models;
     std::string goals = "both";
+    bool is_on_body = false;
     ContactBenchOptions bench;
     std::string plot;
     bool is_json = false;
@@ -213,6 +214,7 @@ void printJson(const BenchContactOptions& options,
                        {"core_count", std::thread::hardware_concurrency()},
                        {"clock_ns", result.clock_ns},
                        {"terrain", terrain},
+                       {"scene", options.is_on_body ? "body" : "flat"},
                        {"repeats", options.bench.repeat_count},
                        {"reference_piece_cells", options.bench.piece_cells},
                        {"reference_unfinished", result.unfinished_count},
@@ -291,9 +293,9 @@ void printForPeople(const BenchContactOptions& options,
                     "count and the mean does not",
                     processorName(), std::thread::hardware_concurrency(), result.clock_ns));
     printLine(fmt::format(
-        "{}: {} triangles, {:.4g} bytes of samples and {:.4g} of hierarchy a triangle", ground.name,
-        ground.triangleCount(), ground.perTriangle(ground.samples().bytes()),
-        ground.perTriangle(ground.hierarchy_bytes)));
+        "{}{}: {} triangles, {:.4g} bytes of samples and {:.4g} of hierarchy a triangle",
+        ground.name, options.is_on_body ? ", on its body" : "", ground.triangleCount(),
+        ground.perTriangle(ground.samples().bytes()), ground.perTriangle(ground.hierarchy_bytes)));
     printLine(fmt::format(
         "a cell is {} m; the ideal's motion is cut into {:.4g} cell; best of {} "
         "runs; virtual-proxy has a radius of {:g} cell",
@@ -332,7 +334,9 @@ Plot plotOf(const BenchContactOptions& options,
     plot.title = "Contact models: run time against error";
     const auto name =
         ground.map ? std::filesystem::path(ground.name).filename().string() : ground.name;
-    plot.note = fmt::format("{}; {} triangles; {}", name, ground.triangleCount(), processorName());
+    plot.note =
+        fmt::format("{}{}; {} triangles; {}", name, options.is_on_body ? ", on its body" : "",
+                    ground.triangleCount(), processorName());
     plot.x_label = "mean time per update, µs; speeds in cells per update at the ends of each line";
     plot.y_label = "mean distance from the ideal proxy, cells";
     plot.y_floor = kPlotFloor;
@@ -376,6 +380,9 @@ Status runBenchContact(const BenchContactOptions& given)
         std::sort(values->begin(), values->end());
         values->erase(std::unique(values->begin(), values->end()), values->end());
     }
+    if (options.is_on_body && options.map.path.empty()) {
+        return Error{ErrorCode::Invalid, "--scene: the fractal has no body; name a map"};
+    }
     Ground ground;
     {
         LongJob job(options.map.path.empty() ? "making a fractal" : "reading");
@@ -389,8 +396,11 @@ Status runBenchContact(const BenchContactOptions& given)
     std::optional<ContactBenchResult> result;
     {
         LongJob job("measuring");
-        Result<ContactBenchResult> measured =
-            benchContact(ground.filled, ground.frame, options.bench, job.monitor());
+        const BenchSurfaceMaker surfaces =
+            options.is_on_body
+                ? bodyBenchSurfaces(ground.filled, ground.map->georeference(), job.monitor())
+                : flatBenchSurfaces(ground.filled, ground.frame);
+        Result<ContactBenchResult> measured = benchContact(surfaces, options.bench, job.monitor());
         if (!measured) {
             return Error{measured.error().code,
                          fmt::format("{}: {}", ground.name, measured.error().message)};
@@ -429,7 +439,9 @@ void addBenchContactCommand(CLI::App& bench, CommandAction& run)
         "contact", "Move a hand over a map and measure run time and error of contact models");
     command->footer(
         "Errors are measured against the ideal: the proxy that follows the goal's motion cut into\n"
-        "1/128 cell, found by a slow method that shares no code with the models.\n"
+        "1/128 cell, found by a slow method that shares no code with the models. With --scene "
+        "body\n"
+        "the ideal is the surface walk over these pieces, and the minimum is not checked.\n"
         "The hand is put down on the surface in many places, and presses 2 to 5 cells into it.\n"
         "A cell is the mean of its two sides. The mean is of a whole run without reading a clock;\n"
         "p50 to max are of single updates, each with its shortest time over all "
@@ -445,6 +457,13 @@ void addBenchContactCommand(CLI::App& bench, CommandAction& run)
         ->type_name("FILE")
         ->transform(fileName());
     options->map.addOverridesTo(*command);
+    command
+        ->add_option_function<std::string>(
+            "--scene",
+            [options](const std::string& scene) { options->is_on_body = scene == "body"; },
+            "flat: the map's CRS laid out in the plane; body: the map lies on its body")
+        ->default_str("flat")
+        ->check(oneOf({"flat", "body"}));
     command->add_option("--size", options->size, "columns and rows of the fractal")
         ->capture_default_str()
         ->check(wholeNumberFrom(16, 65536));

@@ -1,6 +1,5 @@
 #include "app/bench/contact_bench.h"
 
-#include "app/bench/reference/local_minimum.h"
 #include "app/bench/tick_clock.h"
 #include "app/console/quantile.h"
 #include "core/base/parallel.h"
@@ -10,9 +9,9 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <mutex>
 #include <numbers>
-#include <random>
 #include <thread>
 #include <utility>
 
@@ -58,15 +57,14 @@ double meanOf(const std::vector<double>& values)
 
 class ContactBench {
 public:
-    ContactBench(const std::shared_ptr<const FilledHeightfield>& terrain,
-                 const SceneFrame& frame,
+    /// `surfaces`: of all the scales in `options`, of which there is one at least.
+    ContactBench(std::map<double, std::shared_ptr<const BenchSurface>> surfaces,
                  const ContactBenchOptions& options,
                  JobMonitor& monitor)
-        : terrain_(terrain)
-        , frame_(frame)
+        : surfaces_(std::move(surfaces))
         , options_(options)
         , monitor_(monitor)
-        , cell_m_(ReferenceProxy::cellMeters(frame))
+        , cell_m_(surfaces_.begin()->second->cellM())
     {}
 
     Result<ContactBenchResult> run()
@@ -96,7 +94,7 @@ public:
     }
 
 private:
-    HeightfieldSurface surfaceAt(double scale) const { return {terrain_, frame_, scale}; }
+    const BenchSurface& surfaceAt(double scale) const { return *surfaces_.at(scale); }
 
     // Whether a stroke begins with this goal of the path.
     bool isPlaced(std::size_t goal) const { return goal % (options_.stroke_count + 1) == 0; }
@@ -116,13 +114,13 @@ private:
             for (const double scale : options_.scales) {
                 for (const double speed : options_.speeds) {
                     ways.push_back({.speed = speed, .scale = scale, .is_free = is_free});
-                    ways.back().goals = strokesOfAHand(
-                        surfaceAt(scale), {.speed = speed,
-                                           .low = is_free ? kLowCells : kDeepCells,
-                                           .high = is_free ? kHighCells : kShallowCells,
-                                           .update_count = options_.update_count,
-                                           .stroke_count = options_.stroke_count,
-                                           .seed = options_.seed});
+                    ways.back().goals =
+                        surfaceAt(scale).strokes({.speed = speed,
+                                                  .low = is_free ? kLowCells : kDeepCells,
+                                                  .high = is_free ? kHighCells : kShallowCells,
+                                                  .update_count = options_.update_count,
+                                                  .stroke_count = options_.stroke_count,
+                                                  .seed = options_.seed});
                 }
             }
         }
@@ -165,22 +163,22 @@ private:
         const std::chrono::duration<double> time(options_.seconds_max * kShare * cores *
                                                  std::max(way.speed / pieces, 1e-3));
         const Clock::time_point begin = Clock::now();
-        ReferenceProxy reference(surfaceAt(way.scale), options_.piece_cells);
+        const auto reference = surfaceAt(way.scale).ideal(options_.piece_cells);
         for (std::size_t i = 0; i < way.goals.size(); ++i) {
-            way.ideal.push_back(isPlaced(i) ? reference.place(way.goals[i]).proxy
-                                            : reference.update(way.goals[i]).proxy);
+            way.ideal.push_back(isPlaced(i) ? reference->place(way.goals[i])
+                                            : reference->update(way.goals[i]));
             const bool is_late = options_.seconds_max > 0.0 && Clock::now() - begin > time;
             if (monitor_.isCanceled() || (is_late && way.ideal.size() >= kUpdatesMin)) {
                 break;
             }
         }
         way.goals.resize(way.ideal.size());
-        return reference.unfinishedCount();
+        return reference->unfinishedCount();
     }
 
     std::vector<ContactBenchRow> measure(const Way& way)
     {
-        const HeightfieldSurface surface = surfaceAt(way.scale);
+        const BenchSurface& surface = surfaceAt(way.scale);
         const ContactModelOptions model_options{.radius_m = options_.radius_cells * cell_m_};
         struct Runner {
             std::unique_ptr<ContactModel> model;
@@ -189,7 +187,7 @@ private:
         };
         std::vector<Runner> runners;
         for (const ContactModelKind kind : options_.models) {
-            Runner runner{makeContactModel(kind, surface, model_options), {}, {}};
+            Runner runner{surface.model(kind, model_options), {}, {}};
             runner.row.model = kind;
             runner.row.speed = way.speed;
             runner.row.scale = way.scale;
@@ -199,8 +197,7 @@ private:
             runner.ticks.assign(updatesOf(way), std::numeric_limits<std::uint64_t>::max());
             assess(*runner.model, surface, way, runner.row);
             if (!way.is_free) {
-                runner.row.errors->lag =
-                    lagOf(*makeContactModel(kind, surface, model_options), way);
+                runner.row.errors->lag = lagOf(*surface.model(kind, model_options), way);
             }
             runners.push_back(std::move(runner));
         }
@@ -231,7 +228,7 @@ private:
 
     // Computes the counts and the distances of the proxies from the ideal.
     void assess(ContactModel& model,
-                const HeightfieldSurface& surface,
+                const BenchSurface& surface,
                 const Way& way,
                 ContactBenchRow& row) const
     {
@@ -241,8 +238,9 @@ private:
         std::size_t within_half = 0;
         std::size_t within_1e5 = 0;
         std::size_t minima = 0;
+        bool is_minimum_known = row.model != ContactModelKind::VirtualProxy;
         for (std::size_t i = 0; i < way.goals.size(); ++i) {
-            const ScenePoint goal = clampedGoal(surface, way.goals[i]);
+            const ScenePoint goal = surface.seen(way.goals[i]);
             if (isPlaced(i)) {
                 model.place(way.goals[i]);
                 continue;
@@ -268,7 +266,9 @@ private:
             within_1e5 += off <= 1e-5 ? 1U : 0U;
             angles.push_back(angleDegrees(force, ideal_force));
             distances.push_back(std::abs(length(force) - length(ideal_force)) / cell_m_);
-            minima += steepestCosine(surface, state.proxy, goal) <= kCosineMax ? 1U : 0U;
+            const std::optional<double> cosine = surface.steepestCosineAt(state.proxy, goal);
+            minima += cosine && *cosine <= kCosineMax ? 1U : 0U;
+            is_minimum_known = is_minimum_known && cosine;
         }
         const double count = static_cast<double>(updatesOf(way));
         for (double* const sum :
@@ -288,7 +288,7 @@ private:
         errors.force_mean_deg = meanOf(angles);
         errors.force_p99_deg = quantile(angles, 0.99);
         errors.distance_mean = meanOf(distances);
-        if (row.model != ContactModelKind::VirtualProxy) {
+        if (is_minimum_known) {
             errors.at_minimum = static_cast<double>(minima) / count;
         }
         row.errors = errors;
@@ -355,8 +355,7 @@ private:
         kept_.store(sum, std::memory_order_relaxed);
     }
 
-    std::shared_ptr<const FilledHeightfield> terrain_;
-    SceneFrame frame_;
+    std::map<double, std::shared_ptr<const BenchSurface>> surfaces_;
     const ContactBenchOptions& options_;
     JobMonitor& monitor_;
     TickClock clock_;
@@ -367,63 +366,19 @@ private:
 
 } // namespace
 
-std::vector<ScenePoint> strokesOfAHand(const HeightfieldSurface& surface,
-                                       const StrokeOptions& options)
-{
-    std::mt19937_64 random(options.seed);
-    const auto uniform = [&random](double from, double to) {
-        return from + (to - from) * static_cast<double>(random() >> 11U) * 0x1p-53;
-    };
-    const SceneFrame& frame = surface.frame();
-    const double cell_m = ReferenceProxy::cellMeters(frame);
-    const double last_column = static_cast<double>(surface.terrain()->columns() - 1);
-    const double last_row = static_cast<double>(surface.terrain()->rows() - 1);
-    constexpr double kMargin = 1.0 / 32.0; // fraction of the map in which the hand turns back
-    const auto is_inside = [&](const ScenePoint& p) {
-        const GridPoint grid = frame.toGrid(p);
-        return grid.column > kMargin * last_column && grid.row > kMargin * last_row &&
-               grid.column < (1.0 - kMargin) * last_column && grid.row < (1.0 - kMargin) * last_row;
-    };
-    const ScenePoint center = frame.toScene({last_column / 2.0, last_row / 2.0}, 0.0);
-    std::vector<ScenePoint> goals;
-    for (std::size_t update = 0; update < options.update_count;) {
-        ScenePoint p = frame.toScene({uniform(2.0 * kMargin, 1.0 - 2.0 * kMargin) * last_column,
-                                      uniform(2.0 * kMargin, 1.0 - 2.0 * kMargin) * last_row},
-                                     0.0);
-        double heading = uniform(-std::numbers::pi, std::numbers::pi);
-        double above = std::max(options.low, 0.0);
-        const auto add = [&] {
-            p.z = surface.height(frame.toGrid(p)) + above * cell_m;
-            goals.push_back(p);
-        };
-        add();
-        for (std::size_t i = 0; i < options.stroke_count && update < options.update_count;
-             ++i, ++update) {
-            heading += uniform(-0.05, 0.05);
-            const auto step = [&] {
-                return Vec3{options.speed * cell_m * std::cos(heading),
-                            options.speed * cell_m * std::sin(heading), 0.0};
-            };
-            if (!is_inside(p + step())) {
-                heading = std::atan2(center.y - p.y, center.x - p.x) + uniform(-0.6, 0.6);
-            }
-            p = p + step();
-            const double share =
-                0.5 + 0.5 * std::sin(static_cast<double>(update) * options.speed * 0.013);
-            const double wanted = options.low + (options.high - options.low) * share;
-            above += std::clamp(wanted - above, -options.speed, options.speed);
-            add();
-        }
-    }
-    return goals;
-}
-
-Result<ContactBenchResult> benchContact(const std::shared_ptr<const FilledHeightfield>& terrain,
-                                        const SceneFrame& frame,
+Result<ContactBenchResult> benchContact(const BenchSurfaceMaker& surfaces,
                                         const ContactBenchOptions& options,
                                         JobMonitor& monitor)
 {
-    return ContactBench(terrain, frame, options, monitor).run();
+    std::map<double, std::shared_ptr<const BenchSurface>> by_scale;
+    for (const double scale : options.scales) {
+        Result<std::shared_ptr<const BenchSurface>> made = surfaces(scale);
+        if (!made) {
+            return std::move(made).error();
+        }
+        by_scale.emplace(scale, std::move(made).value());
+    }
+    return ContactBench(std::move(by_scale), options, monitor).run();
 }
 
 } // namespace marsview

@@ -1,6 +1,7 @@
 // Speed and accuracy of contact models: a simulated hand wanders over a map.
 #pragma once
 
+#include "app/bench/bench_surface.h"
 #include "app/bench/reference/reference_proxy.h"
 #include "core/base/job_monitor.h"
 #include "core/base/result.h"
@@ -81,26 +82,9 @@ struct ContactBenchResult {
     std::uint64_t unfinished_count = 0;
 };
 
-/// The motion of a hand. Lengths in cells.
-struct StrokeOptions {
-    double speed = 1.0; // per update
-    double low = -5.0;  // above the surface; negative: below it
-    double high = -2.0;
-    std::size_t update_count = 1000;
-    std::size_t stroke_count = 500; // updates
-    std::uint64_t seed = 7;
-};
-
-/// The goals of a hand's strokes. Each stroke begins at its own place on the surface, or `low`
-/// above it: one goal that places the proxy, then one per update. The hand wanders at a constant
-/// speed, approaches its depth at the same speed, and turns back before the border.
-std::vector<ScenePoint> strokesOfAHand(const HeightfieldSurface& surface,
-                                       const StrokeOptions& options);
-
 /// First computes the ideal of every path, on all cores; then runs all models in turn, on this
-/// thread. The only possible error is Canceled.
-Result<ContactBenchResult> benchContact(const std::shared_ptr<const FilledHeightfield>& terrain,
-                                        const SceneFrame& frame,
+/// thread. Errors: those of `surfaces`; Canceled.
+Result<ContactBenchResult> benchContact(const BenchSurfaceMaker& surfaces,
                                         const ContactBenchOptions& options,
                                         JobMonitor& monitor);
 

@@ -43,6 +43,7 @@ namespace {
 struct LoopOptions {
     MapOptions map;
     std::string device;
+    std::string scene = "flat";
     LoopMapOptions loop;
     std::string model{contactModelName(kContactModelDefault)};
     double seconds = 10.0;
@@ -202,6 +203,11 @@ LoopWatch::Clock::time_point watchedUntil(double seconds)
 
 Status runLoop(const LoopOptions& options)
 {
+    if (options.scene == "body") {
+        return Error{ErrorCode::Invalid,
+                     "--scene: devices touch the flat map only; leave out "
+                     "--scene body, or trace goals with trace --scene body"};
+    }
     FilesInUse files{
         .maps = {options.map.path},
         .read = {},
@@ -352,6 +358,12 @@ void addLoopCommand(CLI::App& app, CommandAction& run)
     for (const ContactModelKind kind : kContactModelKinds) {
         names.emplace_back(contactModelName(kind));
     }
+    command
+        ->add_option("--scene", options->scene,
+                     "flat: the map's CRS laid out in the plane; devices do not touch maps on "
+                     "their body yet")
+        ->capture_default_str()
+        ->check(oneOf({"flat", "body"}));
     command->add_option("--model", options->model, "contact model")
         ->capture_default_str()
         ->check(oneOf(names));

@@ -219,4 +219,30 @@ TEST(BenchContactCommand, RefusesInvalidInput)
     }
 }
 
+// The ideal is another model over small pieces of the motion; its cells are 15 km and 30 m.
+TEST(BenchContactCommand, MeasuresTheContinuousWalkOnTheBody)
+{
+    for (const std::string& map : {bundledMars(), bundledMountain()}) {
+        const nlohmann::json bench = measured(
+            {map, "--scene", "body", "--models", kWalks, "--speeds", "1,10", "--updates", "1000"});
+        EXPECT_EQ(bench["scene"], "body");
+        EXPECT_EQ(bench["reference_unfinished"], 0);
+        const std::vector<nlohmann::json> rows = rowsOf(bench, "continuous-walk");
+        ASSERT_EQ(rows.size(), 2U);
+        for (const nlohmann::json& row : rows) {
+            EXPECT_GE(row["errors"]["within_1e5_cell"], 0.99) << map << row;
+            EXPECT_GT(row["ns_mean"], 0.0);
+            EXPECT_TRUE(row["errors"]["at_minimum"].is_null());
+        }
+    }
+}
+
+TEST(BenchContactCommand, SaysWhyATerrainDoesNotLieOnABody)
+{
+    const ProgramOutput fractal = runCli({"bench", "contact", "--scene", "body"});
+    EXPECT_EQ(fractal.exit_status, 1);
+    EXPECT_EQ(fractal.err, "marsview-cli: --scene: the fractal has no body; name a map\n");
+    EXPECT_EQ(runCli({"bench", "contact", "--scene", "globe"}).exit_status, 2);
+}
+
 } // namespace marsview::test

@@ -472,5 +472,19 @@ TEST(LoopCommand, CountsAddressesThatNoDeviceCanHaveAsUsageErrors)
     EXPECT_THAT(refusal("polhem:left"), HasSubstr("unknown part \"left\""));
 }
 
+TEST(LoopCommand, SaysThatDevicesTouchTheFlatMapOnly)
+{
+    const ProgramOutput body =
+        runCli({"loop", bundledMars(), "--device", "null:", "--scene", "body"});
+    EXPECT_EQ(body.exit_status, 1);
+    EXPECT_EQ(body.err,
+              "marsview-cli: --scene: devices touch the flat map only; leave out --scene "
+              "body, or trace goals with trace --scene body\n");
+    EXPECT_EQ(runCli({"loop", bundledMars(), "--device", "null:", "--scene", "flat", "--seconds",
+                      "0.1", "--json"})
+                  .exit_status,
+              0);
+}
+
 } // namespace
 } // namespace marsview::test
