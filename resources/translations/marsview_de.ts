@@ -41,7 +41,148 @@
     </message>
 </context>
 <context>
+    <name>Body</name>
+    <message>
+        <source>Mercury</source>
+        <translation>Merkur</translation>
+    </message>
+    <message>
+        <source>Venus</source>
+        <translation>Venus</translation>
+    </message>
+    <message>
+        <source>Earth</source>
+        <translation>Erde</translation>
+    </message>
+    <message>
+        <source>Moon</source>
+        <translation>Mond</translation>
+    </message>
+    <message>
+        <source>Mars</source>
+        <translation>Mars</translation>
+    </message>
+    <message>
+        <source>Phobos</source>
+        <translation>Phobos</translation>
+    </message>
+    <message>
+        <source>Deimos</source>
+        <translation>Deimos</translation>
+    </message>
+    <message>
+        <source>Eros</source>
+        <translation>Eros</translation>
+    </message>
+    <message>
+        <source>Vesta</source>
+        <translation>Vesta</translation>
+    </message>
+    <message>
+        <source>Ceres</source>
+        <translation>Ceres</translation>
+    </message>
+    <message>
+        <source>Io</source>
+        <translation>Io</translation>
+    </message>
+    <message>
+        <source>Europa</source>
+        <translation>Europa</translation>
+    </message>
+    <message>
+        <source>Ganymede</source>
+        <translation>Ganymed</translation>
+    </message>
+    <message>
+        <source>Callisto</source>
+        <translation>Kallisto</translation>
+    </message>
+    <message>
+        <source>Mimas</source>
+        <translation>Mimas</translation>
+    </message>
+    <message>
+        <source>Enceladus</source>
+        <translation>Enceladus</translation>
+    </message>
+    <message>
+        <source>Tethys</source>
+        <translation>Tethys</translation>
+    </message>
+    <message>
+        <source>Dione</source>
+        <translation>Dione</translation>
+    </message>
+    <message>
+        <source>Rhea</source>
+        <translation>Rhea</translation>
+    </message>
+    <message>
+        <source>Titan</source>
+        <translation>Titan</translation>
+    </message>
+    <message>
+        <source>Iapetus</source>
+        <translation>Iapetus</translation>
+    </message>
+    <message>
+        <source>Miranda</source>
+        <translation>Miranda</translation>
+    </message>
+    <message>
+        <source>Ariel</source>
+        <translation>Ariel</translation>
+    </message>
+    <message>
+        <source>Umbriel</source>
+        <translation>Umbriel</translation>
+    </message>
+    <message>
+        <source>Titania</source>
+        <translation>Titania</translation>
+    </message>
+    <message>
+        <source>Oberon</source>
+        <translation>Oberon</translation>
+    </message>
+    <message>
+        <source>Triton</source>
+        <translation>Triton</translation>
+    </message>
+    <message>
+        <source>Pluto</source>
+        <translation>Pluto</translation>
+    </message>
+    <message>
+        <source>Charon</source>
+        <translation>Charon</translation>
+    </message>
+    <message>
+        <source>the Earth</source>
+        <extracomment>A body, in &quot;on the Earth&quot;</extracomment>
+        <translation>Erde</translation>
+    </message>
+    <message>
+        <source>the Moon</source>
+        <extracomment>A body, in &quot;on the Moon&quot;</extracomment>
+        <translation>Mond</translation>
+    </message>
+</context>
+<context>
     <name>ColorRamp</name>
+    <message>
+        <source>Ember</source>
+        <translation>Glut</translation>
+    </message>
+    <message>
+        <source>Hypsometric</source>
+        <translation>Hypsometrisch</translation>
+    </message>
+    <message>
+        <source>Lagoon</source>
+        <translation>Lagune</translation>
+    </message>
     <message>
         <source>Dawn</source>
         <extracomment>A color ramp from blue to rose, as the sky at sunrise</extracomment>
@@ -61,6 +202,60 @@
         <source>Diverging (at 0)</source>
         <extracomment>A color ramp with different colors below and above the elevation 0</extracomment>
         <translation>Divergierend (um 0)</translation>
+    </message>
+</context>
+<context>
+    <name>CoordinateMenu</name>
+    <message>
+        <source>0° to 360° East</source>
+        <extracomment>A range of longitudes</extracomment>
+        <translation>0° bis 360° Ost</translation>
+    </message>
+    <message>
+        <source>180° West to 180° East</source>
+        <extracomment>A range of longitudes</extracomment>
+        <translation>180° West bis 180° Ost</translation>
+    </message>
+    <message>
+        <source>0° to 360° West</source>
+        <extracomment>A range of longitudes</extracomment>
+        <translation>0° bis 360° West</translation>
+    </message>
+    <message>
+        <source>As Usual on the Body</source>
+        <extracomment>The range of longitudes that suits the map's body</extracomment>
+        <translation>Wie auf dem Himmelskörper üblich</translation>
+    </message>
+    <message>
+        <source>As Usual on %1 (%2)</source>
+        <extracomment>The range of longitudes that suits a body: %1 is its name, %2 the range</extracomment>
+        <translation>Wie auf %1 üblich (%2)</translation>
+    </message>
+    <message>
+        <source>&amp;Decimal Degrees</source>
+        <translation>&amp;Dezimalgrad</translation>
+    </message>
+    <message>
+        <source>Degrees, &amp;Minutes, Seconds</source>
+        <translation>Grad, &amp;Minuten, Sekunden</translation>
+    </message>
+    <message>
+        <source>Ma&amp;p Coordinates: %1</source>
+        <extracomment>%1 is the CRS</extracomment>
+        <translation>Karten&amp;koordinaten: %1</translation>
+    </message>
+    <message>
+        <source>Longitude</source>
+        <translation>Länge</translation>
+    </message>
+    <message>
+        <source>This Body</source>
+        <translation>dieser Himmelskörper</translation>
+    </message>
+    <message>
+        <source>Latitude on %1</source>
+        <extracomment>A part of a menu; %1 is a body</extracomment>
+        <translation>Breite auf %1</translation>
     </message>
 </context>
 <context>
@@ -364,6 +559,18 @@
 <context>
     <name>OverlayText</name>
     <message>
+        <source>%1 km</source>
+        <translation>%1 km</translation>
+    </message>
+    <message>
+        <source>%1 m</source>
+        <translation>%1 m</translation>
+    </message>
+    <message>
+        <source>%1° (%2)</source>
+        <translation>%1° (%2)</translation>
+    </message>
+    <message>
         <source>north</source>
         <translation>Nord</translation>
     </message>
@@ -527,6 +734,126 @@
         <source>column %1, row %2</source>
         <extracomment>The nearest sample of the raster, counted from 0</extracomment>
         <translation>Spalte %1, Zeile %2</translation>
+    </message>
+</context>
+<context>
+    <name>PlaceName</name>
+    <message>
+        <source>m</source>
+        <translation>m</translation>
+    </message>
+    <message>
+        <source>km</source>
+        <translation>km</translation>
+    </message>
+    <message>
+        <source>crater</source>
+        <translation>Krater</translation>
+    </message>
+    <message>
+        <source>canyon</source>
+        <translation>Canyon</translation>
+    </message>
+    <message>
+        <source>cape</source>
+        <translation>Kap</translation>
+    </message>
+    <message>
+        <source>chaotic terrain</source>
+        <translation>chaotisches Gelände</translation>
+    </message>
+    <message>
+        <source>crater chain</source>
+        <translation>Kraterkette</translation>
+    </message>
+    <message>
+        <source>dunes</source>
+        <translation>Dünen</translation>
+    </message>
+    <message>
+        <source>hollow</source>
+        <translation>Mulde</translation>
+    </message>
+    <message>
+        <source>landing site</source>
+        <translation>Landestelle</translation>
+    </message>
+    <message>
+        <source>mountain</source>
+        <translation>Berg</translation>
+    </message>
+    <message>
+        <source>plain</source>
+        <translation>Ebene</translation>
+    </message>
+    <message>
+        <source>plateau</source>
+        <translation>Hochebene</translation>
+    </message>
+    <message>
+        <source>region</source>
+        <translation>Region</translation>
+    </message>
+    <message>
+        <source>ridge</source>
+        <translation>Rücken</translation>
+    </message>
+    <message>
+        <source>scarp</source>
+        <translation>Steilstufe</translation>
+    </message>
+    <message>
+        <source>sea</source>
+        <extracomment>A dark plain of lava: Mare, Oceanus, Sinus, Lacus, Palus</extracomment>
+        <translation>Mare</translation>
+    </message>
+    <message>
+        <source>trough</source>
+        <translation>Graben</translation>
+    </message>
+    <message>
+        <source>valley</source>
+        <translation>Tal</translation>
+    </message>
+    <message>
+        <source>patera</source>
+        <extracomment>Patera: a crater with scalloped edges, mostly of a volcano</extracomment>
+        <translation>Patera</translation>
+    </message>
+    <message>
+        <source>%1, %2</source>
+        <extracomment>What a place is, and its diameter</extracomment>
+        <translation>%1, %2</translation>
+    </message>
+    <message>
+        <source>%1 is outside the map.</source>
+        <extracomment>%1 is the name of a place</extracomment>
+        <translation>%1 liegt außerhalb der Karte.</translation>
+    </message>
+    <message>
+        <source>Open a file of names with File › Open Names….</source>
+        <translation>Öffnen Sie mit Datei › Namen öffnen … eine Datei mit Namen.</translation>
+    </message>
+    <message>
+        <source>No names on an unknown body.</source>
+        <translation>Keine Namen für einen unbekannten Himmelskörper.</translation>
+    </message>
+    <message>
+        <source>No names on %1.</source>
+        <extracomment>%1 is a body: &quot;Venus&quot;, &quot;the Earth&quot;</extracomment>
+        <translation>Keine Namen für %1.</translation>
+    </message>
+    <message>
+        <source>No place on %2 is named “%1”.</source>
+        <translation>Kein Ort heißt „%1“ (%2).</translation>
+    </message>
+    <message>
+        <source>No place is named “%1”.</source>
+        <translation>Kein Ort heißt „%1“.</translation>
+    </message>
+    <message>
+        <source>Did you mean “%1”?</source>
+        <translation>Meinten Sie „%1“?</translation>
     </message>
 </context>
 <context>
@@ -1143,6 +1470,11 @@
         <extracomment>A vertical datum: %1 is a radius in meters</extracomment>
         <translation>Kugel mit Radius %1</translation>
     </message>
+    <message>
+        <source>areoid</source>
+        <extracomment>The vertical datum of Mars: a surface of equal potential</extracomment>
+        <translation>Areoid</translation>
+    </message>
 </context>
 <context>
     <name>marsview::AboutDialog</name>
@@ -1257,7 +1589,7 @@
     <message>
         <source>%1 states longitude and latitude on the Earth, but the map is of %2. Read them as longitude and latitude on %2?</source>
         <extracomment>%1 is a file, %2 a body</extracomment>
-        <translation>%1 nennt Länge und Breite auf der Erde, aber die Karte zeigt %2. Sollen sie als Länge und Breite auf %2 gelesen werden?</translation>
+        <translation>%1 nennt Länge und Breite auf der Erde, aber die Karte liegt auf einem anderen Himmelskörper: %2. Sollen sie als Länge und Breite dort gelesen werden?</translation>
     </message>
     <message>
         <source>Export Annotations</source>
@@ -1669,6 +2001,14 @@
 </context>
 <context>
     <name>marsview::FileOpening</name>
+    <message>
+        <source>&amp;Mars, Global (MOLA, 15 km)</source>
+        <translation>&amp;Mars, global (MOLA, 15 km)</translation>
+    </message>
+    <message>
+        <source>Mount &amp;St. Helens, Earth (30 m)</source>
+        <translation>Mount &amp;St. Helens, Erde (30 m)</translation>
+    </message>
     <message>
         <source>Elevation maps and projects (*.mvproj *.tif *.tiff *.lbl *.img *.cub *.hgt *.dem *.asc *.flt *.hdr *.bil *.nc *.cdf *.dt0 *.dt1 *.dt2 *.vrt *.xml *.zip)</source>
         <translation>Höhenkarten und Projekte (*.mvproj *.tif *.tiff *.lbl *.img *.cub *.hgt *.dem *.asc *.flt *.hdr *.bil *.nc *.cdf *.dt0 *.dt1 *.dt2 *.vrt *.xml *.zip)</translation>
@@ -2917,19 +3257,9 @@ In place of the number 0: a usual bound; %1 is a size</extracomment>
 <context>
     <name>marsview::LayerModel</name>
     <message>
-        <source>the Earth</source>
-        <extracomment>A body, in &quot;on the Earth&quot; and &quot;the view shows the Earth&quot;</extracomment>
-        <translation>die Erde</translation>
-    </message>
-    <message>
-        <source>the Moon</source>
-        <extracomment>A body, in &quot;on the Moon&quot; and &quot;the view shows the Moon&quot;</extracomment>
-        <translation>der Mond</translation>
-    </message>
-    <message>
         <source>Hidden: on %1; the view shows %2</source>
         <extracomment>Why a layer is not shown: %1 is its body, %2 the body that the view shows</extracomment>
-        <translation>Verborgen: auf %1; die Ansicht zeigt %2</translation>
+        <translation>Verborgen: Himmelskörper %1, Ansicht: %2</translation>
     </message>
     <message>
         <source>Hidden: its CRS, %1, is not that of the view</source>
@@ -3348,6 +3678,14 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
     <message>
         <source>&amp;Fly Here</source>
         <translation>Hierhin &amp;fliegen</translation>
+    </message>
+    <message>
+        <source>Measure &amp;Distance from Here</source>
+        <translation>Von hier &amp;Entfernung messen</translation>
+    </message>
+    <message>
+        <source>&amp;Add Annotation Here</source>
+        <translation>Hier &amp;annotieren</translation>
     </message>
     <message>
         <source>Ce&amp;nter Here</source>
@@ -3793,7 +4131,7 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
     <message>
         <source>%1, on %2</source>
         <extracomment>%1 is the name of a coordinate reference system, %2 the body it is on</extracomment>
-        <translation>%1, auf %2</translation>
+        <translation>%1 (%2)</translation>
     </message>
 </context>
 <context>
@@ -5026,6 +5364,10 @@ Bewegen Sie die Karte zu einer Ansicht, die Sie behalten wollen, und drücken Si
     <message>
         <source>Open &amp;Recent</source>
         <translation>Zu&amp;letzt geöffnet</translation>
+    </message>
+    <message>
+        <source>Open &amp;Bundled Map</source>
+        <translation>&amp;Beispielkarte öffnen</translation>
     </message>
     <message>
         <source>Save &amp;Picture…</source>

@@ -25,6 +25,7 @@
 #include <QFile>
 #include <QLabel>
 #include <QLineEdit>
+#include <QMap>
 #include <QMenuBar>
 #include <QRegularExpression>
 #include <QSet>
@@ -39,11 +40,29 @@ namespace {
 
 class MarkingTranslator final : public QTranslator {
 public:
+    struct Lookup {
+        QByteArray context;
+        QByteArray text;
+        QByteArray comment;
+        int number = -1;
+    };
+
     bool isEmpty() const override { return false; }
-    QString translate(const char*, const char* text, const char*, int) const override
+    QString
+    translate(const char* context, const char* text, const char* comment, int number) const override
     {
+        if (!QByteArrayView(context).startsWith('Q')) { // Qt's own come with their translations
+            lookups_.insert(
+                QByteArray(context) + '\n' + text,
+                {.context = context, .text = text, .comment = comment, .number = number});
+        }
         return QStringLiteral("⟦%1⟧").arg(QString::fromUtf8(text));
     }
+    /// What was asked for in the program's own contexts.
+    QList<Lookup> lookups() const { return lookups_.values(); }
+
+private:
+    mutable QMap<QByteArray, Lookup> lookups_;
 };
 
 // The text outside all marks.
@@ -124,6 +143,24 @@ protected:
     {
         window_.reset();
         QCoreApplication::removeTranslator(&translator_);
+        expectInGerman();
+    }
+
+    // Everything that the test looked up.
+    void expectInGerman() const
+    {
+        QTranslator german;
+        if (!german.load(QStringLiteral(":/translations/marsview_de.qm"))) {
+            return; // built without Qt's LinguistTools
+        }
+        for (const MarkingTranslator::Lookup& lookup : translator_.lookups()) {
+            EXPECT_FALSE(german
+                             .translate(lookup.context.constData(), lookup.text.constData(),
+                                        lookup.comment.constData(), lookup.number)
+                             .isEmpty())
+                << lookup.context.toStdString() << ": " << lookup.text.toStdString();
+        }
+        EXPECT_GT(translator_.lookups().size(), 100);
     }
 
     void expectMarked(const QWidget& root)

@@ -6,6 +6,7 @@
 #include "ui/controllers/file_work.h"
 #include "ui/panels/annotation_list.h"
 #include "ui/panels/annotation_panel.h"
+#include "ui/text/body_text.h"
 #include "ui/window/window_actions.h"
 #include "ui/window/window_docks.h"
 
@@ -153,7 +154,7 @@ void AnnotationCommands::take(const QString& file, const Outcome& outcome)
 void AnnotationCommands::askBody(const QString& file, const Outcome& outcome)
 {
     const auto map = outcome.map.lock();
-    const QString body = QString::fromStdString(std::string(map->info().body->name));
+    const QString body = bodyInSentence(*map->info().body);
     auto* question = new QMessageBox(
         QMessageBox::Question, tr("Import Annotations"),
         //: %1 is a file, %2 a body

@@ -3,6 +3,7 @@
 #include "core/vector/feature_placement.h"
 #include "core/view/frustum.h"
 #include "ui/controllers/file_work.h"
+#include "ui/text/body_text.h"
 
 #include <QFileInfo>
 
@@ -191,7 +192,7 @@ void VectorOverlays::take(const Request& request,
     // On a map of another body an overlay is hidden without a word, unless it was asked for.
     if (request.is_asked_for && outcome.likely) {
         Q_EMIT isOnOtherBody(QString::fromStdString(request.path),
-                             QString::fromStdString(std::string(map.lock()->info().body->name)),
+                             bodyName(*map.lock()->info().body),
                              QString::fromStdString(outcome.likely->wkt()));
     } else if (outcome.problem && (request.is_asked_for || (is_first && !outcome.file))) {
         Q_EMIT failed(QString::fromStdString(outcome.problem->message));

@@ -1,5 +1,6 @@
 #include "ui/dialogs/coordinates_page.h"
 
+#include "ui/text/body_text.h"
 #include "ui/text/coordinate_text.h"
 #include "ui/text/core_text.h"
 #include "ui/widgets/coordinate_menu.h"
@@ -54,11 +55,6 @@ QString notationText(Notation notation)
     return {};
 }
 
-QString bodyText(const Body& body)
-{
-    return textFrom(body.name);
-}
-
 } // namespace
 
 CoordinatesPage::CoordinatesPage(QWidget* parent)
@@ -82,7 +78,7 @@ CoordinatesPage::CoordinatesPage(QWidget* parent)
     body_->setAccessibleName(tr("Body whose kind of latitude is chosen"));
     body_->setObjectName(QStringLiteral("latitudeBody"));
     for (const Body& body : knownBodies()) {
-        body_->addItem(bodyText(body));
+        body_->addItem(bodyName(body), textFrom(body.name));
     }
     latitudes_->setAccessibleName(tr("Kind of latitude on the body"));
     latitudes_->setObjectName(QStringLiteral("latitudeKind"));
@@ -132,7 +128,7 @@ CoordinatesPage::CoordinatesPage(QWidget* parent)
         showExamples();
     });
     connect(latitudes_, &QComboBox::currentIndexChanged, this, [this, notify] {
-        format_.setLatitudesOn(bodyNamed(body_->currentText().toStdString()),
+        format_.setLatitudesOn(bodyNamed(body_->currentData().toString().toStdString()),
                                static_cast<LatitudeKind>(latitudes_->currentData().toInt()));
         notify();
     });
@@ -152,7 +148,7 @@ void CoordinatesPage::fill(const CoordinateFormat& format)
 
 void CoordinatesPage::setBody(const Body* body)
 {
-    body_->setCurrentText(body != nullptr ? bodyText(*body) : QStringLiteral("Mars"));
+    body_->setCurrentText(bodyName(body != nullptr ? body->name : "Mars"));
 }
 
 void CoordinatesPage::addExamples(QGridLayout& grid)
@@ -174,7 +170,7 @@ void CoordinatesPage::addExamples(QGridLayout& grid)
 void CoordinatesPage::showLatitudes()
 {
     const QSignalBlocker blocker(latitudes_);
-    const Body* body = bodyNamed(body_->currentText().toStdString());
+    const Body* body = bodyNamed(body_->currentData().toString().toStdString());
     RasterInfo info;
     info.body = body;
     latitudes_->clear();
@@ -195,7 +191,7 @@ void CoordinatesPage::showLatitudes()
 void CoordinatesPage::showExamples()
 {
     RasterInfo info;
-    info.body = bodyNamed(body_->currentText().toStdString());
+    info.body = bodyNamed(body_->currentData().toString().toStdString());
     info.crs = Crs::geographic(*info.body, info.body->ellipsoid);
     for (std::size_t i = 0; i < kNotations.size(); ++i) {
         const Notation notation = kNotations[i];

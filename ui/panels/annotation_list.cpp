@@ -2,6 +2,7 @@
 
 #include "ui/controllers/annotation_controller.h"
 #include "ui/text/annotation_text.h"
+#include "ui/text/body_text.h"
 
 #include <QHeaderView>
 #include <QMenu>
@@ -37,7 +38,7 @@ void AnnotationList::fill(QTreeWidgetItem& row, const DrawnItem& drawn)
     row.setToolTip(NameColumn, locale().toString(item.time, QLocale::ShortFormat));
     row.setText(ShapeColumn, shapeText(item.shape));
     // Bodies that are not in the picture are grayed.
-    row.setText(BodyColumn, QString::fromStdString(item.body.name));
+    row.setText(BodyColumn, bodyName(item.body.name));
     const bool is_shown = controller_.isShown(item);
     const QPalette::ColorGroup group = is_shown ? QPalette::Active : QPalette::Disabled;
     for (const int column : {NameColumn, ShapeColumn, NoteColumn, BodyColumn}) {

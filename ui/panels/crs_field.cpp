@@ -1,5 +1,6 @@
 #include "ui/panels/crs_field.h"
 
+#include "ui/text/body_text.h"
 #include "ui/text/core_text.h"
 
 #include <QAbstractItemView>
@@ -123,7 +124,7 @@ void CrsField::listMatches()
         //: A coordinate reference system in a list: %1 is its name, %2 its code
         auto* item = new QStandardItem(tr("%1 (%2)").arg(textFrom(hit->name), textFrom(hit->code)));
         item->setData(textFrom(hit->code), Qt::UserRole);
-        QStringList tip{textFrom(hit->body != nullptr ? hit->body->name : std::string_view())};
+        QStringList tip{hit->body != nullptr ? bodyName(*hit->body) : QString()};
         tip.append(QString::fromStdString(hit->area));
         tip.removeAll(QString());
         item->setToolTip(tip.join(QLatin1Char('\n')));

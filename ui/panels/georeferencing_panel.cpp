@@ -3,6 +3,7 @@
 #include "core/geo/extent.h"
 #include "core/session/map.h"
 #include "ui/panels/override_form.h"
+#include "ui/text/body_text.h"
 #include "ui/text/coordinate_text.h"
 #include "ui/text/core_text.h"
 #include "ui/text/sentence.h"
@@ -259,7 +260,7 @@ void GeoreferencingPanel::addPlaceFacts(const Map& map)
     const Georeference georeference = georeferenceOf(info); // a preview's pixels are larger
     const QString unknown = tr("unknown");
     addLongFact(tr("File"), QString::fromStdString(map.spec().path));
-    addFact(tr("Body"), info.body != nullptr ? textFrom(info.body->name) : unknown);
+    addFact(tr("Body"), info.body != nullptr ? bodyName(*info.body) : unknown);
     if (info.crs && info.crs->ellipsoid()) {
         const Ellipsoid& e = *info.crs->ellipsoid();
         //: Radii of an ellipsoid

@@ -1,7 +1,7 @@
 #include "ui/panels/layer_model.h"
 
 #include "ui/controllers/session_controller.h"
-#include "ui/text/core_text.h"
+#include "ui/text/body_text.h"
 
 #include <QMimeData>
 
@@ -13,25 +13,6 @@ namespace {
 QString mimeType()
 {
     return QStringLiteral("application/x-marsview-layer");
-}
-
-QString bodyName(const Body& body)
-{
-    return textFrom(body.name);
-}
-
-// As it reads in a sentence.
-QString bodyInSentence(const Body& body)
-{
-    if (body.name == "Earth") {
-        //: A body, in "on the Earth" and "the view shows the Earth"
-        return LayerModel::tr("the Earth");
-    }
-    if (body.name == "Moon") {
-        //: A body, in "on the Moon" and "the view shows the Moon"
-        return LayerModel::tr("the Moon");
-    }
-    return bodyName(body);
 }
 
 bool hasSameIds(const Session& a, const Session& b)

@@ -2,6 +2,7 @@
 
 #include "core/session/map.h"
 #include "ui/panels/crs_field.h"
+#include "ui/text/body_text.h"
 #include "ui/text/core_text.h"
 #include "ui/text/number_text.h"
 #include "ui/text/sentence.h"
@@ -97,7 +98,7 @@ OverrideForm::OverrideForm(QWidget* parent)
     connect(crs_, &QLineEdit::textEdited, crs_field, [crs_field] { crs_field->setProblem({}); });
     body_ = addChoice(*layout, tr("&Body"), "body", OverrideField::Body);
     for (const Body& body : knownBodies()) {
-        body_->addItem(textFrom(body.name), textFrom(body.name));
+        body_->addItem(bodyName(body), textFrom(body.name));
     }
     equatorial_ =
         addEdit(*layout, tr("&Equatorial radius (m)"), "equatorial", OverrideField::Radii);
@@ -362,7 +363,7 @@ void OverrideForm::checkCrs()
         const Body* body = crs->body();
         const QString name = QString::fromStdString(crs->name());
         //: %1 is the name of a coordinate reference system, %2 the body it is on
-        field.setHint(body != nullptr ? tr("%1, on %2").arg(name, textFrom(body->name)) : name);
+        field.setHint(body != nullptr ? tr("%1, on %2").arg(name, bodyInSentence(*body)) : name);
         return;
     }
     field.setHint(searchHint());

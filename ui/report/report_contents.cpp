@@ -8,6 +8,7 @@
 #include "ui/plots/hypsometry_plot.h"
 #include "ui/plots/profile_plot.h"
 #include "ui/plots/stereonet_plot.h"
+#include "ui/text/body_text.h"
 #include "ui/text/coordinate_text.h"
 #include "ui/text/measure_text.h"
 
@@ -33,11 +34,6 @@ constexpr double kScaleShareMax = 0.38; // of the picture's width
 QString reportTr(const char* text)
 {
     return QCoreApplication::translate("Report", text);
-}
-
-QString utf8Text(std::string_view text)
-{
-    return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
 }
 
 // A drawing that is written as a file of its own.
@@ -150,7 +146,7 @@ QString bodyAndCrs(const Map& map)
     const RasterInfo& info = map.info();
     QStringList parts;
     if (info.body != nullptr) {
-        parts.append(utf8Text(info.body->name));
+        parts.append(bodyName(*info.body));
     }
     if (info.crs) {
         parts.append(QString::fromStdString(info.crs->name()));
@@ -198,8 +194,8 @@ ReportSection layersSection(const ReportSource& source)
         if (const auto range = map.heightfield().range()) {
             elevations = heightRangeText(*range, source.unit);
         }
-        if (!info.vertical_datum.empty()) {
-            elevations += QStringLiteral(" (%1)").arg(QString::fromStdString(info.vertical_datum));
+        if (const QString datum = datumText(info); !datum.isEmpty()) {
+            elevations += QStringLiteral(" (%1)").arg(datum);
         }
         table.rows.append(
             {QString::fromStdString(layer->name), bodyAndCrs(map),

@@ -278,6 +278,10 @@ QString datumText(const RasterInfo& info)
         return tr("sphere of radius %1")
             .arg(withUnit(sampleText(*info.reference_radius_m), QStringLiteral("m")));
     }
+    if (info.vertical_datum == "areoid") {
+        //: The vertical datum of Mars: a surface of equal potential
+        return tr("areoid");
+    }
     return QString::fromStdString(info.vertical_datum);
 }
 

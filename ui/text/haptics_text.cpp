@@ -2,6 +2,7 @@
 
 #include "core/geo/body.h"
 #include "haptics/trace/replay_check.h"
+#include "ui/text/body_text.h"
 #include "ui/text/contact_model_text.h"
 #include "ui/text/number_text.h"
 #include "ui/text/recording_report.h"
@@ -23,7 +24,7 @@ QString tr(const char* text)
 QString bodyText(const Ellipsoid& ellipsoid)
 {
     const Body* body = bodyOfRadius(ellipsoid.equatorial_m);
-    return body != nullptr ? QString::fromStdString(std::string(body->name)) : tr("unknown body");
+    return body != nullptr ? bodyName(*body) : tr("unknown body");
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 #include "ui/text/place_name_text.h"
 
-#include "ui/text/core_text.h"
+#include "ui/text/body_text.h"
 #include "ui/text/number_text.h"
 
 #include <QCoreApplication>
@@ -83,19 +83,6 @@ QString placeDetailText(const PlaceName& place)
     const QString size = sizeText(place.diameter_m);
     //: What a place is, and its diameter
     return kind.isEmpty() ? size : translated("%1, %2").arg(kind, size);
-}
-
-QString bodyInSentence(const Body& body)
-{
-    if (body.name == "Earth") {
-        //: A body, in "on the Earth"
-        return translated("the Earth");
-    }
-    if (body.name == "Moon") {
-        //: A body, in "on the Moon"
-        return translated("the Moon");
-    }
-    return textFrom(body.name);
 }
 
 QString outsideMapText(const PlaceName& place)

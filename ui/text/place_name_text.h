@@ -14,9 +14,6 @@ QString placeKindText(PlaceKind kind);
 /// "mountain, 610 km": what is known about a place besides its name; may be empty.
 QString placeDetailText(const PlaceName& place);
 
-/// "the Moon", "Mars": a body after "on".
-QString bodyInSentence(const Body& body);
-
 /// Why there are no names on a body, and what to do, in two lines. `body` is null if unknown.
 QString noNamesText(const Body* body);
 

@@ -1,7 +1,7 @@
 #include "ui/widgets/coordinate_menu.h"
 
+#include "ui/text/body_text.h"
 #include "ui/text/coordinate_text.h"
-#include "ui/text/core_text.h"
 
 #include <QActionGroup>
 #include <QCoreApplication>
@@ -47,7 +47,7 @@ QString usualLongitudesText(const Body* body)
         //: The range of longitudes that suits the map's body
         return menuText("As Usual on the Body");
     }
-    const QString name = textFrom(body->name);
+    const QString name = bodyName(*body);
     //: The range of longitudes that suits a body: %1 is its name, %2 the range
     return menuText("As Usual on %1 (%2)")
         .arg(name, longitudeNotationText(CoordinateFormat{}.longitudesOn(body)));
@@ -111,7 +111,7 @@ void fillCoordinateMenu(QMenu& menu,
     if (!hasKindsOfLatitude(info)) {
         return;
     }
-    const QString body = info.body != nullptr ? textFrom(info.body->name) : menuText("This Body");
+    const QString body = info.body != nullptr ? bodyName(*info.body) : menuText("This Body");
     //: A part of a menu; %1 is a body
     menu.addSection(menuText("Latitude on %1").arg(body));
     QActionGroup* latitudes = add_group();

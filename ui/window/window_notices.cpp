@@ -4,7 +4,7 @@
 #include "ui/canvas/terrain_view.h"
 #include "ui/controllers/haptics/haptics_controller.h"
 #include "ui/controllers/session_controller.h"
-#include "ui/text/core_text.h"
+#include "ui/text/body_text.h"
 #include "ui/text/haptics_text.h"
 #include "ui/text/number_text.h"
 #include "ui/text/sentence.h"
@@ -114,7 +114,7 @@ QList<Notice> WindowNotices::ofSample() const
         return {};
     }
     const Body* body = sample->map->info().body;
-    const QString name = body != nullptr ? textFrom(body->name) : QString();
+    const QString name = body != nullptr ? bodyName(*body) : QString();
     return {{.id = idOf(sample->id, QStringLiteral("sample")),
              .text = name.isEmpty()
                          ? tr("The sample map was closed to show your file")

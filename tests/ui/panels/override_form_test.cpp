@@ -239,17 +239,17 @@ TEST_F(OverrideFormTest, TheHintIsThatOfTheEnteredCrs)
         QTest::keyClicks(field("crs"), text);
     };
     enter(QStringLiteral("+proj=utm +zone=33"));
-    EXPECT_TRUE(waitFor([&] { return noteOf("crs").contains(QStringLiteral("on Earth")); }));
+    EXPECT_TRUE(waitFor([&] { return noteOf("crs").contains(QStringLiteral("on the Earth")); }));
     field("crs")->selectAll();
     QTest::keyClick(field("crs"), Qt::Key_Delete);
     EXPECT_TRUE(waitFor([&] { return noteOf("crs") == of_nothing; }))
         << noteOf("crs").toStdString();
     enter(QStringLiteral("+proj=utm +zone=33"));
-    EXPECT_TRUE(waitFor([&] { return noteOf("crs").contains(QStringLiteral("on Earth")); }));
+    EXPECT_TRUE(waitFor([&] { return noteOf("crs").contains(QStringLiteral("on the Earth")); }));
     QTest::keyClick(field("crs"), Qt::Key_Backspace);
     QTest::keyClick(field("crs"), Qt::Key_Backspace);
     QTest::keyClick(field("crs"), Qt::Key_Backspace);
-    EXPECT_TRUE(waitFor([&] { return !noteOf("crs").contains(QStringLiteral("on Earth")); }));
+    EXPECT_TRUE(waitFor([&] { return !noteOf("crs").contains(QStringLiteral("on the Earth")); }));
 }
 
 TEST_F(OverrideFormTest, FindsACrsByNameWithTheMouse)
