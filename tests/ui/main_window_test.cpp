@@ -265,9 +265,14 @@ TEST_F(MainWindowTest, ReadsTheFileAgainForAnotherNodataValue)
 
 TEST_F(MainWindowTest, LeavesTwoThirdsOfTheWidthToTheMap)
 {
-    window_->resize(1000, 700);
     ASSERT_TRUE(openAndWait(*window_, maps_.hill()));
-    EXPECT_GE(view().width() * 3, window_->width() * 2 - 30);
+    for (const QSize size : {QSize(1000, 700), QSize(1280, 800), QSize(1550, 900)}) {
+        window_->resize(size);
+        EXPECT_TRUE(QTest::qWaitFor([&] {
+            return window_->size() == size && view().width() * 3 >= size.width() * 2;
+        })) << view().width()
+            << " of " << size.width();
+    }
 }
 
 TEST_F(MainWindowTest, MayBeClosedWhileLoading)

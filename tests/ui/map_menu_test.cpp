@@ -4,7 +4,10 @@
 #include "tests/ui/map_window.h"
 #include "ui/commands/map_menu.h"
 #include "ui/commands/window_commands.h"
+#include "ui/controllers/annotation_controller.h"
+#include "ui/controllers/measure_controller.h"
 #include "ui/dialogs/place_dialog.h"
+#include "ui/panels/measure_panel.h"
 
 #include <QApplication>
 #include <QClipboard>
@@ -133,6 +136,35 @@ TEST_F(MapMenuTest, WhatIsHereDoesNotDependOnTheExaggeration)
         EXPECT_TRUE(text.contains(QStringLiteral("Sample: column 20, row 12")));
         card()->close();
     }
+}
+
+// The lower left corner of the grid of 30 m is at (500000, 4000000); the map has no CRS.
+TEST_F(MapMenuTest, MeasuresAndAnnotatesFromTheClickedPlace)
+{
+    const auto at = [&](const std::vector<DrawnVertex>& vertices, std::size_t index) {
+        return index < vertices.size()
+                   ? view().map()->georeference().toGrid(std::get<MapPoint>(vertices[index]))
+                   : GridPoint{};
+    };
+    MeasureController& measuring = *window_->measuring();
+    rightClick(placeOf({20.0, 12.0}));
+    entry("Measure Distance from Here")->trigger();
+    ASSERT_NE(measuring.current(), nullptr);
+    EXPECT_EQ(measuring.current()->kind, MeasurementKind::Distance);
+    EXPECT_NEAR(at(measuring.current()->vertices, 0).column, 20.0, 0.1);
+    EXPECT_NEAR(at(measuring.current()->vertices, 0).row, 12.0, 0.1);
+    EXPECT_TRUE(view().hasFocus()) << "Enter and Escape are for the tool";
+    // The next click goes on from there.
+    ASSERT_TRUE(waitFor([&] { return window_->measurePanel()->isVisible(); }));
+    QTest::mouseClick(&view(), Qt::LeftButton, {}, placeOf({26.0, 12.0}).toPoint());
+    EXPECT_NEAR(at(measuring.current()->vertices, 1).column, 26.0, 0.5);
+
+    AnnotationController& annotating = *window_->annotating();
+    rightClick(placeOf({22.0, 14.0}));
+    entry("Add Annotation Here")->trigger();
+    ASSERT_EQ(annotating.state().items.size(), 1U);
+    EXPECT_NEAR(at(annotating.state().items.back().vertices, 0).column, 22.0, 0.1);
+    EXPECT_NEAR(at(annotating.state().items.back().vertices, 0).row, 14.0, 0.1);
 }
 
 // Of a place in the lower right corner of the screen too.

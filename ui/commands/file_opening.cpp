@@ -14,11 +14,13 @@
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QMainWindow>
+#include <QMenu>
 #include <QMimeData>
 #include <QSettings>
 #include <QUrl>
 
 #include <algorithm>
+#include <array>
 
 namespace marsview {
 namespace {
@@ -27,6 +29,18 @@ QString folderKey()
 {
     return QStringLiteral("files/folder");
 }
+
+struct BundledMap {
+    const char* file;
+    const char* title;
+};
+
+constexpr std::array kBundledMaps{
+    BundledMap{"mars_mola_4ppd.tif",
+               QT_TRANSLATE_NOOP("marsview::FileOpening", "&Mars, Global (MOLA, 15 km)")},
+    BundledMap{"mount_st_helens_30m.tif",
+               QT_TRANSLATE_NOOP("marsview::FileOpening", "Mount &St. Helens, Earth (30 m)")},
+};
 
 } // namespace
 
@@ -59,6 +73,7 @@ FileOpening::FileOpening(const Parts& parts)
     connect(parts_.actions.open_folder, &QAction::triggered, this, &FileOpening::chooseFolder);
     connect(parts_.actions.open_address, &QAction::triggered, this, &FileOpening::chooseAddress);
     connect(recent_, &RecentFiles::chosen, this, [this](const QString& file) { open({file}); });
+    fillBundledMaps();
     connect(&parts_.session, &SessionController::opened, this, &FileOpening::remember);
 }
 
@@ -89,8 +104,30 @@ void FileOpening::openMaps(QStringList maps)
     parts_.projects.open(file, maps);
 }
 
+void FileOpening::fillBundledMaps()
+{
+    QMenu& menu = *parts_.actions.bundled;
+    for (const BundledMap& map : kBundledMaps) {
+        const QString file = QDir(parts_.bundled_maps).filePath(QString::fromLatin1(map.file));
+        if (!parts_.bundled_maps.isEmpty() && QFileInfo::exists(file)) {
+            connect(menu.addAction(tr(map.title)), &QAction::triggered, this,
+                    [this, file] { open({file}); });
+        }
+    }
+    menu.menuAction()->setVisible(!menu.isEmpty());
+}
+
+bool FileOpening::isBundled(const QString& file) const
+{
+    return !parts_.bundled_maps.isEmpty() &&
+           QFileInfo(file).absolutePath() == QFileInfo(parts_.bundled_maps).absoluteFilePath();
+}
+
 void FileOpening::remember(const QString& file)
 {
+    if (isBundled(file)) {
+        return; // has its own menu, and its folder is the program's
+    }
     recent_->add(file);
     if (isAddress(file)) {
         return;

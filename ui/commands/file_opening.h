@@ -32,6 +32,7 @@ public:
         ProjectMenu& projects;
         VectorTools& vector_files;
         bool is_remembered = false; // recent files and the last folder
+        QString bundled_maps{};     // their folder; empty: none
     };
 
     explicit FileOpening(const Parts& parts);
@@ -49,6 +50,8 @@ public:
 private:
     static QStringList rasterFilters();
     void openMaps(QStringList maps);
+    void fillBundledMaps();
+    bool isBundled(const QString& file) const;
     void remember(const QString& file);
 
     Parts parts_;

@@ -15,10 +15,11 @@
 
 namespace marsview {
 
-MapMenu::MapMenu(TerrainView& view, Reader read)
+MapMenu::MapMenu(TerrainView& view, Reader read, Beginnings begin)
     : QObject(&view)
     , view_(view)
     , read_(std::move(read))
+    , begin_(std::move(begin))
 {
     connect(&view, &TerrainView::menuRequested, this, &MapMenu::open);
 }
@@ -56,6 +57,11 @@ void MapMenu::open(QPointF position)
     add(tr("&Fly Here"), "fly", hit.has_value(), [this, hit] { view_.flyNearer(*hit); });
     add(tr("Ce&nter Here"), "center", hit.has_value(),
         [this, hit] { view_.flyTo(hit->grid, 0.0); });
+    menu_->addSeparator();
+    add(tr("Measure &Distance from Here"), "measure", hit.has_value(),
+        [this, hit] { begin_.measure(hit->grid); });
+    add(tr("&Add Annotation Here"), "annotate", hit.has_value(),
+        [this, hit] { begin_.annotate(hit->grid); });
     menu_->addSeparator();
     const QPoint at = view_.mapToGlobal(position).toPoint();
     add(tr("&What Is Here…"), "identify", ground.has_value(),

@@ -25,7 +25,13 @@ public:
     /// Facts of a place of the terrain; asked while the menu or a card is open.
     using Reader = std::function<PlaceFacts(const GroundPoint&)>;
 
-    MapMenu(TerrainView& view, Reader read);
+    /// What begins at a place of the topmost map's grid.
+    struct Beginnings {
+        std::function<void(GridPoint)> measure;
+        std::function<void(GridPoint)> annotate;
+    };
+
+    MapMenu(TerrainView& view, Reader read, Beginnings begin);
 
     /// The menu and the card that are open; null for none.
     QMenu* menu() const;
@@ -37,6 +43,7 @@ private:
 
     TerrainView& view_;
     Reader read_;
+    Beginnings begin_;
     QPointer<QMenu> menu_;
     QPointer<PlaceDialog> card_;
 };

@@ -31,8 +31,18 @@ namespace marsview {
 
 PlaceCommands::PlaceCommands(const Parts& parts)
     : parts_(parts)
-    , map_menu_(
-          new MapMenu(parts.view, [this](const GroundPoint& ground) { return factsAt(ground); }))
+    , map_menu_(new MapMenu(parts.view,
+                            [this](const GroundPoint& ground) { return factsAt(ground); },
+                            {.measure =
+                                 [this](GridPoint grid) {
+                                     parts_.measuring.begin(MeasurementKind::Distance);
+                                     parts_.measuring.addPointAt(grid);
+                                 },
+                             .annotate =
+                                 [this](GridPoint grid) {
+                                     parts_.annotating.begin(FeatureShape::Point);
+                                     parts_.annotating.addPointAt(grid);
+                                 }}))
 {
     const WindowActions& actions = parts_.actions;
     connect(actions.go_to_place, &QAction::triggered, this, &PlaceCommands::goToPlace);

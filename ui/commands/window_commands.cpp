@@ -102,7 +102,8 @@ WindowCommands::WindowCommands(const WindowParts& parts, const WindowOptions& op
              .session = parts.session,
              .projects = project_menu,
              .vector_files = vector_files,
-             .is_remembered = options.isRemembered()})
+             .is_remembered = options.isRemembered(),
+             .bundled_maps = QString::fromStdString(options.bundled_maps.string())})
     , view({.window = parts.window,
             .actions = parts.actions,
             .view = parts.view,

@@ -22,6 +22,7 @@ void setIcons(const WindowActions& actions)
              std::pair{actions.open_names, "names"},
              std::pair{actions.find_name, "find"},
              std::pair{actions.recent->menuAction(), "recent"},
+             std::pair{actions.bundled->menuAction(), "globe"},
              std::pair{actions.save_picture, "save-picture"},
              std::pair{actions.cancel_loading, "cancel"},
              std::pair{actions.preferences, "preferences"},

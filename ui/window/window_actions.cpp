@@ -170,6 +170,7 @@ void WindowActions::makeFileMenu(QMainWindow& window)
     open_vector->setToolTip(tr("Draw points, lines and polygons of a file on the terrain"));
     open_vector->setEnabled(false);
     recent = menu->addMenu(tr("Open &Recent"));
+    bundled = menu->addMenu(tr("Open &Bundled Map"));
     menu->addSeparator();
     save_picture = menu->addAction(tr("Save &Picture…"));
     save_picture->setShortcut(QKeySequence(Qt::CTRL | Qt::Key_P));

@@ -35,6 +35,7 @@ struct WindowActions {
     QAction* open_vector = nullptr;
     QMenu* vector_files = nullptr; // open ones
     QMenu* recent = nullptr;       // filled by RecentFiles
+    QMenu* bundled = nullptr;      // filled by FileOpening
     QAction* save_picture = nullptr;
     QAction* cancel_loading = nullptr;
     QAction* stop_preparing = nullptr;

@@ -6,6 +6,7 @@
 #include <QMainWindow>
 #include <QScopedValueRollback>
 #include <QSettings>
+#include <QStyle>
 
 #include <algorithm>
 #include <array>
@@ -15,7 +16,8 @@ namespace {
 
 constexpr int kStateVersion = 3; // of saveState(); raise when docks or toolbars change meaning
 
-constexpr int kDockShareOfWidth = 3;
+constexpr int kDockShareOfWidth = 3;      // for the panels of both sides
+constexpr int kDockShareOfWidthAlone = 4; // for those of one side
 constexpr int kDockWidthMin = 200;
 constexpr int kDockWidthMax = 300;
 
@@ -171,7 +173,9 @@ void WindowDocks::fit()
     std::array<Dock*, 4> by_turn = all();
     std::stable_sort(by_turn.begin(), by_turn.end(),
                      [](const Dock* a, const Dock* b) { return a->turn > b->turn; });
-    const int width_max = window_.width() / kDockShareOfWidth;
+    const int separator =
+        window_.style()->pixelMetric(QStyle::PM_DockWidgetSeparatorExtent, nullptr, &window_);
+    const int width_max = window_.width() / kDockShareOfWidth - 2 * separator; // of all panels
     // Each side that is in use takes its width once, however many panels are on it.
     bool is_left_used = false;
     bool is_right_used = false;
@@ -193,7 +197,9 @@ void WindowDocks::fit()
             sides = sides_with_it;
         }
     }
-    const int width = std::clamp(width_max / std::max(1, sides), kDockWidthMin, kDockWidthMax);
+    const int width = std::clamp(
+        std::min(width_max / std::max(1, sides), window_.width() / kDockShareOfWidthAlone),
+        kDockWidthMin, kDockWidthMax);
     QList<QDockWidget*> docked;
     QList<int> widths;
     for (Dock* dock : by_turn) {

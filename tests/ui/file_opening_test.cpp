@@ -1,0 +1,48 @@
+// The maps that come with the program, opened from their menu.
+
+#include "tests/support/shared_data.h"
+#include "tests/ui/map_window.h"
+#include "ui/commands/file_opening.h"
+#include "ui/commands/window_commands.h"
+#include "ui/controllers/recent_files.h"
+#include "ui/window/window_actions.h"
+
+#include <QAction>
+#include <QMenu>
+
+#include <gtest/gtest.h>
+
+namespace marsview {
+namespace {
+
+class FileOpeningTest : public MapWindowTest {
+protected:
+    const QMenu& bundled() { return *window_->actionSet().bundled; }
+};
+
+TEST_F(FileOpeningTest, BundledMapsOpenFromTheirMenuAndAreNoRecentFiles)
+{
+    WindowOptions options = testWindowOptions();
+    options.bundled_maps = test::bundledSamples();
+    makeWindow(kSmall, options);
+    ASSERT_TRUE(bundled().menuAction()->isVisible());
+    ASSERT_EQ(bundled().actions().size(), 2);
+    for (QAction* action : bundled().actions()) {
+        const std::size_t before = window_->session().layers.size();
+        action->trigger();
+        ASSERT_TRUE(waitFor([&] { return window_->session().layers.size() == before + 1; }));
+    }
+    // The last one opened lies on top.
+    EXPECT_EQ(window_->session().layers.back().name, "mars_mola_4ppd.tif");
+    EXPECT_EQ(window_->session().layers.front().name, "mount_st_helens_30m.tif");
+    EXPECT_TRUE(window_->commands().files.recentFiles()->files().isEmpty());
+}
+
+TEST_F(FileOpeningTest, AProgramWithoutItsMapsHasNoMenuOfThem)
+{
+    makeWindow(kSmall);
+    EXPECT_FALSE(bundled().menuAction()->isVisible());
+}
+
+} // namespace
+} // namespace marsview
