@@ -1,5 +1,6 @@
 #include "ui/widgets/scroll_area.h"
 
+#include <QApplication>
 #include <QScrollArea>
 
 namespace marsview {
@@ -10,6 +11,14 @@ QScrollArea* makeScrollArea(QWidget* parent)
     scroll->setWidgetResizable(true);
     scroll->setFrameShape(QFrame::NoFrame);
     scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    // By itself it does so for the Tab key only. What is being clicked stays under the pointer.
+    QObject::connect(qApp, &QApplication::focusChanged, scroll,
+                     [scroll](const QWidget*, QWidget* now) {
+                         if (now != nullptr && scroll->isAncestorOf(now) &&
+                             QGuiApplication::mouseButtons() == Qt::NoButton) {
+                             scroll->ensureWidgetVisible(now);
+                         }
+                     });
     return scroll;
 }
 
