@@ -8,6 +8,7 @@
 #include "ui/controllers/annotation_controller.h"
 #include "ui/controllers/haptics/haptics_controller.h"
 #include "ui/controllers/measure_controller.h"
+#include "ui/drawing/name_field.h"
 #include "ui/globe/globe_view.h"
 #include "ui/overlay/annotation_marks.h"
 #include "ui/overlay/globe_overlays.h"
@@ -261,9 +262,10 @@ void MainWindow::connectSession()
 
 void MainWindow::placeMarks()
 {
+    auto* name_field = new NameField(*annotate_, *view_);
     for (DrawnMarks* marks :
          {static_cast<DrawnMarks*>(measure_marks_), static_cast<DrawnMarks*>(annotation_marks_)}) {
-        marks->setObstacles(overlays_->plates());
+        marks->setObstacles(overlays_->plates() << name_field);
         marks->lower();
     }
     annotation_marks_->setNeighbor(*measure_marks_);

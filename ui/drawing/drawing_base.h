@@ -26,6 +26,10 @@ public:
     virtual std::shared_ptr<const void> drawnSnapshot() const = 0;
     /// 0: none.
     virtual std::uint32_t currentId() const = 0;
+    /// Null if there is none.
+    virtual const DrawnItem* itemOf(std::uint32_t id) const = 0;
+    /// Where the name of an item belongs, in the view; empty if it is not in the picture.
+    virtual std::optional<QPointF> namePlace(std::uint32_t id) const = 0;
     virtual void select(std::uint32_t id) = 0;
     virtual void rename(std::uint32_t id, const QString& name) = 0;
     virtual void setNote(std::uint32_t id, const QString& note) = 0;
@@ -43,6 +47,8 @@ public:
 Q_SIGNALS:
     /// Items or the selection.
     void changed();
+    /// The user has set the last point of an item.
+    void placed(std::uint32_t id);
     /// What is on the screen moved: handles and labels.
     void moved();
 };

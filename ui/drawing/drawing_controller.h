@@ -69,7 +69,7 @@ public:
 
     const State& state() const noexcept { return state_; }
     const Item* current() const { return itemOf(state_.current); }
-    const Item* itemOf(std::uint32_t id) const { return state_.items.find(id); }
+    const Item* itemOf(std::uint32_t id) const override { return state_.items.find(id); }
     const Layer* layerOf(const DrawnItem& item) const
     {
         return marsview::layerOf(session_, item.layer);
@@ -191,17 +191,10 @@ public:
     }
     void finish()
     {
-        State state = state_;
-        Item* item = editable(state, state.current);
-        if (item == nullptr || item->is_finished) {
-            return;
+        const std::uint32_t id = state_.current;
+        if (endCurrent()) {
+            Q_EMIT placed(id);
         }
-        if (!item->isComplete()) {
-            remove(item->id);
-            return;
-        }
-        item->is_finished = true;
-        setState(std::move(state)); // with the last point, not a step of undo of its own
     }
     /// Moves a point to a typed place. Ignored where the item has no such point.
     void movePoint(std::uint32_t id, std::size_t index, const DrawnVertex& vertex)
@@ -238,6 +231,18 @@ public:
             camera.distance_m = kDistanceShare * extent_m;
         }
         view_.flyTo(camera);
+    }
+
+    std::optional<QPointF> namePlace(std::uint32_t id) const override
+    {
+        const Item* item = itemOf(id);
+        if (item == nullptr || item->vertices.empty() || !isShown(*item)) {
+            return std::nullopt;
+        }
+        // In the middle of a line or border, where it does not hide an end.
+        const std::size_t index = item->isSingle() ? 0 : item->vertices.size() / 2;
+        const auto place = geometry_.screenPoint(item->vertices[index]);
+        return place && QRectF(view_.rect()).contains(*place) ? place : std::nullopt;
     }
 
     std::vector<DrawnHandle> handles() const override
@@ -429,7 +434,7 @@ protected:
     void finishCurrent()
     {
         if (const Item* item = current(); item != nullptr && !item->is_finished) {
-            finish();
+            endCurrent(); // something else has begun
         }
     }
     Rgb8 colorOf(const Item& item) const
@@ -451,6 +456,23 @@ protected:
     const Session& session() const noexcept { return session_; }
 
 private:
+    // True if the current item is finished now, false if it was, or lacks points and is removed.
+    bool endCurrent()
+    {
+        State state = state_;
+        Item* item = editable(state, state.current);
+        if (item == nullptr || item->is_finished) {
+            return false;
+        }
+        if (!item->isComplete()) {
+            remove(item->id);
+            return false;
+        }
+        item->is_finished = true;
+        setState(std::move(state)); // with the last point, not a step of undo of its own
+        return true;
+    }
+
     // Between two states.
     class Command final : public QUndoCommand {
     public:
@@ -634,7 +656,12 @@ private:
         item->is_finished = item->isSingle();
         //: A step of undo; %1 is a name
         const QString step = text(QT_TRANSLATE_NOOP("Drawing", "Add Point to %1")).arg(item->name);
+        const std::uint32_t id = item->id;
+        const bool is_placed = item->is_finished;
         push(std::move(state), step);
+        if (is_placed) {
+            Q_EMIT placed(id);
+        }
     }
 
     // The tool --------------------------------------------------------------------------------
