@@ -547,6 +547,52 @@
         <source>Aspect</source>
         <translation>Exposition</translation>
     </message>
+    <message>
+        <source>no data</source>
+        <extracomment>In place of a number: the terrain has no data there</extracomment>
+        <translation>keine Daten</translation>
+    </message>
+    <message>
+        <source>Leg %1</source>
+        <translation>Abschnitt %1</translation>
+    </message>
+    <message>
+        <source>%1 toward %2</source>
+        <translation>%1 nach %2</translation>
+    </message>
+    <message>
+        <source>The border crosses itself</source>
+        <translation>Der Rand kreuzt sich selbst</translation>
+    </message>
+    <message>
+        <source>⌀ %1</source>
+        <extracomment>A diameter</extracomment>
+        <translation>⌀ %1</translation>
+    </message>
+    <message>
+        <source>Distance</source>
+        <translation>Entfernung</translation>
+    </message>
+    <message>
+        <source>Profile</source>
+        <translation>Profil</translation>
+    </message>
+    <message>
+        <source>Area and Volume</source>
+        <translation>Fläche und Volumen</translation>
+    </message>
+    <message>
+        <source>Strike and Dip</source>
+        <translation>Streichen und Fallen</translation>
+    </message>
+    <message>
+        <source>Crater</source>
+        <translation>Krater</translation>
+    </message>
+    <message>
+        <source>Elevation and Slope</source>
+        <translation>Höhe und Neigung</translation>
+    </message>
 </context>
 <context>
     <name>NumberText</name>
@@ -3725,6 +3771,31 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
         <source>Remove All Measurements</source>
         <translation>Alle Messungen entfernen</translation>
     </message>
+    <message>
+        <source>Distance %1</source>
+        <translation>Entfernung %1</translation>
+    </message>
+    <message>
+        <source>Profile %1</source>
+        <translation>Profil %1</translation>
+    </message>
+    <message>
+        <source>Area %1</source>
+        <translation>Fläche %1</translation>
+    </message>
+    <message>
+        <source>Attitude %1</source>
+        <extracomment>Strike and dip of a plane</extracomment>
+        <translation>Lagerung %1</translation>
+    </message>
+    <message>
+        <source>Crater %1</source>
+        <translation>Krater %1</translation>
+    </message>
+    <message>
+        <source>Point %1</source>
+        <translation>Punkt %1</translation>
+    </message>
 </context>
 <context>
     <name>marsview::MeasureList</name>
@@ -3958,6 +4029,17 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
         <source>%1 — %2</source>
         <extracomment>A place in a list: its name, then its kind and size</extracomment>
         <translation>%1 — %2</translation>
+    </message>
+</context>
+<context>
+    <name>marsview::NameField</name>
+    <message>
+        <source>Name of the new annotation</source>
+        <translation>Name der neuen Anmerkung</translation>
+    </message>
+    <message>
+        <source>Enter keeps the name, Esc the usual one</source>
+        <translation>Die Eingabetaste übernimmt den Namen, Esc lässt den üblichen</translation>
     </message>
 </context>
 <context>

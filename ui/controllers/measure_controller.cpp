@@ -1,7 +1,5 @@
 #include "ui/controllers/measure_controller.h"
 
-#include <QCoreApplication>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -11,29 +9,6 @@ namespace {
 
 constexpr std::size_t kCirclePositions = 180;
 constexpr double kSymbolPoints = 26.0; // half the length of the strike line on the screen
-
-QString kindName(MeasurementKind kind)
-{
-    const auto tr = [](const char* text) {
-        return QCoreApplication::translate("MeasureController", text);
-    };
-    switch (kind) {
-    case MeasurementKind::Distance:
-        return tr(QT_TRANSLATE_NOOP("MeasureController", "Distance"));
-    case MeasurementKind::Profile:
-        return tr(QT_TRANSLATE_NOOP("MeasureController", "Profile"));
-    case MeasurementKind::Area:
-        return tr(QT_TRANSLATE_NOOP("MeasureController", "Area"));
-    case MeasurementKind::Attitude:
-        //: Strike and dip of a plane
-        return tr(QT_TRANSLATE_NOOP("MeasureController", "Attitude"));
-    case MeasurementKind::Crater:
-        return tr(QT_TRANSLATE_NOOP("MeasureController", "Crater"));
-    case MeasurementKind::Slope:
-        break;
-    }
-    return tr(QT_TRANSLATE_NOOP("MeasureController", "Point"));
-}
 
 } // namespace
 
@@ -85,8 +60,28 @@ MeasureItem MeasureController::newItem(std::uint32_t id) const
 {
     MeasureItem item;
     item.kind = kind_;
-    item.name = QStringLiteral("%1 %2").arg(kindName(kind_)).arg(id);
+    item.name = nameOf(kind_, id);
     return item;
+}
+
+QString MeasureController::nameOf(MeasurementKind kind, std::uint32_t number)
+{
+    switch (kind) {
+    case MeasurementKind::Distance:
+        return tr("Distance %1").arg(number);
+    case MeasurementKind::Profile:
+        return tr("Profile %1").arg(number);
+    case MeasurementKind::Area:
+        return tr("Area %1").arg(number);
+    case MeasurementKind::Attitude:
+        //: Strike and dip of a plane
+        return tr("Attitude %1").arg(number);
+    case MeasurementKind::Crater:
+        return tr("Crater %1").arg(number);
+    case MeasurementKind::Slope:
+        break;
+    }
+    return tr("Point %1").arg(number);
 }
 
 bool MeasureController::isShown(const MeasureItem& item) const

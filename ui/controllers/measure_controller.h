@@ -99,6 +99,7 @@ private:
     struct Job;
 
     MeasureItem newItem(std::uint32_t id) const override;
+    static QString nameOf(MeasurementKind kind, std::uint32_t number);
     bool isShown(const MeasureItem& item) const override;
     std::vector<GroundPosition> cornersOf(const MeasureItem& item,
                                           const std::optional<GroundPosition>& next) const override;

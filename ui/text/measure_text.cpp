@@ -14,7 +14,8 @@ namespace {
 constexpr double kKilometersFrom = 1000.0;
 constexpr int kDigits = 4; // significant
 
-QString tr(const char* text)
+// Not named tr(): lupdate would look for texts in its arguments only.
+QString measureTr(const char* text)
 {
     return QCoreApplication::translate("Measure", text);
 }
@@ -22,7 +23,7 @@ QString tr(const char* text)
 QString missing()
 {
     //: In place of a number: the terrain has no data there
-    return tr(QT_TRANSLATE_NOOP("Measure", "no data"));
+    return measureTr(QT_TRANSLATE_NOOP("Measure", "no data"));
 }
 
 QString withDigits(double value, const QString& unit)
@@ -56,7 +57,10 @@ public:
         : unit_(unit)
     {}
 
-    void add(const char* label, const QString& value) { rows_.push_back({tr(label), value}); }
+    void add(const char* label, const QString& value)
+    {
+        rows_.push_back({measureTr(label), value});
+    }
     void addLength(const char* label, double value) { add(label, measuredLengthText(value)); }
     void addElevation(const char* label, double value) { add(label, elevationText(value, unit_)); }
     void addAngle(const char* label, double degrees) { add(label, measuredAngleText(degrees)); }
@@ -78,8 +82,8 @@ public:
         for (std::size_t i = 0; i < distance.legs.size(); ++i) {
             const LegDistance& leg = distance.legs[i];
             rows_.push_back(
-                {tr(QT_TRANSLATE_NOOP("Measure", "Leg %1")).arg(i + 1),
-                 tr(QT_TRANSLATE_NOOP("Measure", "%1 toward %2"))
+                {measureTr(QT_TRANSLATE_NOOP("Measure", "Leg %1")).arg(i + 1),
+                 measureTr(QT_TRANSLATE_NOOP("Measure", "%1 toward %2"))
                      .arg(measuredLengthText(leg.geodesic_m), measuredAngleText(leg.azimuth_deg))});
         }
     }
@@ -119,7 +123,7 @@ public:
         }
         if (area.crosses_itself) {
             add(QT_TRANSLATE_NOOP("Measure", "Note"),
-                tr(QT_TRANSLATE_NOOP("Measure", "The border crosses itself")));
+                measureTr(QT_TRANSLATE_NOOP("Measure", "The border crosses itself")));
         }
     }
     void operator()(const Attitude& attitude)
@@ -186,7 +190,8 @@ struct Summary {
     QString operator()(const Crater& crater) const
     {
         //: A diameter
-        return tr(QT_TRANSLATE_NOOP("Measure", "⌀ %1")).arg(measuredLengthText(crater.diameter_m));
+        return measureTr(QT_TRANSLATE_NOOP("Measure", "⌀ %1"))
+            .arg(measuredLengthText(crater.diameter_m));
     }
     QString operator()(const std::vector<TerrainSlope>& slopes) const
     {
@@ -216,19 +221,19 @@ QString measurementName(MeasurementKind kind)
 {
     switch (kind) {
     case MeasurementKind::Distance:
-        return tr(QT_TRANSLATE_NOOP("Measure", "Distance"));
+        return measureTr(QT_TRANSLATE_NOOP("Measure", "Distance"));
     case MeasurementKind::Profile:
-        return tr(QT_TRANSLATE_NOOP("Measure", "Profile"));
+        return measureTr(QT_TRANSLATE_NOOP("Measure", "Profile"));
     case MeasurementKind::Area:
-        return tr(QT_TRANSLATE_NOOP("Measure", "Area and Volume"));
+        return measureTr(QT_TRANSLATE_NOOP("Measure", "Area and Volume"));
     case MeasurementKind::Attitude:
-        return tr(QT_TRANSLATE_NOOP("Measure", "Strike and Dip"));
+        return measureTr(QT_TRANSLATE_NOOP("Measure", "Strike and Dip"));
     case MeasurementKind::Crater:
-        return tr(QT_TRANSLATE_NOOP("Measure", "Crater"));
+        return measureTr(QT_TRANSLATE_NOOP("Measure", "Crater"));
     case MeasurementKind::Slope:
         break;
     }
-    return tr(QT_TRANSLATE_NOOP("Measure", "Elevation and Slope"));
+    return measureTr(QT_TRANSLATE_NOOP("Measure", "Elevation and Slope"));
 }
 
 QString measuredLengthText(double length_m)
