@@ -149,12 +149,19 @@ measured(const Measurement& measurement, const Map& map, MeasureDetail detail, J
             terrain = measuredTerrain(map, level);
         }
     }
+    std::vector<double> elevations_m;
+    for (const GroundPosition& position : *positions) {
+        elevations_m.push_back(terrain.elevation(position));
+    }
     Result<MeasuredValues> values = valuesOf(measurement, map, terrain, *positions, monitor);
     if (!values && values.error().code == ErrorCode::Canceled) {
         return nullptr;
     }
-    return std::make_shared<const MeasurementResult>(MeasurementResult{
-        .map = map.spec(), .values = std::move(values), .is_approximate = terrain.isApproximate()});
+    return std::make_shared<const MeasurementResult>(
+        MeasurementResult{.map = map.spec(),
+                          .values = std::move(values),
+                          .is_approximate = terrain.isApproximate(),
+                          .elevations_m = std::move(elevations_m)});
 }
 
 bool isCurrent(const Measurement& measurement, const Map& map)

@@ -35,7 +35,8 @@ using MeasuredValues =
 struct MeasurementResult {
     RasterSpec map; // with its overrides
     Result<MeasuredValues> values;
-    bool is_approximate = false; // of a coarser level or a preview
+    bool is_approximate = false;        // of a coarser level or a preview
+    std::vector<double> elevations_m{}; // of the vertices; NaN where there is no terrain
 };
 
 /// A value; copies share the result. Whoever holds it may be any thread.

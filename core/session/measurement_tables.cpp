@@ -3,6 +3,8 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <iterator>
+#include <limits>
+#include <variant>
 
 namespace marsview {
 namespace {
@@ -33,6 +35,38 @@ MapPoint tablePosition(const NamedMeasurement& measurement, GroundPosition posit
         return {position.x, position.y};
     }
     return {position.x, ellipsoid->planetocentric(Angle::degrees(position.y)).degrees()};
+}
+
+MapPoint tablePosition(const NamedMeasurement& measurement, const MeasuredVertex& vertex)
+{
+    const auto* point = std::get_if<GeographicPoint>(&vertex);
+    const auto ellipsoid = measurement.crs ? measurement.crs->ellipsoid() : std::nullopt;
+    if (point == nullptr) {
+        return std::get<MapPoint>(vertex);
+    }
+    const MapPoint centric{point->longitude.degrees(), point->latitude.degrees()};
+    const Body* const body = measurement.crs ? measurement.crs->body() : nullptr;
+    const bool is_planetographic =
+        body != nullptr && body->latitude == LatitudeKind::Planetographic;
+    return ellipsoid && is_planetographic
+               ? MapPoint{centric.x, ellipsoid->planetographic(point->latitude).degrees()}
+               : centric;
+}
+
+std::string pointsText(const NamedMeasurement& measurement)
+{
+    const auto& vertices = measurement.measurement.vertices;
+    const auto& result = measurement.measurement.result;
+    std::string text;
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        const MapPoint place = tablePosition(measurement, vertices[i]);
+        const double elevation_m = result && i < result->elevations_m.size()
+                                       ? result->elevations_m[i]
+                                       : std::numeric_limits<double>::quiet_NaN();
+        fmt::format_to(std::back_inserter(text), "{}{} {} {}", i > 0 ? "; " : "", digits(place.x),
+                       digits(place.y), digits(elevation_m));
+    }
+    return text;
 }
 
 std::string csvField(const std::string& text)

@@ -13,6 +13,11 @@ namespace marsview {
 /// Longitude east and latitude in degrees, as maps of the body have them: planetocentric, on the
 /// Earth planetographic. x and y on a map without a body.
 MapPoint tablePosition(const NamedMeasurement& measurement, GroundPosition position);
+MapPoint tablePosition(const NamedMeasurement& measurement, const MeasuredVertex& vertex);
+
+/// "226.2 18.65 21171; 230 20 -1043": the vertices with their positions as above and elevations in
+/// meters, in full; "nan" without terrain.
+std::string pointsText(const NamedMeasurement& measurement);
 
 /// The points of a profile: distance_m, lon, lat and elevation_m, with full precision; "nan" in
 /// gaps. Only the header without such a result.

@@ -593,6 +593,23 @@
         <source>Elevation and Slope</source>
         <translation>Höhe und Neigung</translation>
     </message>
+    <message>
+        <source>Position</source>
+        <translation>Position</translation>
+    </message>
+    <message>
+        <source>Point %1</source>
+        <extracomment>%1 is a number</extracomment>
+        <translation>Punkt %1</translation>
+    </message>
+    <message>
+        <source>%1, %2</source>
+        <translation>%1, %2</translation>
+    </message>
+    <message>
+        <source>Center</source>
+        <translation>Mitte</translation>
+    </message>
 </context>
 <context>
     <name>NumberText</name>
@@ -1020,6 +1037,18 @@
     <message>
         <source>Area by classes of elevation (bars), and the share of the area that lies above an elevation (line)</source>
         <translation>Fläche nach Höhenklassen (Balken) und der Anteil der Fläche, der über einer Höhe liegt (Linie)</translation>
+    </message>
+    <message>
+        <source>Point</source>
+        <translation>Punkt</translation>
+    </message>
+    <message>
+        <source>Position</source>
+        <translation>Position</translation>
+    </message>
+    <message>
+        <source>Elevation</source>
+        <translation>Höhe</translation>
     </message>
 </context>
 <context>

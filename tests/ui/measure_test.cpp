@@ -387,6 +387,56 @@ TEST_F(MeasureTest, PointsCanBeTypedAsCoordinates)
     EXPECT_EQ(measuring().current()->vertices.size(), 1U);
 }
 
+// The elevation of the map is 20 m for each of its columns of 0.25°, from −300 m at 10.125° E.
+TEST_F(MeasureTest, ResultsListThePointsInTheFormatOfThePreferences)
+{
+    measuring().begin(MeasurementKind::Profile);
+    const Georeference& georeference = view().map()->georeference();
+    for (const auto& [longitude, latitude] : {std::pair(12.0, 18.5), {17.5, 14.25}}) {
+        measuring().addPointAt(*georeference.toGrid(
+            GeographicPoint{Angle::degrees(longitude), Angle::degrees(latitude)}));
+    }
+    measuring().finish();
+    ASSERT_TRUE(isMeasured());
+    EXPECT_TRUE(
+        panel().resultsText().endsWith(QStringLiteral("\nPoint 1\t18.50° N, 12.00° E, −150.0 m"
+                                                      "\nPoint 2\t14.25° N, 17.50° E, 290.0 m")))
+        << qPrintable(panel().resultsText());
+    panel().copyResults();
+    EXPECT_EQ(QGuiApplication::clipboard()->text(), panel().resultsText());
+    Preferences preferences = window_->preferences();
+    preferences.coordinates.angles = AngleNotation::DegreesMinutesSeconds;
+    preferences.height_unit = HeightUnit::Feet;
+    window_->setPreferences(preferences);
+    EXPECT_TRUE(panel().resultsText().contains(QStringLiteral("\nPoint 2\t14° 15′ ")));
+    EXPECT_TRUE(panel().resultsText().endsWith(QStringLiteral(", 951.4 ft"))) << "290 / 0.3048";
+    // In files every number is in full.
+    const QString path = maps_.path(QStringLiteral("table.csv"));
+    ASSERT_EQ(panel().writeTable(path), QString());
+    QFile file(path);
+    ASSERT_TRUE(file.open(QIODevice::ReadOnly));
+    const QString table = QString::fromUtf8(file.readAll());
+    const QString points = table.section(QLatin1Char('\n'), 1).section(QLatin1Char(','), -1);
+    const QStringList last =
+        points.trimmed().split(QStringLiteral("; ")).last().split(QLatin1Char(' '));
+    ASSERT_EQ(last.size(), 3) << qPrintable(table);
+    EXPECT_NEAR(last[0].toDouble(), 17.5, 1e-9);
+    EXPECT_NEAR(last[1].toDouble(), 14.25, 1e-9);
+    EXPECT_NEAR(last[2].toDouble(), 290.0, 1e-6);
+    // A crater has its center.
+    measuring().begin(MeasurementKind::Crater);
+    for (const auto& [longitude, latitude] :
+         {std::pair(14.0, 18.0), {16.0, 18.0}, {15.0, 17.1}, {15.0, 18.9}}) {
+        measuring().addPointAt(*georeference.toGrid(
+            GeographicPoint{Angle::degrees(longitude), Angle::degrees(latitude)}));
+    }
+    measuring().finish();
+    ASSERT_TRUE(isMeasured());
+    EXPECT_TRUE(panel().resultsText().contains(QStringLiteral("\nCenter\t18° 00′ ")))
+        << qPrintable(panel().resultsText());
+    EXPECT_TRUE(panel().resultsText().contains(QStringLiteral("\nPoint 4\t18° 54′ ")));
+}
+
 TEST_F(MeasureTest, CratersInAnAreaAreSavedAsACount)
 {
     ASSERT_NO_FATAL_FAILURE(choose(MeasurementKind::Crater));

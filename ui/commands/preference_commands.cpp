@@ -70,6 +70,7 @@ void PreferenceCommands::set(const Preferences& preferences)
     parts_.stretch.setHeightUnit(preferences.height_unit);
     parts_.measure_marks.setHeightUnit(preferences.height_unit);
     parts_.measure_panel.setHeightUnit(preferences.height_unit);
+    parts_.measure_panel.setCoordinateFormat(preferences.coordinates);
     parts_.georeferencing.setCoordinateFormat(preferences.coordinates);
     parts_.view.setAntialiasing(preferences.has_antialiasing);
     parts_.view.setFrameTarget(std::chrono::milliseconds(1000 / preferences.frames_per_s));

@@ -29,8 +29,8 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 
+#include <algorithm>
 #include <array>
-#include <cmath>
 #include <string>
 
 namespace marsview {
@@ -39,11 +39,6 @@ namespace {
 constexpr int kHeight = 205;                                  // to begin with
 constexpr int kResultsWidthMax = 360;                         // a value stays near its label
 constexpr std::array kScales{0.0, 1.0, 2.0, 5.0, 10.0, 20.0}; // 0: fills the plot
-
-QString digits(double value)
-{
-    return std::isfinite(value) ? QString::number(value, 'g', 15) : QStringLiteral("nan");
-}
 
 QString field(const QString& text)
 {
@@ -227,6 +222,12 @@ void MeasurePanel::setHeightUnit(HeightUnit unit)
     showItems();
 }
 
+void MeasurePanel::setCoordinateFormat(const CoordinateFormat& format)
+{
+    format_ = format;
+    showResult();
+}
+
 void MeasurePanel::showItems()
 {
     list_->showItems();
@@ -276,6 +277,7 @@ void MeasurePanel::showResult()
                                          measuredLengthText(range.end_m)));
             } else {
                 rows = measureRows(*outcome.result, unit_);
+                addPoints(rows, *item, *outcome.result);
             }
             const auto* area = outcome.as<TerrainArea>();
             if (area != nullptr && !area->volume_above_m3) {
@@ -300,6 +302,23 @@ void MeasurePanel::showResult()
     results_->resizeRowsToContents();
     note_->setText(note);
     note_->setVisible(!note.isEmpty());
+}
+
+void MeasurePanel::addPoints(std::vector<MeasureRow>& rows,
+                             const MeasureItem& item,
+                             const MeasurementResult& result) const
+{
+    constexpr std::size_t kPointsMax = 200; // a long line has its points in the table's file
+    const Layer* layer = controller_.layerOf(item);
+    if (layer == nullptr) {
+        return;
+    }
+    std::vector<MeasuredVertex> vertices = item.vertices;
+    vertices.resize(std::min(vertices.size(), kPointsMax));
+    for (auto& more : {centerRows(result, *layer->map, format_),
+                       pointRows(measurePoints(vertices, result, *layer->map, format_, unit_))}) {
+        rows.insert(rows.end(), more.begin(), more.end());
+    }
 }
 
 void MeasurePanel::showProfile()
@@ -396,17 +415,8 @@ QString MeasurePanel::tableCsv() const
                            QStringLiteral(": ") + row.value;
             }
         }
-        QString points;
-        for (const MeasuredVertex& vertex : item.vertices) {
-            points += points.isEmpty() ? QString() : QStringLiteral("; ");
-            if (const auto* place = std::get_if<GeographicPoint>(&vertex)) {
-                points += digits(place->longitude.degrees()) + QLatin1Char(' ') +
-                          digits(place->latitude.degrees());
-            } else {
-                points += digits(std::get<MapPoint>(vertex).x) + QLatin1Char(' ') +
-                          digits(std::get<MapPoint>(vertex).y);
-            }
-        }
+        const auto named = controller_.named(item.id);
+        const QString points = named ? QString::fromStdString(pointsText(*named)) : QString();
         const QStringList fields{
             field(item.name),
             field(measurementName(item.kind)),

@@ -5,6 +5,8 @@
 
 #include <QWidget>
 
+#include <vector>
+
 class QComboBox;
 class QLabel;
 class QPushButton;
@@ -17,6 +19,7 @@ class AttitudesView;
 class HypsometryPlot;
 class MeasureController;
 class MeasureList;
+struct MeasureItem;
 class ProfilePlot;
 
 /// Requests changes from the controller, and shows its state.
@@ -27,6 +30,7 @@ public:
     explicit MeasurePanel(MeasureController& controller, QWidget* parent = nullptr);
 
     void setHeightUnit(HeightUnit unit);
+    void setCoordinateFormat(const CoordinateFormat& format);
     MeasureList* list() const noexcept { return list_; }
     ProfilePlot* plot() const noexcept { return plot_; }
     AttitudesView* attitudes() const noexcept { return attitudes_; }
@@ -55,6 +59,9 @@ private:
     void makeHypsometry();
     void showItems();
     void showResult();
+    void addPoints(std::vector<MeasureRow>& rows,
+                   const MeasureItem& item,
+                   const MeasurementResult& result) const;
     void showProfile();
     void showHypsometry();
     bool writeProfile(const QString& path);
@@ -63,6 +70,7 @@ private:
 
     MeasureController& controller_;
     HeightUnit unit_ = HeightUnit::Meters;
+    CoordinateFormat format_;
     MeasureList* list_ = nullptr;
     QWidget* results_side_ = nullptr;
     QLabel* title_ = nullptr;

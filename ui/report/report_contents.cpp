@@ -238,6 +238,35 @@ ReportSection overviewSection(const ReportSource& source)
     return section;
 }
 
+// The points with their positions: one among the facts, several as a table.
+void addPoints(ReportSection& section,
+               const ReportSource& source,
+               const MeasureItem& item,
+               const MeasurementResult& result)
+{
+    const Layer* layer = layerOf(source.session, item.layer);
+    if (layer == nullptr) {
+        return;
+    }
+    const std::vector<MeasurePoint> points =
+        measurePoints(item.vertices, result, *layer->map, source.format, source.unit);
+    std::vector<MeasureRow> facts = centerRows(result, *layer->map, source.format);
+    if (points.size() == 1) {
+        facts = pointRows(points);
+    } else {
+        ReportTable table{.header = {reportTr(QT_TRANSLATE_NOOP("Report", "Point")),
+                                     reportTr(QT_TRANSLATE_NOOP("Report", "Position")),
+                                     reportTr(QT_TRANSLATE_NOOP("Report", "Elevation"))}};
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            table.rows.append({countText(i + 1), points[i].position, points[i].elevation});
+        }
+        section.table = std::move(table);
+    }
+    for (const MeasureRow& fact : facts) {
+        section.facts.append({.label = fact.label, .value = fact.value});
+    }
+}
+
 ReportSection
 measurementSection(const ReportSource& source, const MeasureItem& item, bool has_plots)
 {
@@ -249,6 +278,7 @@ measurementSection(const ReportSource& source, const MeasureItem& item, bool has
     for (const MeasureRow& row : measureRows(*outcome.result, source.unit)) {
         section.facts.append({.label = row.label, .value = row.value});
     }
+    addPoints(section, source, item, *outcome.result);
     if (const auto* profile = outcome.as<Profile>(); profile != nullptr && has_plots) {
         if (auto figure = profileFigure(item, *profile, source.unit)) {
             section.figures.append(std::move(*figure));

@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
+#include <variant>
 
 namespace marsview {
 namespace {
@@ -189,6 +191,16 @@ QString
 positionText(const CoordinateFormat& format, const Map& map, GridPoint grid, double screen_pixel_m)
 {
     return positionText(format, map.info(), map.georeference(), grid, screen_pixel_m);
+}
+
+QString positionText(const CoordinateFormat& format, const Map& map, const DrawnVertex& vertex)
+{
+    const Georeference& georeference = map.georeference();
+    const auto* point = std::get_if<GeographicPoint>(&vertex);
+    const auto grid = point != nullptr
+                          ? georeference.toGrid(*point)
+                          : std::optional(georeference.toGrid(std::get<MapPoint>(vertex)));
+    return grid ? positionText(format, map, *grid) : QString();
 }
 
 QString plainPositionText(const CoordinateFormat& format,

@@ -2,6 +2,7 @@
 // (Preferences::coordinates).
 #pragma once
 
+#include "core/annotations/drawn_vertex.h"
 #include "core/geo/coordinate_format.h"
 #include "core/geo/extent.h"
 #include "core/geo/georeference.h"
@@ -40,6 +41,9 @@ QString positionText(const CoordinateFormat& format,
                      const Map& map,
                      GridPoint grid,
                      double screen_pixel_m = 0.0);
+
+/// Of a position that was placed on a map. Empty where it has no such coordinates.
+QString positionText(const CoordinateFormat& format, const Map& map, const DrawnVertex& vertex);
 
 /// The same for the clipboard, which other programs read: with a decimal point and "-" in every
 /// locale, without groups of digits, units or marks of the writing direction.

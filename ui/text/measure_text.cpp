@@ -1,6 +1,8 @@
 #include "ui/text/measure_text.h"
 
 #include "core/measure/profile_statistics.h"
+#include "core/session/map.h"
+#include "ui/text/coordinate_text.h"
 
 #include <QCoreApplication>
 
@@ -264,6 +266,57 @@ std::vector<MeasureRow> measureRows(const MeasurementResult& result, HeightUnit 
         std::visit(rows, *result.values);
     }
     return rows.take();
+}
+
+std::vector<MeasurePoint> measurePoints(const std::vector<MeasuredVertex>& vertices,
+                                        const MeasurementResult& result,
+                                        const Map& map,
+                                        const CoordinateFormat& format,
+                                        HeightUnit unit)
+{
+    std::vector<MeasurePoint> points;
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        points.push_back({.position = positionText(format, map, vertices[i]),
+                          .elevation = i < result.elevations_m.size()
+                                           ? elevationText(result.elevations_m[i], unit)
+                                           : QString()});
+    }
+    return points;
+}
+
+std::vector<MeasureRow> pointRows(const std::vector<MeasurePoint>& points)
+{
+    if (points.size() == 1) {
+        return {{measureTr(QT_TRANSLATE_NOOP("Measure", "Position")), points.front().position}};
+    }
+    std::vector<MeasureRow> rows;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const MeasurePoint& point = points[i];
+        rows.push_back({//: %1 is a number
+                        measureTr(QT_TRANSLATE_NOOP("Measure", "Point %1")).arg(i + 1),
+                        point.elevation.isEmpty()
+                            ? point.position
+                            //: A point: %1 is a position, %2 an elevation
+                            : measureTr(QT_TRANSLATE_NOOP("Measure", "%1, %2"))
+                                  .arg(point.position, point.elevation)});
+    }
+    return rows;
+}
+
+std::vector<MeasureRow>
+centerRows(const MeasurementResult& result, const Map& map, const CoordinateFormat& format)
+{
+    const auto* crater = result.values ? std::get_if<Crater>(&*result.values) : nullptr;
+    const auto* attitude = result.values ? std::get_if<Attitude>(&*result.values) : nullptr;
+    const auto& crs = map.georeference().crs();
+    const auto ellipsoid = crs ? crs->ellipsoid() : std::nullopt;
+    if (!ellipsoid || (crater == nullptr && attitude == nullptr)) {
+        return {};
+    }
+    const DrawnVertex center =
+        Ground::onEllipsoid(*ellipsoid)
+            .geographic(crater != nullptr ? crater->center : attitude->center);
+    return {{measureTr(QT_TRANSLATE_NOOP("Measure", "Center")), positionText(format, map, center)}};
 }
 
 QString measureSummary(const MeasurementResult& result, HeightUnit unit)

@@ -53,6 +53,33 @@ TEST(MeasurementTables, AProfileKeepsEveryDigitAndItsGaps)
               "20,226.3,18.65,nan\n");
 }
 
+// On the Earth latitudes are planetographic, and vertices planetocentric: tan(planetocentric) =
+// (b/a)² tan(planetographic).
+TEST(MeasurementTables, PointsHaveTheirPositionsAndElevationsInFull)
+{
+    NamedMeasurement named = withValues("IAU_2015:49902", Profile{});
+    named.measurement.vertices = {
+        GeographicPoint{.longitude = Angle::degrees(226.5), .latitude = Angle::degrees(18.25)},
+        GeographicPoint{.longitude = Angle::degrees(18.25), .latitude = Angle::degrees(-0.125)}};
+    EXPECT_EQ(pointsText(named), "226.5 18.25 nan; 18.25 -0.125 nan") << "elevations are unknown";
+    named.measurement.result = std::make_shared<const MeasurementResult>(
+        MeasurementResult{.map = {},
+                          .values = MeasuredValues(Profile{}),
+                          .elevations_m = {0.1, std::numeric_limits<double>::quiet_NaN()}});
+    EXPECT_EQ(pointsText(named), "226.5 18.25 0.1; 18.25 -0.125 nan");
+    NamedMeasurement on_earth = withValues("EPSG:4326", Profile{});
+    const double b_over_a = 6356752.314245 / 6378137.0;
+    const double degree = std::numbers::pi / 180.0;
+    const double centric_deg = std::atan(b_over_a * b_over_a * std::tan(40.0 * degree)) / degree;
+    EXPECT_NEAR(tablePosition(on_earth, MeasuredVertex(GeographicPoint{
+                                            .longitude = Angle::degrees(7.0),
+                                            .latitude = Angle::degrees(centric_deg)}))
+                    .y,
+                40.0, 1e-9);
+    on_earth.measurement.vertices = {MapPoint{1.5, -2.0}};
+    EXPECT_EQ(pointsText(on_earth), "1.5 -2 nan");
+}
+
 TEST(MeasurementTables, AnAttitudeIsALineWithQuotesWhereTheyAreNeeded)
 {
     Attitude attitude;

@@ -64,6 +64,19 @@ TEST(Measurement, FollowsTheOverridesOfItsLayer)
     EXPECT_NEAR(after.rise_m, 0.3048 * before.rise_m, 1e-6);
 }
 
+TEST(Measurement, KnowsTheElevationsOfItsVertices)
+{
+    const auto map = loadedMap(bundledMars());
+    const auto result =
+        resultOf(between(MeasurementKind::Distance, {{226.0, 18.0}, {230.0, 20.0}}), *map);
+    ASSERT_EQ(result->elevations_m.size(), 2U);
+    EXPECT_NEAR(result->elevations_m[1] - result->elevations_m[0], valueIn<Distance>(result).rise_m,
+                1e-9);
+    const auto slope = resultOf(between(MeasurementKind::Slope, {{230.0, 20.0}}), *map);
+    EXPECT_EQ(valueIn<std::vector<TerrainSlope>>(slope).front().elevation_m,
+              result->elevations_m[1]);
+}
+
 TEST(Measurement, HasAResultOfEveryKind)
 {
     const auto map = loadedMap(bundledMars());

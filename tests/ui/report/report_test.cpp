@@ -124,6 +124,12 @@ TEST_F(ReportTest, TheWebPageHoldsEverythingAndNeedsNoOtherFile)
             EXPECT_TRUE(page.contains(row.value.toHtmlEscaped())) << row.value.toStdString();
         }
     }
+    // The points of the profile with their positions, as the format has them.
+    const auto place = view().map()->georeference().toGeographic({420.0, 340.0});
+    EXPECT_TRUE(
+        page.contains(QStringLiteral("%1° ").arg(std::abs(place->latitude.degrees()), 0, 'f', 2)))
+        << place->latitude.degrees();
+    EXPECT_TRUE(page.contains(QStringLiteral("Position")));
     // Nothing is loaded from elsewhere: all addresses are data.
     const QRegularExpression address(QStringLiteral("(?:src|href)=\"([^\"]{0,12})"));
     int images = 0;
