@@ -129,29 +129,26 @@ struct AttitudeCommand {
     std::optional<double> elevation_error_m;
 };
 
-// Three positions lie exactly on a plane, and on a circle.
-constexpr std::size_t kExactPoints = 3;
 constexpr const char* kNoErrors = "three points: no error estimate";
 
-// Errors are estimated from residuals, or from an elevation error that the user states.
-void printForPeople(const Attitude& attitude, bool is_estimated)
+void printForPeople(const Attitude& attitude)
 {
     const auto line = [](const char* label, const std::string& text) {
         printLine(fmt::format("{:<16}{}", label, text));
     };
     const AttitudeUncertainty& uncertainty = attitude.uncertainty;
     const auto with_error = [&](double degrees, double error_deg) {
-        return is_estimated ? fmt::format("{}° ± {}°", asText(degrees), asText(error_deg))
-                            : fmt::format("{}°", asText(degrees));
+        return uncertainty.is_estimated
+                   ? fmt::format("{}° ± {}°", asText(degrees), asText(error_deg))
+                   : fmt::format("{}°", asText(degrees));
     };
     line("Strike:", with_error(attitude.strike_deg, uncertainty.strike_error_deg));
     line("Dip:", with_error(attitude.dip_deg, uncertainty.dip_error_deg));
     line("Dip direction:", fmt::format("{}°", asText(attitude.dip_direction_deg)));
-    if (!is_estimated) {
+    if (!uncertainty.is_estimated) {
         line("Errors:", kNoErrors);
     }
-    line("RMS:",
-         attitude.points > kExactPoints ? fmt::format("{} m", asText(attitude.rms_m)) : kNoErrors);
+    line("RMS:", attitude.hasResiduals() ? fmt::format("{} m", asText(attitude.rms_m)) : kNoErrors);
     line("Points:", std::to_string(attitude.points));
 }
 
@@ -176,8 +173,7 @@ Status runAttitude(const AttitudeCommand& options)
         printJson(withSchema(
             reportOf(*attitude, input->lonLat(input->terrain->inTurn(attitude->center)))));
     } else {
-        printForPeople(*attitude,
-                       attitude->points > kExactPoints || options.elevation_error_m.has_value());
+        printForPeople(*attitude);
     }
     if (!options.elevation_error_m && attitude->uncertainty.elevation_error_m) {
         std::fprintf(stderr,
@@ -320,7 +316,7 @@ Status runCrater(const MeasureOptions& options)
         line("d/D:", asText(crater->depth_m / crater->diameter_m));
         line("Rim:", asText(crater->rim_m) + " m");
         line("Floor:", asText(crater->floor_m) + " m");
-        line("RMS:", crater->points > kExactPoints ? asText(crater->rms_m) + " m" : kNoErrors);
+        line("RMS:", crater->hasResiduals() ? asText(crater->rms_m) + " m" : kNoErrors);
     }
     printNotices(input->raster->info);
     return Done{};

@@ -246,7 +246,8 @@ Result<Attitude> fitAttitude(const Ground& ground,
     AttitudeUncertainty& uncertainty = attitude.uncertainty;
     uncertainty.confidence = kConfidence;
     double scaled_m = 0.0;
-    if (n > 3 && !options.elevation_error_m) {
+    uncertainty.is_estimated = n > kExactPoints || options.elevation_error_m.has_value();
+    if (n > kExactPoints && !options.elevation_error_m) {
         const double freedom = count - 3.0;
         scaled_m = std::sqrt(squares / freedom * 2.0 * quantileOfF(kConfidence, freedom));
     } else {

@@ -33,6 +33,10 @@ struct PoleAxis {
     double plunge_deg = 0.0;
 };
 
+/// So many points lie exactly on a plane, and on a circle: they have no residuals, from which
+/// errors could be estimated.
+inline constexpr std::size_t kExactPoints = 3;
+
 struct AttitudeUncertainty {
     double confidence = 0.95;
     double dip_error_deg = 0.0; // the largest difference within the ellipse
@@ -42,6 +46,9 @@ struct AttitudeUncertainty {
     /// The standard deviation of elevations that the errors follow from; empty if they follow from
     /// the residuals.
     std::optional<double> elevation_error_m;
+    /// False where the errors only follow from the step of the samples: a lower bound, which people
+    /// are not shown.
+    bool is_estimated = true;
 };
 
 struct Attitude {
@@ -57,6 +64,7 @@ struct Attitude {
     std::vector<double> residuals_m; // of each point, along the normal
     AttitudeUncertainty uncertainty;
 
+    bool hasResiduals() const noexcept { return points > kExactPoints; }
     /// The pole in the lower hemisphere.
     double poleTrendDeg() const;
     double polePlungeDeg() const { return 90.0 - dip_deg; }

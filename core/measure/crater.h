@@ -3,6 +3,7 @@
 
 #include "core/base/job_monitor.h"
 #include "core/base/result.h"
+#include "core/measure/attitude.h"
 #include "core/measure/measured_terrain.h"
 
 #include <cstddef>
@@ -20,6 +21,8 @@ struct Crater {
     double depth_m = 0.0;    // from the rim to the floor
     std::size_t points = 0;
     bool is_approximate = false;
+
+    bool hasResiduals() const noexcept { return points > kExactPoints; }
 };
 
 /// The circle of all positions at one geodesic distance from its center that fits best through

@@ -121,6 +121,9 @@ std::vector<NetPoint> greatCircle(const PlaneOrientation& plane)
 
 std::vector<std::vector<NetPoint>> poleEllipse(const Attitude& attitude)
 {
+    if (!attitude.uncertainty.is_estimated) {
+        return {};
+    }
     const Vec3 pole = attitude.normal * -1.0;
     const auto axis = [&](std::size_t i) {
         const PoleAxis& known = attitude.uncertainty.axes[i];

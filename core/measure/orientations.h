@@ -48,7 +48,8 @@ struct NetPoint {
 NetPoint netPoint(const Vec3& direction);
 /// The plane as a line from rim to rim.
 std::vector<NetPoint> greatCircle(const PlaneOrientation& plane);
-/// The ellipse of confidence around the pole. Several pieces where it crosses the rim.
+/// The ellipse of confidence around the pole. Several pieces where it crosses the rim; none without
+/// an estimate of errors.
 std::vector<std::vector<NetPoint>> poleEllipse(const Attitude& attitude);
 
 /// The share of strikes in each of `sectors` equal sectors, clockwise from the one that begins at

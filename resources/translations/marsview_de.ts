@@ -610,6 +610,15 @@
         <source>Center</source>
         <translation>Mitte</translation>
     </message>
+    <message>
+        <source>Errors</source>
+        <translation>Fehler</translation>
+    </message>
+    <message>
+        <source>three points: no error estimate</source>
+        <extracomment>In place of errors</extracomment>
+        <translation>drei Punkte: keine Fehlerschätzung</translation>
+    </message>
 </context>
 <context>
     <name>NumberText</name>

@@ -297,6 +297,29 @@ TEST_F(MeasureTest, TheListNamesShowsAndRemoves)
     EXPECT_EQ(measuring().state().items.front().name, QStringLiteral("Layer of rock"));
 }
 
+// Three points lie exactly on a plane and on a circle: their residuals of 0 are no errors.
+TEST_F(MeasureTest, ThreePointsHaveNoErrors)
+{
+    const QString none = QStringLiteral("\nErrors\tthree points: no error estimate");
+    for (const MeasurementKind kind : {MeasurementKind::Attitude, MeasurementKind::Crater}) {
+        measuring().begin(kind);
+        for (const GridPoint& place : {GridPoint{10.0, 10.0}, {20.0, 10.0}, {15.0, 18.0}}) {
+            measuring().addPointAt(place);
+        }
+        ASSERT_TRUE(isMeasured());
+        EXPECT_TRUE(panel().resultsText().contains(none)) << qPrintable(panel().resultsText());
+        EXPECT_FALSE(panel().resultsText().contains(QStringLiteral("RMS")));
+        EXPECT_FALSE(panel().resultsText().contains(QStringLiteral("error (95 %)")));
+        measuring().addPointAt({15.0, 5.0});
+        ASSERT_TRUE(isMeasured());
+        EXPECT_FALSE(panel().resultsText().contains(none));
+        EXPECT_TRUE(panel().resultsText().contains(QStringLiteral("\nRMS distance from the ")));
+        EXPECT_EQ(panel().resultsText().contains(QStringLiteral("\nDip error (95 %)\t")),
+                  kind == MeasurementKind::Attitude);
+        measuring().finish();
+    }
+}
+
 TEST_F(MeasureTest, AttitudesAreShownTogetherAndSaved)
 {
     ASSERT_NO_FATAL_FAILURE(choose(MeasurementKind::Attitude));

@@ -133,11 +133,17 @@ public:
         addAngle(QT_TRANSLATE_NOOP("Measure", "Strike (right-hand rule)"), attitude.strike_deg);
         addAngle(QT_TRANSLATE_NOOP("Measure", "Dip"), attitude.dip_deg);
         addAngle(QT_TRANSLATE_NOOP("Measure", "Dip direction"), attitude.dip_direction_deg);
-        addAngle(QT_TRANSLATE_NOOP("Measure", "Dip error (95 %)"),
-                 attitude.uncertainty.dip_error_deg);
-        addAngle(QT_TRANSLATE_NOOP("Measure", "Strike error (95 %)"),
-                 attitude.uncertainty.strike_error_deg);
-        addLength(QT_TRANSLATE_NOOP("Measure", "RMS distance from the plane"), attitude.rms_m);
+        if (attitude.uncertainty.is_estimated) {
+            addAngle(QT_TRANSLATE_NOOP("Measure", "Dip error (95 %)"),
+                     attitude.uncertainty.dip_error_deg);
+            addAngle(QT_TRANSLATE_NOOP("Measure", "Strike error (95 %)"),
+                     attitude.uncertainty.strike_error_deg);
+        }
+        if (attitude.hasResiduals()) {
+            addLength(QT_TRANSLATE_NOOP("Measure", "RMS distance from the plane"), attitude.rms_m);
+        } else {
+            addNoErrors();
+        }
         add(QT_TRANSLATE_NOOP("Measure", "Points"), countText(attitude.points));
     }
     void operator()(const Crater& crater)
@@ -148,7 +154,11 @@ public:
             leftToRight(numberText(crater.depth_m / crater.diameter_m, 3)));
         addElevation(QT_TRANSLATE_NOOP("Measure", "Rim"), crater.rim_m);
         addElevation(QT_TRANSLATE_NOOP("Measure", "Floor"), crater.floor_m);
-        addLength(QT_TRANSLATE_NOOP("Measure", "RMS distance from the circle"), crater.rms_m);
+        if (crater.hasResiduals()) {
+            addLength(QT_TRANSLATE_NOOP("Measure", "RMS distance from the circle"), crater.rms_m);
+        } else {
+            addNoErrors();
+        }
         add(QT_TRANSLATE_NOOP("Measure", "Rim points"), countText(crater.points));
     }
     void operator()(const std::vector<TerrainSlope>& slopes)
@@ -162,6 +172,13 @@ public:
     }
 
 private:
+    void addNoErrors()
+    {
+        add(QT_TRANSLATE_NOOP("Measure", "Errors"),
+            //: In place of errors
+            measureTr(QT_TRANSLATE_NOOP("Measure", "three points: no error estimate")));
+    }
+
     HeightUnit unit_;
     std::vector<MeasureRow> rows_;
 };

@@ -85,7 +85,29 @@ TEST(Attitude, SolvesTheThreePointProblemOfBennison)
         EXPECT_NEAR(attitude->dip_deg, 7.37, 0.005);
         EXPECT_NEAR(attitude->dip_direction_deg, 196.45, 0.005);
         EXPECT_LT(attitude->rms_m, 1e-9);
+        EXPECT_FALSE(attitude->hasResiduals());
+        EXPECT_FALSE(attitude->uncertainty.is_estimated) << "the step of samples is no error";
     }
+}
+
+TEST(Attitude, EstimatesErrorsOnlyFromResidualsOrStatedOnes)
+{
+    std::vector<TerrainPoint> points{{.position = {0.0, 0.0}, .elevation_m = 0.0},
+                                     {.position = {100.0, 0.0}, .elevation_m = 10.0},
+                                     {.position = {0.0, 100.0}, .elevation_m = 0.0}};
+    const AttitudeOptions of_samples{.default_elevation_error_m = 0.5};
+    const auto three = fitAttitude(Ground::onPlane(), points, of_samples);
+    ASSERT_TRUE(three) << three.error().message;
+    EXPECT_FALSE(three->hasResiduals());
+    EXPECT_FALSE(three->uncertainty.is_estimated);
+    const auto stated = fitAttitude(Ground::onPlane(), points, {.elevation_error_m = 1.0});
+    ASSERT_TRUE(stated) << stated.error().message;
+    EXPECT_TRUE(stated->uncertainty.is_estimated);
+    points.push_back({.position = {100.0, 100.0}, .elevation_m = 10.2});
+    const auto four = fitAttitude(Ground::onPlane(), points, of_samples);
+    ASSERT_TRUE(four) << four.error().message;
+    EXPECT_TRUE(four->hasResiduals());
+    EXPECT_TRUE(four->uncertainty.is_estimated);
 }
 
 TEST(Attitude, IsThatOfAKnownPlaneInTenProjectionsAtTenPlaces)
