@@ -10,6 +10,7 @@
 #include "core/measure/crater.h"
 #include "core/measure/hypsometry.h"
 #include "core/measure/line_measures.h"
+#include "core/measure/measured_digits.h"
 #include "core/measure/terrain_area.h"
 #include "core/measure/terrain_slope.h"
 #include "core/session/measurement_tables.h"
@@ -42,20 +43,47 @@ void printVoidNotice(const MeasureOptions& options, double void_m)
     }
 }
 
-void printForPeople(const Distance& distance)
+// With the digits that mean something. JSON and CSV have all of them.
+std::string written(double value, int last_place)
 {
-    const auto line = [](const char* label, double value) {
-        printLine(fmt::format("{:<22}{} m", label, asText(value)));
+    if (!std::isfinite(value)) {
+        return asText(value);
+    }
+    const WrittenNumber number = writtenNumber(value, last_place);
+    return fmt::format("{:.{}f}", number.value == 0.0 ? 0.0 : number.value, number.decimals);
+}
+
+// An uncertainty itself.
+std::string writtenError(double value)
+{
+    return written(value, lastPlace(value, value));
+}
+
+MeasuredDigits digitsOf(const MeasureInput& input)
+{
+    const double elevation_m =
+        input.positions.empty() ? kNan : input.terrain->elevation(input.positions.front());
+    return MeasuredDigits(
+        resolutionOf(input.terrain->georeference(), input.raster->info, elevation_m));
+}
+
+void printForPeople(const Distance& distance, const MeasuredDigits& digits)
+{
+    const auto length = [&digits](double value) { return written(value, digits.length(value)); };
+    const auto rise = [&digits](double value) { return written(value, digits.elevation(value)); };
+    const auto line = [](const char* label, const std::string& value) {
+        printLine(fmt::format("{:<22}{} m", label, value));
     };
-    line("Geodesic distance:", distance.geodesic_m);
-    line("Along the terrain:", wholeSurface(distance.surface_m, distance.void_m));
-    line("Straight line:", distance.straight_m);
-    line("Rise:", distance.rise_m);
+    line("Geodesic distance:", length(distance.geodesic_m));
+    line("Along the terrain:", length(wholeSurface(distance.surface_m, distance.void_m)));
+    line("Straight line:", length(distance.straight_m));
+    line("Rise:", rise(distance.rise_m));
     for (std::size_t i = 0; distance.legs.size() > 1 && i < distance.legs.size(); ++i) {
         const LegDistance& leg = distance.legs[i];
         printLine(fmt::format("Leg {}: {} m, azimuth {}°, along the terrain {} m, rise {} m", i + 1,
-                              asText(leg.geodesic_m), asText(leg.azimuth_deg),
-                              asText(wholeSurface(leg.surface_m, leg.void_m)), asText(leg.rise_m)));
+                              length(leg.geodesic_m),
+                              written(leg.azimuth_deg, digits.direction(leg.geodesic_m)),
+                              length(wholeSurface(leg.surface_m, leg.void_m)), rise(leg.rise_m)));
     }
 }
 
@@ -73,7 +101,7 @@ Status runDistance(const MeasureOptions& options)
     if (options.is_json) {
         printJson(withSchema(reportOf(*distance)));
     } else {
-        printForPeople(*distance);
+        printForPeople(*distance, digitsOf(*input));
     }
     printVoidNotice(options, distance->void_m);
     printNotices(input->raster->info);
@@ -138,17 +166,22 @@ void printForPeople(const Attitude& attitude)
     };
     const AttitudeUncertainty& uncertainty = attitude.uncertainty;
     const auto with_error = [&](double degrees, double error_deg) {
+        const int place = uncertainty.is_estimated ? anglePlace(error_deg) : kSlopePlace;
         return uncertainty.is_estimated
-                   ? fmt::format("{}° ± {}°", asText(degrees), asText(error_deg))
-                   : fmt::format("{}°", asText(degrees));
+                   ? fmt::format("{}° ± {}°", written(degrees, place), written(error_deg, place))
+                   : fmt::format("{}°", written(degrees, place));
     };
     line("Strike:", with_error(attitude.strike_deg, uncertainty.strike_error_deg));
     line("Dip:", with_error(attitude.dip_deg, uncertainty.dip_error_deg));
-    line("Dip direction:", fmt::format("{}°", asText(attitude.dip_direction_deg)));
+    line("Dip direction:", fmt::format("{}°", written(attitude.dip_direction_deg,
+                                                      uncertainty.is_estimated
+                                                          ? anglePlace(uncertainty.strike_error_deg)
+                                                          : kSlopePlace)));
     if (!uncertainty.is_estimated) {
         line("Errors:", kNoErrors);
     }
-    line("RMS:", attitude.hasResiduals() ? fmt::format("{} m", asText(attitude.rms_m)) : kNoErrors);
+    line("RMS:",
+         attitude.hasResiduals() ? fmt::format("{} m", writtenError(attitude.rms_m)) : kNoErrors);
     line("Points:", std::to_string(attitude.points));
 }
 
@@ -237,20 +270,23 @@ void printUncoveredNotice(const MeasureOptions& options, const TerrainArea& area
     }
 }
 
-void printForPeople(const TerrainArea& area)
+void printForPeople(const TerrainArea& area, const MeasuredDigits& digits)
 {
-    const auto line = [](const char* label, double value, const char* unit) {
-        printLine(fmt::format("{:<20}{} {}", label, asText(value), unit));
+    const auto line = [](const char* label, double value, int last_place, const char* unit) {
+        printLine(fmt::format("{:<20}{} {}", label, written(value, last_place), unit));
     };
-    line("Geodesic area:", area.geodesic_m2, "m²");
-    line("Perimeter:", area.perimeter_m, "m");
-    line("Terrain area:", area.surface_m2, "m²");
-    line("Lowest elevation:", area.min_m, "m");
-    line("Highest elevation:", area.max_m, "m");
-    line("Mean elevation:", area.mean_m, "m");
+    const int area_place = digits.area(area.geodesic_m2, area.perimeter_m);
+    line("Geodesic area:", area.geodesic_m2, area_place, "m²");
+    line("Perimeter:", area.perimeter_m, digits.length(area.perimeter_m), "m");
+    line("Terrain area:", area.surface_m2, area_place, "m²");
+    line("Lowest elevation:", area.min_m, digits.elevation(area.min_m), "m");
+    line("Highest elevation:", area.max_m, digits.elevation(area.max_m), "m");
+    line("Mean elevation:", area.mean_m, digits.elevation(area.mean_m), "m");
     if (area.volume_above_m3) {
-        line("Volume above base:", *area.volume_above_m3, "m³");
-        line("Volume below base:", *area.volume_below_m3, "m³");
+        line("Volume above base:", *area.volume_above_m3,
+             digits.volume(*area.volume_above_m3, area.geodesic_m2), "m³");
+        line("Volume below base:", *area.volume_below_m3,
+             digits.volume(*area.volume_below_m3, area.geodesic_m2), "m³");
     }
 }
 
@@ -283,7 +319,7 @@ Status runArea(const AreaCommand& options)
     } else if (options.has_hypsometry) {
         std::fputs(hypsometryCsv(hypsometry).c_str(), stdout);
     } else {
-        printForPeople(*area);
+        printForPeople(*area, digitsOf(*input));
     }
     printUncoveredNotice(options.common, *area);
     printNotices(input->raster->info);
@@ -311,12 +347,19 @@ Status runCrater(const MeasureOptions& options)
             printLine(fmt::format("{:<12}{}", label, text));
         };
         line("Center:", fmt::format("{}, {}", asText(center.x), asText(center.y)));
-        line("Diameter:", asText(crater->diameter_m) + " m");
-        line("Depth:", asText(crater->depth_m) + " m");
-        line("d/D:", asText(crater->depth_m / crater->diameter_m));
-        line("Rim:", asText(crater->rim_m) + " m");
-        line("Floor:", asText(crater->floor_m) + " m");
-        line("RMS:", crater->hasResiduals() ? asText(crater->rms_m) + " m" : kNoErrors);
+        const MeasuredDigits digits = digitsOf(*input);
+        const auto height = [&](const char* label, double value_m) {
+            line(label, written(value_m, digits.elevation(value_m)) + " m");
+        };
+        const double rms_m = crater->hasResiduals() ? crater->rms_m : 0.0;
+        line("Diameter:",
+             written(crater->diameter_m, digits.diameter(crater->diameter_m, rms_m)) + " m");
+        height("Depth:", crater->depth_m);
+        line("d/D:", written(crater->depth_m / crater->diameter_m,
+                             digits.depthToDiameter(crater->depth_m, crater->diameter_m)));
+        height("Rim:", crater->rim_m);
+        height("Floor:", crater->floor_m);
+        line("RMS:", crater->hasResiduals() ? writtenError(rms_m) + " m" : kNoErrors);
     }
     printNotices(input->raster->info);
     return Done{};

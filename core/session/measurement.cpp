@@ -153,6 +153,8 @@ measured(const Measurement& measurement, const Map& map, MeasureDetail detail, J
     for (const GroundPosition& position : *positions) {
         elevations_m.push_back(terrain.elevation(position));
     }
+    const MeasuredResolution resolution = resolutionOf(
+        map.georeference(), map.info(), elevations_m.empty() ? std::nan("") : elevations_m.front());
     Result<MeasuredValues> values = valuesOf(measurement, map, terrain, *positions, monitor);
     if (!values && values.error().code == ErrorCode::Canceled) {
         return nullptr;
@@ -161,7 +163,8 @@ measured(const Measurement& measurement, const Map& map, MeasureDetail detail, J
         MeasurementResult{.map = map.spec(),
                           .values = std::move(values),
                           .is_approximate = terrain.isApproximate(),
-                          .elevations_m = std::move(elevations_m)});
+                          .elevations_m = std::move(elevations_m),
+                          .resolution = resolution});
 }
 
 bool isCurrent(const Measurement& measurement, const Map& map)

@@ -8,6 +8,7 @@
 #include "core/measure/attitude.h"
 #include "core/measure/crater.h"
 #include "core/measure/line_measures.h"
+#include "core/measure/measured_digits.h"
 #include "core/measure/measured_terrain.h"
 #include "core/measure/terrain_area.h"
 #include "core/measure/terrain_slope.h"
@@ -37,6 +38,7 @@ struct MeasurementResult {
     Result<MeasuredValues> values;
     bool is_approximate = false;        // of a coarser level or a preview
     std::vector<double> elevations_m{}; // of the vertices; NaN where there is no terrain
+    MeasuredResolution resolution{};    // of the map
 };
 
 /// A value; copies share the result. Whoever holds it may be any thread.

@@ -173,6 +173,29 @@ TEST(MeasureDistance, ReadsPositionsFromVectorFiles)
               2);
 }
 
+// The bundled map of Mars has a sample each 14.8 km, in whole meters: lengths end at the place of
+// the second digit of that, elevations at a tenth of a meter.
+TEST(MeasureDistance, PrintsTheDigitsThatTheSamplesGive)
+{
+    const std::string positions = "226.2 18.65\n230 20\n";
+    const nlohmann::json exact = measuredJson("distance", bundledMars(), positions);
+    const double geodesic_m = exact["geodesic_m"].get<double>();
+    const std::string text = measured("distance", bundledMars(), positions).out;
+    EXPECT_THAT(text, HasSubstr(fmt::format("Geodesic distance:    {:.0f} m\n",
+                                            std::round(geodesic_m / 1000.0) * 1000.0)));
+    EXPECT_THAT(text, HasSubstr(fmt::format("Rise:                 {:.1f} m\n",
+                                            exact["rise_m"].get<double>())));
+    const nlohmann::json crater =
+        measuredJson("crater", bundledMars(), "226.1 18.9\n227.4 18.5\n226.4 17.8\n227.2 18.9\n");
+    EXPECT_THAT(
+        measured("crater", bundledMars(), "226.1 18.9\n227.4 18.5\n226.4 17.8\n227.2 18.9\n").out,
+        HasSubstr(fmt::format("Depth:      {:.1f} m\nd/D:        {:.2f}",
+                              crater["depth_m"].get<double>(),
+                              std::floor(100.0 * crater["depth_m"].get<double>() /
+                                         crater["diameter_m"].get<double>()) /
+                                  100.0)));
+}
+
 TEST(MeasureProfile, IsCsvWithThePositionsOfEveryPoint)
 {
     const ProgramOutput output =

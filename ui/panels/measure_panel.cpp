@@ -271,10 +271,17 @@ void MeasurePanel::showResult()
                 std::erase_if(part.points, [&](const ProfilePoint& point) {
                     return point.distance_m < range.begin_m || point.distance_m > range.end_m;
                 });
-                rows = measureRows({.map = {}, .values = MeasuredValues(std::move(part))}, unit_);
+                const MeasuredResolution& resolution = outcome.result->resolution;
+                rows = measureRows({.map = {},
+                                    .values = MeasuredValues(std::move(part)),
+                                    .resolution = resolution},
+                                   unit_);
+                const auto length = [&resolution](double length_m) {
+                    return measuredLengthText(length_m,
+                                              MeasuredDigits(resolution).length(length_m));
+                };
                 title_->setText(tr("%1: from %2 to %3")
-                                    .arg(item->name, measuredLengthText(range.begin_m),
-                                         measuredLengthText(range.end_m)));
+                                    .arg(item->name, length(range.begin_m), length(range.end_m)));
             } else {
                 rows = measureRows(*outcome.result, unit_);
                 addPoints(rows, *item, *outcome.result);

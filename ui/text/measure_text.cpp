@@ -14,7 +14,6 @@ namespace marsview {
 namespace {
 
 constexpr double kKilometersFrom = 1000.0;
-constexpr int kDigits = 4; // significant
 
 // Not named tr(): lupdate would look for texts in its arguments only.
 QString measureTr(const char* text)
@@ -28,44 +27,76 @@ QString missing()
     return measureTr(QT_TRANSLATE_NOOP("Measure", "no data"));
 }
 
-QString withDigits(double value, const QString& unit)
-{
-    const double size = std::abs(value);
-    const int before = size >= 1.0 ? static_cast<int>(std::floor(std::log10(size))) + 1 : 1;
-    return leftToRight(withUnit(numberText(value, std::max(0, kDigits - before)), unit));
-}
-
 // Of a power of the meter: 1 a length, 2 an area, 3 a volume.
-QString powerText(double value, int power, const QString& small, const QString& large)
+QString
+powerText(double value, int last_place, int power, const QString& small, const QString& large)
 {
     if (!std::isfinite(value)) {
         return missing();
     }
-    const double large_unit = std::pow(kKilometersFrom, power);
-    return std::abs(value) >= large_unit ? withDigits(value / large_unit, large)
-                                         : withDigits(value, small);
+    const bool is_large = std::abs(value) >= std::pow(kKilometersFrom, power);
+    const WrittenNumber number = writtenNumber(value, last_place, is_large ? 3 * power : 0);
+    return leftToRight(
+        withUnit(numberText(number.value, number.decimals), is_large ? large : small));
 }
 
-QString elevationText(double elevation_m, HeightUnit unit)
+// A foot has the digits that a meter has.
+QString elevationText(double elevation_m, int last_place, HeightUnit unit)
 {
-    return std::isfinite(elevation_m)
-               ? leftToRight(withUnit(numberText(inUnit(elevation_m, unit), 1), unitSymbol(unit)))
-               : missing();
+    if (!std::isfinite(elevation_m)) {
+        return missing();
+    }
+    const WrittenNumber number = writtenNumber(inUnit(elevation_m, unit), last_place);
+    return leftToRight(withUnit(numberText(number.value, number.decimals), unitSymbol(unit)));
+}
+
+QString angleText(double degrees, int last_place)
+{
+    return measuredAngleText(degrees, -last_place);
+}
+
+QString diameterText(const Crater& crater, const MeasuredDigits& digits)
+{
+    return measuredLengthText(
+        crater.diameter_m,
+        digits.diameter(crater.diameter_m, crater.hasResiduals() ? crater.rms_m : 0.0));
+}
+
+QString depthToDiameterText(const Crater& crater, const MeasuredDigits& digits)
+{
+    const double ratio = crater.depth_m / crater.diameter_m;
+    const int last_place = digits.depthToDiameter(crater.depth_m, crater.diameter_m);
+    return std::isfinite(ratio) ? leftToRight(numberText(ratio, -last_place)) : missing();
 }
 
 class Rows {
 public:
-    explicit Rows(HeightUnit unit)
+    Rows(HeightUnit unit, const MeasuredResolution& resolution)
         : unit_(unit)
+        , digits_(resolution)
     {}
 
     void add(const char* label, const QString& value)
     {
         rows_.push_back({measureTr(label), value});
     }
-    void addLength(const char* label, double value) { add(label, measuredLengthText(value)); }
-    void addElevation(const char* label, double value) { add(label, elevationText(value, unit_)); }
-    void addAngle(const char* label, double degrees) { add(label, measuredAngleText(degrees)); }
+    void addLength(const char* label, double value)
+    {
+        add(label, measuredLengthText(value, digits_.length(value)));
+    }
+    // An uncertainty itself.
+    void addError(const char* label, double value_m)
+    {
+        add(label, measuredLengthText(value_m, lastPlace(value_m, value_m)));
+    }
+    void addElevation(const char* label, double value)
+    {
+        add(label, elevationText(value, digits_.elevation(value), unit_));
+    }
+    void addAngle(const char* label, double degrees, int last_place = kSlopePlace)
+    {
+        add(label, angleText(degrees, last_place));
+    }
     std::vector<MeasureRow> take() { return std::move(rows_); }
 
     // The surface along a line with gaps is unknown.
@@ -78,7 +109,8 @@ public:
         addLength(QT_TRANSLATE_NOOP("Measure", "Straight line"), distance.straight_m);
         addElevation(QT_TRANSLATE_NOOP("Measure", "Rise"), distance.rise_m);
         if (distance.legs.size() == 1) {
-            addAngle(QT_TRANSLATE_NOOP("Measure", "Azimuth"), distance.legs.front().azimuth_deg);
+            addAngle(QT_TRANSLATE_NOOP("Measure", "Azimuth"), distance.legs.front().azimuth_deg,
+                     digits_.direction(distance.geodesic_m));
             return;
         }
         for (std::size_t i = 0; i < distance.legs.size(); ++i) {
@@ -86,7 +118,8 @@ public:
             rows_.push_back(
                 {measureTr(QT_TRANSLATE_NOOP("Measure", "Leg %1")).arg(i + 1),
                  measureTr(QT_TRANSLATE_NOOP("Measure", "%1 toward %2"))
-                     .arg(measuredLengthText(leg.geodesic_m), measuredAngleText(leg.azimuth_deg))});
+                     .arg(measuredLengthText(leg.geodesic_m, digits_.length(leg.geodesic_m)),
+                          angleText(leg.azimuth_deg, digits_.direction(leg.geodesic_m)))});
         }
     }
     void operator()(const Profile& profile)
@@ -109,19 +142,24 @@ public:
     }
     void operator()(const TerrainArea& area)
     {
-        add(QT_TRANSLATE_NOOP("Measure", "Geodesic area"), measuredAreaText(area.geodesic_m2));
+        const int area_place = digits_.area(area.geodesic_m2, area.perimeter_m);
+        add(QT_TRANSLATE_NOOP("Measure", "Geodesic area"),
+            measuredAreaText(area.geodesic_m2, area_place));
         addLength(QT_TRANSLATE_NOOP("Measure", "Perimeter"), area.perimeter_m);
-        add(QT_TRANSLATE_NOOP("Measure", "Terrain area"), measuredAreaText(area.surface_m2));
+        add(QT_TRANSLATE_NOOP("Measure", "Terrain area"),
+            measuredAreaText(area.surface_m2, area_place));
         addElevation(QT_TRANSLATE_NOOP("Measure", "Lowest"), area.min_m);
         addElevation(QT_TRANSLATE_NOOP("Measure", "Highest"), area.max_m);
         addElevation(QT_TRANSLATE_NOOP("Measure", "Mean"), area.mean_m);
+        const auto volume = [&](double value_m3) {
+            return measuredVolumeText(value_m3, digits_.volume(value_m3, area.geodesic_m2));
+        };
         if (area.volume_above_m3) {
             add(QT_TRANSLATE_NOOP("Measure", "Volume above the border's plane"),
-                measuredVolumeText(*area.volume_above_m3));
+                volume(*area.volume_above_m3));
         }
         if (area.volume_below_m3) {
-            add(QT_TRANSLATE_NOOP("Measure", "Volume below it"),
-                measuredVolumeText(*area.volume_below_m3));
+            add(QT_TRANSLATE_NOOP("Measure", "Volume below it"), volume(*area.volume_below_m3));
         }
         if (area.crosses_itself) {
             add(QT_TRANSLATE_NOOP("Measure", "Note"),
@@ -130,17 +168,23 @@ public:
     }
     void operator()(const Attitude& attitude)
     {
-        addAngle(QT_TRANSLATE_NOOP("Measure", "Strike (right-hand rule)"), attitude.strike_deg);
-        addAngle(QT_TRANSLATE_NOOP("Measure", "Dip"), attitude.dip_deg);
-        addAngle(QT_TRANSLATE_NOOP("Measure", "Dip direction"), attitude.dip_direction_deg);
-        if (attitude.uncertainty.is_estimated) {
-            addAngle(QT_TRANSLATE_NOOP("Measure", "Dip error (95 %)"),
-                     attitude.uncertainty.dip_error_deg);
-            addAngle(QT_TRANSLATE_NOOP("Measure", "Strike error (95 %)"),
-                     attitude.uncertainty.strike_error_deg);
+        const AttitudeUncertainty& errors = attitude.uncertainty;
+        const int strike_place =
+            errors.is_estimated ? anglePlace(errors.strike_error_deg) : kSlopePlace;
+        const int dip_place = errors.is_estimated ? anglePlace(errors.dip_error_deg) : kSlopePlace;
+        addAngle(QT_TRANSLATE_NOOP("Measure", "Strike (right-hand rule)"), attitude.strike_deg,
+                 strike_place);
+        addAngle(QT_TRANSLATE_NOOP("Measure", "Dip"), attitude.dip_deg, dip_place);
+        addAngle(QT_TRANSLATE_NOOP("Measure", "Dip direction"), attitude.dip_direction_deg,
+                 strike_place);
+        if (errors.is_estimated) {
+            addAngle(QT_TRANSLATE_NOOP("Measure", "Dip error (95 %)"), errors.dip_error_deg,
+                     dip_place);
+            addAngle(QT_TRANSLATE_NOOP("Measure", "Strike error (95 %)"), errors.strike_error_deg,
+                     strike_place);
         }
         if (attitude.hasResiduals()) {
-            addLength(QT_TRANSLATE_NOOP("Measure", "RMS distance from the plane"), attitude.rms_m);
+            addError(QT_TRANSLATE_NOOP("Measure", "RMS distance from the plane"), attitude.rms_m);
         } else {
             addNoErrors();
         }
@@ -148,14 +192,14 @@ public:
     }
     void operator()(const Crater& crater)
     {
-        addLength(QT_TRANSLATE_NOOP("Measure", "Diameter"), crater.diameter_m);
+        add(QT_TRANSLATE_NOOP("Measure", "Diameter"), diameterText(crater, digits_));
         addElevation(QT_TRANSLATE_NOOP("Measure", "Depth"), crater.depth_m);
         add(QT_TRANSLATE_NOOP("Measure", "Depth to diameter"),
-            leftToRight(numberText(crater.depth_m / crater.diameter_m, 3)));
+            depthToDiameterText(crater, digits_));
         addElevation(QT_TRANSLATE_NOOP("Measure", "Rim"), crater.rim_m);
         addElevation(QT_TRANSLATE_NOOP("Measure", "Floor"), crater.floor_m);
         if (crater.hasResiduals()) {
-            addLength(QT_TRANSLATE_NOOP("Measure", "RMS distance from the circle"), crater.rms_m);
+            addError(QT_TRANSLATE_NOOP("Measure", "RMS distance from the circle"), crater.rms_m);
         } else {
             addNoErrors();
         }
@@ -180,22 +224,27 @@ private:
     }
 
     HeightUnit unit_;
+    MeasuredDigits digits_;
     std::vector<MeasureRow> rows_;
 };
 
 struct Summary {
     HeightUnit unit;
+    MeasuredDigits digits;
 
-    QString operator()(const Distance& distance) const
+    QString length(double length_m) const
     {
-        return measuredLengthText(distance.geodesic_m);
+        return measuredLengthText(length_m, digits.length(length_m));
     }
+    QString operator()(const Distance& distance) const { return length(distance.geodesic_m); }
     QString operator()(const Profile& profile) const
     {
-        return profile.points.empty() ? QString()
-                                      : measuredLengthText(profile.points.back().distance_m);
+        return profile.points.empty() ? QString() : length(profile.points.back().distance_m);
     }
-    QString operator()(const TerrainArea& area) const { return measuredAreaText(area.geodesic_m2); }
+    QString operator()(const TerrainArea& area) const
+    {
+        return measuredAreaText(area.geodesic_m2, digits.area(area.geodesic_m2, area.perimeter_m));
+    }
     // Strike/dip, as geologists write it.
     QString operator()(const Attitude& attitude) const
     {
@@ -203,18 +252,21 @@ struct Summary {
                                    ? QStringLiteral("%1").arg(std::lround(attitude.strike_deg), 3,
                                                               10, QLatin1Char('0'))
                                    : QStringLiteral("–");
+        const AttitudeUncertainty& errors = attitude.uncertainty;
+        const int dip_place = errors.is_estimated ? anglePlace(errors.dip_error_deg) : kSlopePlace;
         return leftToRight(
-            QStringLiteral("%1/%2").arg(strike, measuredAngleText(attitude.dip_deg)));
+            QStringLiteral("%1/%2").arg(strike, angleText(attitude.dip_deg, dip_place)));
     }
     QString operator()(const Crater& crater) const
     {
         //: A diameter
-        return measureTr(QT_TRANSLATE_NOOP("Measure", "⌀ %1"))
-            .arg(measuredLengthText(crater.diameter_m));
+        return measureTr(QT_TRANSLATE_NOOP("Measure", "⌀ %1")).arg(diameterText(crater, digits));
     }
     QString operator()(const std::vector<TerrainSlope>& slopes) const
     {
-        return slopes.empty() ? QString() : elevationText(slopes.front().elevation_m, unit);
+        return slopes.empty() ? QString()
+                              : elevationText(slopes.front().elevation_m,
+                                              digits.elevation(slopes.front().elevation_m), unit);
     }
 };
 
@@ -255,19 +307,19 @@ QString measurementName(MeasurementKind kind)
     return measureTr(QT_TRANSLATE_NOOP("Measure", "Elevation and Slope"));
 }
 
-QString measuredLengthText(double length_m)
+QString measuredLengthText(double length_m, int last_place)
 {
-    return powerText(length_m, 1, QStringLiteral("m"), QStringLiteral("km"));
+    return powerText(length_m, last_place, 1, QStringLiteral("m"), QStringLiteral("km"));
 }
 
-QString measuredAreaText(double area_m2)
+QString measuredAreaText(double area_m2, int last_place)
 {
-    return powerText(area_m2, 2, QStringLiteral("m²"), QStringLiteral("km²"));
+    return powerText(area_m2, last_place, 2, QStringLiteral("m²"), QStringLiteral("km²"));
 }
 
-QString measuredVolumeText(double volume_m3)
+QString measuredVolumeText(double volume_m3, int last_place)
 {
-    return powerText(volume_m3, 3, QStringLiteral("m³"), QStringLiteral("km³"));
+    return powerText(volume_m3, last_place, 3, QStringLiteral("m³"), QStringLiteral("km³"));
 }
 
 QString measuredAngleText(double degrees, int decimals)
@@ -278,7 +330,7 @@ QString measuredAngleText(double degrees, int decimals)
 
 std::vector<MeasureRow> measureRows(const MeasurementResult& result, HeightUnit unit)
 {
-    Rows rows(unit);
+    Rows rows(unit, result.resolution);
     if (result.values) {
         std::visit(rows, *result.values);
     }
@@ -291,12 +343,15 @@ std::vector<MeasurePoint> measurePoints(const std::vector<MeasuredVertex>& verti
                                         const CoordinateFormat& format,
                                         HeightUnit unit)
 {
+    const MeasuredDigits digits(result.resolution);
     std::vector<MeasurePoint> points;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
-        points.push_back({.position = positionText(format, map, vertices[i]),
-                          .elevation = i < result.elevations_m.size()
-                                           ? elevationText(result.elevations_m[i], unit)
-                                           : QString()});
+        points.push_back(
+            {.position = positionText(format, map, vertices[i]),
+             .elevation = i < result.elevations_m.size()
+                              ? elevationText(result.elevations_m[i],
+                                              digits.elevation(result.elevations_m[i]), unit)
+                              : QString()});
     }
     return points;
 }
@@ -341,7 +396,8 @@ QString measureSummary(const MeasurementResult& result, HeightUnit unit)
     if (!result.values) {
         return {};
     }
-    const QString text = std::visit(Summary{unit}, *result.values);
+    const QString text =
+        std::visit(Summary{unit, MeasuredDigits(result.resolution)}, *result.values);
     return result.is_approximate && !text.isEmpty() ? leftToRight(QStringLiteral("≈ ") + text)
                                                     : text;
 }

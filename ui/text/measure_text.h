@@ -14,11 +14,12 @@ namespace marsview {
 /// "Strike and Dip", as in the menu.
 QString measurementName(MeasurementKind kind);
 
-/// "412.3 m", "12.41 km" or "1,203 km": four significant digits.
-QString measuredLengthText(double length_m);
+/// "412.3 m", "12.41 km" or "1,203 km": the last digit counts 10^last_place meters; see
+/// core/measure/measured_digits.h.
+QString measuredLengthText(double length_m, int last_place);
 /// The same for areas and volumes, in the powers of meters and kilometers.
-QString measuredAreaText(double area_m2);
-QString measuredVolumeText(double volume_m3);
+QString measuredAreaText(double area_m2, int last_place);
+QString measuredVolumeText(double volume_m3, int last_place);
 /// "12.3°".
 QString measuredAngleText(double degrees, int decimals = 1);
 
