@@ -619,6 +619,11 @@
         <extracomment>In place of errors</extracomment>
         <translation>drei Punkte: keine Fehlerschätzung</translation>
     </message>
+    <message>
+        <source>%1, depth %2, d/D %3</source>
+        <extracomment>A crater: %1 is its diameter, %2 its depth, %3 depth to diameter</extracomment>
+        <translation>%1, Tiefe %2, d/D %3</translation>
+    </message>
 </context>
 <context>
     <name>NumberText</name>
@@ -1058,6 +1063,20 @@
     <message>
         <source>Elevation</source>
         <translation>Höhe</translation>
+    </message>
+    <message>
+        <source>from %1</source>
+        <extracomment>Of a line or border: %1 is the position of its first point</extracomment>
+        <translation>ab %1</translation>
+    </message>
+    <message>
+        <source>Annotations</source>
+        <translation>Anmerkungen</translation>
+    </message>
+    <message>
+        <source>The first %1 of %2 annotations</source>
+        <extracomment>%1 and %2 are numbers</extracomment>
+        <translation>Die ersten %1 von %2 Anmerkungen</translation>
     </message>
 </context>
 <context>
@@ -4710,6 +4729,14 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
         <source>%1: cannot write the report (%2); choose another folder</source>
         <extracomment>%1 is a file, %2 the reason</extracomment>
         <translation>%1: Der Bericht kann nicht geschrieben werden (%2); wählen Sie einen anderen Ordner</translation>
+    </message>
+    <message>
+        <source>&amp;Annotations</source>
+        <translation>&amp;Anmerkungen</translation>
+    </message>
+    <message>
+        <source>There are no annotations yet</source>
+        <translation>Es gibt noch keine Anmerkungen</translation>
     </message>
 </context>
 <context>

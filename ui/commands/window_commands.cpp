@@ -17,6 +17,7 @@
 #include "ui/window/window_messages.h"
 #include "ui/window/window_options.h"
 
+#include <QFileInfo>
 #include <QMenu>
 #include <QObject>
 
@@ -140,6 +141,8 @@ WindowCommands::WindowCommands(const WindowParts& parts, const WindowOptions& op
            .overlays = parts.overlays,
            .marks = {&parts.annotation_marks, &parts.measure_marks},
            .measuring = parts.measuring,
+           .annotating = parts.annotating,
+           .project = [this] { return QFileInfo(project.file()).completeBaseName(); },
            .session = [&session = parts.session]() -> const Session& { return session.session(); },
            .unit = [this] { return preferences.preferences().height_unit; },
            .format = [this] { return preferences.preferences().coordinates; }})

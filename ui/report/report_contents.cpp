@@ -3,11 +3,13 @@
 #include "core/session/saved_view.h"
 #include "core/view/scale_bar.h"
 #include "ui/canvas/terrain_view.h"
+#include "ui/controllers/annotation_controller.h"
 #include "ui/controllers/measure_controller.h"
 #include "ui/overlay/overlay_text.h"
 #include "ui/plots/hypsometry_plot.h"
 #include "ui/plots/profile_plot.h"
 #include "ui/plots/stereonet_plot.h"
+#include "ui/text/annotation_text.h"
 #include "ui/text/body_text.h"
 #include "ui/text/coordinate_text.h"
 #include "ui/text/measure_text.h"
@@ -229,7 +231,7 @@ ReportSection overviewSection(const ReportSource& source)
         if (outcome.result) {
             table.rows.append({item.name, measurementName(item.kind),
                                outcome.result->values
-                                   ? measureSummary(*outcome.result, source.unit)
+                                   ? measureTableText(*outcome.result, source.unit)
                                    : QString::fromStdString(outcome.result->values.error().message),
                                layerName(source, item), item.note});
         }
@@ -292,6 +294,43 @@ measurementSection(const ReportSource& source, const MeasureItem& item, bool has
     return section;
 }
 
+// A line of a table for each annotation on the body of the map, in the order in which they were
+// drawn.
+std::optional<ReportSection> annotationsSection(const ReportSource& source)
+{
+    constexpr qsizetype kRowsMax = 2000; // more are no report: they can be exported
+    ReportTable table{.header = {reportTr(QT_TRANSLATE_NOOP("Report", "Name")),
+                                 reportTr(QT_TRANSLATE_NOOP("Report", "Kind")),
+                                 reportTr(QT_TRANSLATE_NOOP("Report", "Position")),
+                                 reportTr(QT_TRANSLATE_NOOP("Report", "Note"))}};
+    std::size_t count = 0;
+    for (const AnnotationItem& item : source.annotating.state().items) {
+        if (!item.isComplete() || !source.annotating.isShown(item)) {
+            continue;
+        }
+        if (++count; table.rows.size() < kRowsMax) {
+            QString position =
+                positionText(source.format, *source.view.map(), item.vertices.front());
+            if (!item.isSingle()) {
+                //: Of a line or border: %1 is the position of its first point
+                position = reportTr(QT_TRANSLATE_NOOP("Report", "from %1")).arg(position);
+            }
+            table.rows.append({item.name, shapeText(item.shape), position, item.note});
+        }
+    }
+    if (table.rows.isEmpty()) {
+        return std::nullopt;
+    }
+    ReportSection section{.title = reportTr(QT_TRANSLATE_NOOP("Report", "Annotations"))};
+    if (const auto shown = static_cast<std::size_t>(table.rows.size()); count > shown) {
+        //: %1 and %2 are numbers
+        section.note = reportTr(QT_TRANSLATE_NOOP("Report", "The first %1 of %2 annotations"))
+                           .arg(countText(shown), countText(count));
+    }
+    section.table = std::move(table);
+    return section;
+}
+
 std::optional<ReportSection> attitudesSection(const ReportSource& source)
 {
     std::vector<NetPlane> planes;
@@ -321,6 +360,26 @@ std::optional<ReportSection> attitudesSection(const ReportSource& source)
     return section;
 }
 
+void addMeasurements(Report& report, const ReportSource& source, const ReportChoice& choice)
+{
+    ReportSection overview = overviewSection(source);
+    if (overview.table->rows.isEmpty()) {
+        return;
+    }
+    report.sections.append(std::move(overview));
+    for (const MeasureItem& item : source.measuring.state().items) {
+        const MeasureOutcome& outcome = source.measuring.outcome(item.id);
+        if (outcome.result && outcome.result->values) {
+            report.sections.append(measurementSection(source, item, choice.has_plots));
+        }
+    }
+    if (choice.has_plots) {
+        if (auto attitudes = attitudesSection(source)) {
+            report.sections.append(std::move(*attitudes));
+        }
+    }
+}
+
 } // namespace
 
 Report reportOf(const ReportSource& source, const ReportChoice& choice, const QSize& picture)
@@ -334,23 +393,12 @@ Report reportOf(const ReportSource& source, const ReportChoice& choice, const QS
                               QLocale().toString(now.date(), QLocale::LongFormat));
     report.map = mapOf(source, picture);
     report.sections.append(layersSection(source));
-    if (!choice.has_measurements) {
-        return report;
+    if (choice.has_measurements) {
+        addMeasurements(report, source, choice);
     }
-    ReportSection overview = overviewSection(source);
-    if (overview.table->rows.isEmpty()) {
-        return report;
-    }
-    report.sections.append(std::move(overview));
-    for (const MeasureItem& item : source.measuring.state().items) {
-        const MeasureOutcome& outcome = source.measuring.outcome(item.id);
-        if (outcome.result && outcome.result->values) {
-            report.sections.append(measurementSection(source, item, choice.has_plots));
-        }
-    }
-    if (choice.has_plots) {
-        if (auto attitudes = attitudesSection(source)) {
-            report.sections.append(std::move(*attitudes));
+    if (choice.has_annotations) {
+        if (auto annotations = annotationsSection(source)) {
+            report.sections.append(std::move(*annotations));
         }
     }
     return report;

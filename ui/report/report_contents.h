@@ -12,6 +12,7 @@
 
 namespace marsview {
 
+class AnnotationController;
 class MeasureController;
 class TerrainView;
 
@@ -20,12 +21,14 @@ struct ReportChoice {
     QString credit{};             // of the data, as the user states it
     bool has_measurements = true; // tables
     bool has_plots = true;        // profiles, hypsometry, and the stereonet of attitudes
+    bool has_annotations = true;  // a table
 };
 
 struct ReportSource {
     const TerrainView& view; // with a map
     const Session& session;
     const MeasureController& measuring;
+    const AnnotationController& annotating;
     LegendContent legend{};
     HeightUnit unit = HeightUnit::Meters;
     CoordinateFormat format{};

@@ -2,6 +2,7 @@
 
 #include "ui/canvas/picture_drawing.h"
 #include "ui/canvas/terrain_view.h"
+#include "ui/controllers/annotation_controller.h"
 #include "ui/controllers/measure_controller.h"
 #include "ui/overlay/drawn_marks.h"
 #include "ui/overlay/map_overlays.h"
@@ -79,7 +80,9 @@ void ReportExporter::ask()
     const auto shown = shownLayers(parts_.session());
     const Layer* active = activeLayer(parts_.session());
     const Layer* named = active != nullptr ? active : shown.empty() ? nullptr : shown.front();
-    title->setText(named != nullptr
+    const QString project = parts_.project();
+    title->setText(!project.isEmpty() ? project
+                   : named != nullptr
                        ? QFileInfo(QString::fromStdString(named->name)).completeBaseName()
                        //: Title of a report
                        : tr("Map"));
@@ -99,12 +102,21 @@ void ReportExporter::ask()
             box->setToolTip(tr("There are no measurements yet"));
         }
     }
+    auto* annotations = new QCheckBox(tr("&Annotations"), dialog);
+    annotations->setObjectName(QStringLiteral("annotations"));
+    const bool has_annotations = !parts_.annotating.state().items.empty();
+    annotations->setChecked(has_annotations);
+    annotations->setEnabled(has_annotations);
+    if (!has_annotations) {
+        annotations->setToolTip(tr("There are no annotations yet"));
+    }
     connect(measurements, &QCheckBox::toggled, plots, &QCheckBox::setEnabled);
     auto* form = new QFormLayout;
     form->addRow(tr("&Title"), title);
     form->addRow(tr("&Credit"), credit);
     form->addRow(tr("Include"), measurements);
     form->addRow(QString(), plots);
+    form->addRow(QString(), annotations);
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, dialog);
     //: On a button: choose a file for the report
     auto* save = buttons->addButton(tr("&Export…"), QDialogButtonBox::AcceptRole);
@@ -116,13 +128,15 @@ void ReportExporter::ask()
     layout->setSizeConstraint(QLayout::SetFixedSize);
     connect(buttons, &QDialogButtonBox::accepted, dialog, &QDialog::accept);
     connect(buttons, &QDialogButtonBox::rejected, dialog, &QDialog::reject);
-    connect(dialog, &QDialog::accepted, this, [this, title, credit, measurements, plots] {
-        credit_ = credit->text();
-        chooseFile({.title = title->text().trimmed(),
-                    .credit = credit_.trimmed(),
-                    .has_measurements = measurements->isChecked(),
-                    .has_plots = measurements->isChecked() && plots->isChecked()});
-    });
+    connect(dialog, &QDialog::accepted, this,
+            [this, title, credit, measurements, plots, annotations] {
+                credit_ = credit->text();
+                chooseFile({.title = title->text().trimmed(),
+                            .credit = credit_.trimmed(),
+                            .has_measurements = measurements->isChecked(),
+                            .has_plots = measurements->isChecked() && plots->isChecked(),
+                            .has_annotations = annotations->isChecked()});
+            });
     dialog->open();
 }
 
@@ -167,6 +181,7 @@ void ReportExporter::exportTo(const QString& file, const ReportChoice& choice)
     report_ = reportOf({.view = parts_.view,
                         .session = parts_.session(),
                         .measuring = parts_.measuring,
+                        .annotating = parts_.annotating,
                         .legend = parts_.overlays.legend()->content(),
                         .unit = parts_.unit(),
                         .format = parts_.format()},

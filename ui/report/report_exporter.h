@@ -40,6 +40,8 @@ public:
         MapOverlays& overlays;
         std::vector<const DrawnMarks*> marks;
         const MeasureController& measuring;
+        const AnnotationController& annotating;
+        std::function<QString()> project; // its name; empty if it was never saved
         std::function<const Session&()> session;
         std::function<HeightUnit()> unit;
         std::function<CoordinateFormat()> format;

@@ -402,6 +402,20 @@ QString measureSummary(const MeasurementResult& result, HeightUnit unit)
                                                     : text;
 }
 
+QString measureTableText(const MeasurementResult& result, HeightUnit unit)
+{
+    const QString summary = measureSummary(result, unit);
+    const auto* crater = result.values ? std::get_if<Crater>(&*result.values) : nullptr;
+    if (crater == nullptr) {
+        return summary;
+    }
+    const MeasuredDigits digits(result.resolution);
+    //: A crater: %1 is its diameter, %2 its depth, %3 depth to diameter
+    return measureTr(QT_TRANSLATE_NOOP("Measure", "%1, depth %2, d/D %3"))
+        .arg(summary, elevationText(crater->depth_m, digits.elevation(crater->depth_m), unit),
+             depthToDiameterText(*crater, digits));
+}
+
 double measureFigure(const MeasurementResult& result)
 {
     return result.values ? std::visit(Figure{}, *result.values)

@@ -52,6 +52,8 @@ centerRows(const MeasurementResult& result, const Map& map, const CoordinateForm
 /// The figure that stands for the whole result, for lists and labels: "≈" before approximate ones.
 /// Empty where the result is an error.
 QString measureSummary(const MeasurementResult& result, HeightUnit unit);
+/// The same with what else belongs to it in a table: depth and d/D of a crater.
+QString measureTableText(const MeasurementResult& result, HeightUnit unit);
 /// That figure in meters or square meters, or the dip in degrees. NaN where the result is an error.
 double measureFigure(const MeasurementResult& result);
 

@@ -3,9 +3,12 @@
 #include "tests/support/temp_folder.h"
 #include "tests/ui/map_window.h"
 #include "ui/commands/window_commands.h"
+#include "ui/controllers/annotation_controller.h"
 #include "ui/controllers/measure_controller.h"
+#include "ui/project/project_controller.h"
 #include "ui/report/report_exporter.h"
 #include "ui/report/report_pdf.h"
+#include "ui/text/coordinate_text.h"
 #include "ui/text/measure_text.h"
 
 #include <QAction>
@@ -145,6 +148,59 @@ TEST_F(ReportTest, TheWebPageHoldsEverythingAndNeedsNoOtherFile)
     EXPECT_EQ(map.size(), QSize(2000, 1500));
 }
 
+TEST_F(ReportTest, ATickPutsAnnotationsWithPositionAndNoteIntoATable)
+{
+    openMars();
+    AnnotationController& annotating = *window_->annotating();
+    annotating.begin(FeatureShape::Point);
+    annotating.addPointAt({300.0, 300.0});
+    annotating.rename(1, QStringLiteral("Dark <streak>"));
+    annotating.setNote(1, QStringLiteral("a slope & a fan"));
+    annotating.begin(FeatureShape::Line);
+    annotating.addPointAt({320.0, 300.0});
+    annotating.addPointAt({340.0, 320.0});
+    annotating.finish();
+    const auto place = view().map()->georeference().toGeographic({300.0, 300.0});
+    const QString position =
+        positionText({}, *view().map(), GridPoint{300.0, 300.0}).toHtmlEscaped();
+    ASSERT_TRUE(position.startsWith(QString::number(std::abs(place->latitude.degrees()), 'f', 2)))
+        << qPrintable(position);
+    const QString with = QString::fromUtf8(exported("with.html", {.title = QStringLiteral("x")}));
+    for (const QString& text :
+         {QStringLiteral("Dark &lt;streak&gt;"), QStringLiteral("a slope &amp; a fan"), position,
+          QStringLiteral("Line 2"), QStringLiteral("from ")}) {
+        EXPECT_TRUE(with.contains(text)) << qPrintable(text);
+    }
+    const QString without = QString::fromUtf8(
+        exported("without.html", {.title = QStringLiteral("x"), .has_annotations = false}));
+    EXPECT_FALSE(without.contains(QStringLiteral("a slope &amp; a fan")));
+}
+
+TEST_F(ReportTest, TheTableHasDepthAndDepthToDiameterOfCraters)
+{
+    openMars();
+    measure(MeasurementKind::Crater,
+            {{300.0, 300.0}, {340.0, 300.0}, {320.0, 320.0}, {320.0, 280.0}});
+    const MeasureOutcome& outcome = window_->measuring()->outcome(1);
+    const auto* crater = outcome.as<Crater>();
+    ASSERT_NE(crater, nullptr);
+    const QString page = QString::fromUtf8(exported("report.html", {.title = QStringLiteral("x")}));
+    const QRegularExpression row(
+        QStringLiteral("⌀ ([\\d,.]+) km, depth (−?[\\d,]+\\.\\d) m, d/D "
+                       "(−?0\\.\\d+)"));
+    const auto found = row.match(page);
+    ASSERT_TRUE(found.hasMatch());
+    const auto number = [&](int group) {
+        return found.captured(group)
+            .remove(QLatin1Char(','))
+            .replace(QChar(0x2212), QLatin1Char('-'))
+            .toDouble();
+    };
+    EXPECT_NEAR(number(1), crater->diameter_m / 1000.0, 0.01 * crater->diameter_m / 1000.0);
+    EXPECT_NEAR(number(2), crater->depth_m, 0.051);
+    EXPECT_NEAR(number(3), crater->depth_m / crater->diameter_m, 0.0051);
+}
+
 TEST_F(ReportTest, TheScaleBarIsAsLongAsItSays)
 {
     openMars();
@@ -153,9 +209,11 @@ TEST_F(ReportTest, TheScaleBarIsAsLongAsItSays)
         camera.distance_m *= factor;
         view().setCamera(camera);
         const QSize size(2000, 1500);
-        const Report report = reportOf(
-            {.view = view(), .session = window_->session(), .measuring = *window_->measuring()},
-            {.title = QStringLiteral("x")}, size);
+        const Report report = reportOf({.view = view(),
+                                        .session = window_->session(),
+                                        .measuring = *window_->measuring(),
+                                        .annotating = *window_->annotating()},
+                                       {.title = QStringLiteral("x")}, size);
         const DrawnBar bar = barIn(mapKeySvg(report.map));
         const double width_m =
             size.width() * metersPerPixel(view().camera(), {size.width(), size.height()});
@@ -172,9 +230,11 @@ TEST_F(ReportTest, NorthIsWhereTheCameraTurnedIt)
     OrbitCamera camera = view().camera();
     camera.azimuth = Angle::degrees(30.0);
     view().setCamera(camera);
-    const Report report = reportOf(
-        {.view = view(), .session = window_->session(), .measuring = *window_->measuring()},
-        {.title = QStringLiteral("x")}, {800, 600});
+    const Report report = reportOf({.view = view(),
+                                    .session = window_->session(),
+                                    .measuring = *window_->measuring(),
+                                    .annotating = *window_->annotating()},
+                                   {.title = QStringLiteral("x")}, {800, 600});
     EXPECT_NEAR(report.map.north_deg, -30.0, 1e-3);
 }
 
@@ -227,6 +287,7 @@ TEST_F(ReportTest, TheDialogAsksForTitleAndContentsByKeyboard)
     auto* title = dialog->findChild<QLineEdit*>(QStringLiteral("title"));
     EXPECT_EQ(title->text(), QStringLiteral("mars"));
     EXPECT_FALSE(dialog->findChild<QCheckBox*>(QStringLiteral("measurements"))->isEnabled());
+    EXPECT_FALSE(dialog->findChild<QCheckBox*>(QStringLiteral("annotations"))->isEnabled());
     title->selectAll();
     QTest::keyClicks(title, QStringLiteral("Gale"));
     QTest::keyClick(title, Qt::Key_Return);
@@ -240,6 +301,25 @@ TEST_F(ReportTest, TheDialogAsksForTitleAndContentsByKeyboard)
     ASSERT_TRUE(file.open(QIODevice::ReadOnly));
     // Texts of a PDF's description are in UTF-16, the higher byte first.
     EXPECT_TRUE(file.readAll().contains(QByteArray("\0G\0a\0l\0e", 8)));
+}
+
+TEST_F(ReportTest, TheTitleIsThatOfTheProjectUntilAnotherIsTyped)
+{
+    makeWindow(kWithPanels);
+    ASSERT_TRUE(openAndWait(*window_, maps_.mars()));
+    window_->annotating()->begin(FeatureShape::Point);
+    window_->annotating()->addPointAt({10.0, 10.0});
+    ASSERT_TRUE(window_->commands().project.saveAs(path("Gale crater.mvproj")));
+    ASSERT_TRUE(waitFor([this] { return !window_->commands().project.isWriting(); }));
+    window_->commands().reports.action()->trigger();
+    QDialog* dialog = window_->commands().reports.dialog();
+    ASSERT_NE(dialog, nullptr);
+    EXPECT_EQ(dialog->findChild<QLineEdit*>(QStringLiteral("title"))->text(),
+              QStringLiteral("Gale crater"));
+    auto* annotations = dialog->findChild<QCheckBox*>(QStringLiteral("annotations"));
+    EXPECT_TRUE(annotations->isEnabled());
+    EXPECT_TRUE(annotations->isChecked());
+    dialog->reject();
 }
 
 TEST_F(ReportTest, CancelingWritesNothing)
