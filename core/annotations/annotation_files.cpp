@@ -400,24 +400,35 @@ std::vector<FeatureCollection> annotationFeatures(std::span<const Annotation> an
     return collections;
 }
 
+std::vector<fs::path> collectionPaths(std::span<const FeatureCollection> collections,
+                                      const fs::path& path)
+{
+    if (collections.size() == 1) {
+        return {path};
+    }
+    std::vector<fs::path> paths;
+    std::vector<std::string> suffixes;
+    for (const FeatureCollection& content : collections) {
+        const std::string suffix =
+            fmt::format("-{}", content.body != nullptr ? lowerCase(std::string(content.body->name))
+                               : content.crs           ? "body"
+                                                       : "map");
+        const auto same = std::count(suffixes.begin(), suffixes.end(), suffix);
+        suffixes.push_back(suffix);
+        paths.push_back(
+            withSuffix(path, same > 0 ? fmt::format("{}-{}", suffix, same + 1) : suffix));
+    }
+    return paths;
+}
+
 Result<std::vector<std::string>> writeCollections(std::span<const FeatureCollection> collections,
                                                   const fs::path& path,
                                                   JobMonitor& monitor)
 {
     std::vector<std::string> notices;
-    std::vector<std::string> suffixes;
-    for (const FeatureCollection& content : collections) {
-        fs::path file = path;
-        if (collections.size() > 1) {
-            std::string suffix = fmt::format("-{}", content.body != nullptr
-                                                        ? lowerCase(std::string(content.body->name))
-                                                    : content.crs ? "body"
-                                                                  : "map");
-            const auto same = std::count(suffixes.begin(), suffixes.end(), suffix);
-            suffixes.push_back(suffix);
-            file = withSuffix(path, same > 0 ? fmt::format("{}-{}", suffix, same + 1) : suffix);
-        }
-        auto written = writeVectorFile(file.string(), content, monitor);
+    const std::vector<fs::path> paths = collectionPaths(collections, path);
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        auto written = writeVectorFile(paths[i].string(), collections[i], monitor);
         if (!written) {
             return written;
         }

@@ -26,9 +26,13 @@ enum class FeatureLayers {
 std::vector<FeatureCollection> annotationFeatures(std::span<const Annotation> annotations,
                                                   FeatureLayers layers);
 
-/// Writes the collections to `path`, or if there are several next to it with the name of the body:
-/// "gale-mars.gpkg", "gale-moon.gpkg". Replaces such files when the new ones are complete. Returns
-/// and refuses as writeVectorFile(). Blocks on the disk.
+/// Where collections are written: `path`, or if there are several next to it with the name of the
+/// body: "gale-mars.gpkg", "gale-moon.gpkg".
+std::vector<std::filesystem::path> collectionPaths(std::span<const FeatureCollection> collections,
+                                                   const std::filesystem::path& path);
+
+/// Writes the collections there. Replaces such files when the new ones are complete. Returns and
+/// refuses as writeVectorFile(). Blocks on the disk.
 Result<std::vector<std::string>> writeCollections(std::span<const FeatureCollection> collections,
                                                   const std::filesystem::path& path,
                                                   JobMonitor& monitor);

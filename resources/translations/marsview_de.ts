@@ -1320,6 +1320,11 @@
         <source>Annotations</source>
         <translation>Anmerkungen</translation>
     </message>
+    <message>
+        <source>Saved %1</source>
+        <extracomment>In the status bar, for a few seconds; %1 is a list of files</extracomment>
+        <translation>Gespeichert: %1</translation>
+    </message>
 </context>
 <context>
     <name>marsview</name>

@@ -25,6 +25,7 @@
 #include <QFile>
 #include <QLineEdit>
 #include <QMessageBox>
+#include <QStatusBar>
 #include <QTest>
 #include <QUndoStack>
 
@@ -399,9 +400,16 @@ TEST_F(AnnotationTest, AProjectKeepsThemAndTheirStepsAreChanges)
     EXPECT_TRUE(project.isModified());
     const std::vector<Annotation> drawn = annotating().annotations();
     const QString file = maps_.path(QStringLiteral("rims.mvproj"));
+    QStringList written;
+    QObject::connect(&project, &ProjectController::written, window_.get(),
+                     [&](const QStringList& files) { written = files; });
     ASSERT_TRUE(project.saveAs(file));
     EXPECT_FALSE(project.isModified());
     ASSERT_TRUE(QTest::qWaitFor([&] { return !project.isWriting(); }, kTimeout));
+    EXPECT_EQ(written, QStringList({file, maps_.path(QStringLiteral("rims-annotations.gpkg"))}));
+    const QString message = window_->statusBar()->currentMessage();
+    EXPECT_TRUE(message.startsWith(QStringLiteral("Saved rims.mvproj"))) << qPrintable(message);
+    EXPECT_TRUE(message.endsWith(QStringLiteral(" rims-annotations.gpkg"))) << qPrintable(message);
     EXPECT_NE(test::runTool({"ogrinfo", "-ro", "-so", "-al",
                              maps_.path(QStringLiteral("rims-annotations.gpkg")).toStdString()})
                   .find("Layer name: polygons"),

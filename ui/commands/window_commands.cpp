@@ -11,6 +11,7 @@
 #include "ui/panels/layer_model.h"
 #include "ui/panels/layers_panel.h"
 #include "ui/panels/measure_panel.h"
+#include "ui/text/number_text.h"
 #include "ui/window/main_tool_bar.h"
 #include "ui/window/window_actions.h"
 #include "ui/window/window_docks.h"
@@ -18,6 +19,7 @@
 #include "ui/window/window_options.h"
 
 #include <QFileInfo>
+#include <QLocale>
 #include <QMenu>
 #include <QObject>
 
@@ -219,7 +221,15 @@ void WindowCommands::showMessages(WindowMessages& messages)
     const auto report_as = [&messages](const QString& title) {
         return [&messages, title](const QString& problem) { messages.report(title, problem); };
     };
-    QObject::connect(&project, &ProjectController::saved, &messages, &WindowMessages::showSaved);
+    QObject::connect(&project, &ProjectController::written, &messages,
+                     [&messages](const QStringList& written) {
+                         QStringList shown;
+                         for (const QString& file : written) {
+                             shown.append(isolated(QFileInfo(file).fileName()));
+                         }
+                         //: In the status bar, for a few seconds; %1 is a list of files
+                         messages.show(tr("Saved %1").arg(QLocale().createSeparatedList(shown)));
+                     });
     QObject::connect(&project, &ProjectController::failed, &messages, report_as(tr("Project")));
     QObject::connect(&contours, &ContourTools::exported, &messages, &WindowMessages::showSaved);
     QObject::connect(&contours, &ContourTools::failed, &messages,

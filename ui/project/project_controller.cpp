@@ -188,46 +188,57 @@ void ProjectController::writeBeside(const QString& path)
     auto measurements = measuring_.named();
     auto annotations = annotating_.annotations();
     if (measurements.empty() && annotations.empty()) {
+        Q_EMIT written({path});
         return;
     }
     ++writing_;
     //: In the status bar: %1 is a file
     const auto monitor = work_.begin(*this, tr("Writing %1").arg(project_file.fileName()), path);
-    pool_.start([this, monitor, measurements = std::move(measurements),
+    pool_.start([this, path, monitor, measurements = std::move(measurements),
                  annotations = std::move(annotations),
                  measurements_file = file_for(QStringLiteral("-measurements.gpkg")),
                  annotations_file = file_for(QStringLiteral("-annotations.gpkg"))] {
-        const Status measured = measurements.empty()
-                                    ? Status(Done{})
-                                    : writeMeasurements(measurements, measurements_file);
-        std::optional<Error> annotated;
-        if (!annotations.empty()) {
-            if (const auto written = writeAnnotations(annotations, annotations_file, *monitor);
-                !written) {
-                annotated = written.error();
+        Beside beside;
+        const auto write = [&](const std::vector<FeatureCollection>& features,
+                               const std::string& file) -> std::optional<Error> {
+            if (features.empty()) {
+                return std::nullopt;
             }
-        }
+            if (const auto done = writeCollections(features, file, *monitor); !done) {
+                return done.error();
+            }
+            const auto files = collectionPaths(features, file);
+            beside.files.insert(beside.files.end(), files.begin(), files.end());
+            return std::nullopt;
+        };
+        beside.measurements = write(measurementFeatures(measurements), measurements_file);
+        beside.annotations =
+            write(annotationFeatures(annotations, FeatureLayers::ByShape), annotations_file);
         QMetaObject::invokeMethod(
             this,
-            [this, monitor, measured, annotated] {
+            [this, path, monitor, beside] {
                 --writing_;
                 work_.end(monitor);
-                reportBeside(measured ? std::nullopt : std::optional(measured.error()), annotated);
+                reportBeside(path, beside);
             },
             Qt::QueuedConnection);
     });
 }
 
-void ProjectController::reportBeside(const std::optional<Error>& measurements,
-                                     const std::optional<Error>& annotations)
+void ProjectController::reportBeside(const QString& path, const Beside& beside)
 {
-    if (measurements) {
-        Q_EMIT failed(tr("The project is saved, but not the GeoPackage of its measurements: %1")
-                          .arg(QString::fromStdString(measurements->message)));
+    QStringList files{path};
+    for (const std::filesystem::path& file : beside.files) {
+        files.append(QString::fromStdString(file.string()));
     }
-    if (annotations && annotations->code != ErrorCode::Canceled) {
+    Q_EMIT written(files);
+    if (beside.measurements && beside.measurements->code != ErrorCode::Canceled) {
+        Q_EMIT failed(tr("The project is saved, but not the GeoPackage of its measurements: %1")
+                          .arg(QString::fromStdString(beside.measurements->message)));
+    }
+    if (beside.annotations && beside.annotations->code != ErrorCode::Canceled) {
         Q_EMIT failed(tr("The project is saved, but not the GeoPackage of its annotations: %1")
-                          .arg(QString::fromStdString(annotations->message)));
+                          .arg(QString::fromStdString(beside.annotations->message)));
     }
 }
 

@@ -6,6 +6,7 @@
 
 #include <QObject>
 #include <QString>
+#include <QStringList>
 #include <QThreadPool>
 #include <QTimer>
 
@@ -13,6 +14,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace marsview {
 
@@ -82,13 +84,20 @@ Q_SIGNALS:
     void changed();
     void opened(const QString& file);
     void saved(const QString& file);
+    /// Saving has ended: the project and the GeoPackages that it wrote.
+    void written(const QStringList& files);
     /// "FILE: WHY"
     void failed(const QString& problem);
 
 private:
     void writeBeside(const QString& path);
-    void reportBeside(const std::optional<Error>& measurements,
-                      const std::optional<Error>& annotations);
+    // What became of the files next to a project.
+    struct Beside {
+        std::optional<Error> measurements;
+        std::optional<Error> annotations;
+        std::vector<std::filesystem::path> files; // that are written
+    };
+    void reportBeside(const QString& path, const Beside& beside);
     void replace(const Project& project, const QString& file);
     bool isNothingToKeep() const;
     void noteOpened();
