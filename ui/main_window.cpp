@@ -15,6 +15,7 @@
 #include "ui/overlay/map_labels.h"
 #include "ui/overlay/map_overlays.h"
 #include "ui/overlay/measure_marks.h"
+#include "ui/overlay/place_mark.h"
 #include "ui/panels/annotation_panel.h"
 #include "ui/panels/georeferencing_panel.h"
 #include "ui/panels/haptics_panel.h"
@@ -265,10 +266,13 @@ void MainWindow::placeMarks()
     auto* name_field = new NameField(*annotate_, *view_);
     for (DrawnMarks* marks :
          {static_cast<DrawnMarks*>(measure_marks_), static_cast<DrawnMarks*>(annotation_marks_)}) {
-        marks->setObstacles(overlays_->plates() << name_field);
+        marks->setObstacles(overlays_->plates()
+                            << overlays_->placeMark() << notice_bar_ << name_field);
         marks->lower();
     }
     annotation_marks_->setNeighbor(*measure_marks_);
+    annotation_marks_->giveWayToNeighbor();
+    measure_marks_->setNeighbor(*annotation_marks_);
     overlays_->labels()->lower(); // names give way to measurements and annotations
     overlays_->labels()->keepClearOf(*measure_marks_);
     overlays_->labels()->keepClearOf(*annotation_marks_);

@@ -141,12 +141,11 @@ std::vector<DrawnMarks::Mark> AnnotationMarks::marks() const
     if (state.items.empty()) {
         return marks;
     }
-    const std::vector<DrawnHandle> handles = controller_.handles();
     std::vector<const AnnotationItem*> named;
     if (const AnnotationItem* current = controller_.current()) {
         named.push_back(current);
     }
-    for (auto handle = handles.rbegin(); handle != handles.rend(); ++handle) {
+    for (auto handle = handles().rbegin(); handle != handles().rend(); ++handle) {
         const AnnotationItem& item = *controller_.itemOf(handle->item);
         marks.push_back(item.isSingle() ? symbolMark(item, *handle) : handleMark(*handle, true));
         if (item.isSingle() && item.id != state.current && !handle->is_hidden) {

@@ -19,6 +19,7 @@ namespace {
 constexpr double kHandleRadius = 4.5;
 constexpr double kHandleRim = 1.5;
 constexpr double kHiddenOpacity = 0.35;
+constexpr double kNeighborRadius = 7.0;      // of a point of a neighbor, as large as its symbol
 constexpr QPointF kLabelOffset{10.0, -10.0}; // from its place to its nearest corner
 constexpr double kLabelPadding = 4.0;
 
@@ -26,6 +27,7 @@ constexpr double kLabelPadding = 4.0;
 
 DrawnMarks::DrawnMarks(const DrawingBase& drawing, QWidget* view)
     : QWidget(view)
+    , drawing_(&drawing)
 {
     setAttribute(Qt::WA_TransparentForMouseEvents);
     setFocusPolicy(Qt::NoFocus);
@@ -34,16 +36,29 @@ DrawnMarks::DrawnMarks(const DrawingBase& drawing, QWidget* view)
     connect(&drawing, &DrawingBase::moved, this, &DrawnMarks::noteChange);
     connect(&drawing, &DrawingBase::changed, this, &DrawnMarks::noteChange);
     if (const auto* terrain = qobject_cast<TerrainView*>(view)) {
-        const auto forget = [this] { marks_.reset(); };
-        connect(terrain, &TerrainView::sightChanged, this, forget);
-        connect(terrain, &TerrainView::exaggerationChanged, this, forget);
-        connect(terrain, &TerrainView::layersChanged, this, forget);
+        connect(terrain, &TerrainView::sightChanged, this, &DrawnMarks::forget);
+        connect(terrain, &TerrainView::exaggerationChanged, this, &DrawnMarks::forget);
+        connect(terrain, &TerrainView::layersChanged, this, &DrawnMarks::forget);
     }
+}
+
+void DrawnMarks::setObstacles(const QList<QWidget*>& obstacles)
+{
+    obstacles_ = obstacles;
+    for (QWidget* obstacle : obstacles_) {
+        obstacle->installEventFilter(this);
+    }
+}
+
+void DrawnMarks::forget()
+{
+    handles_.reset();
+    marks_.reset();
 }
 
 void DrawnMarks::noteChange()
 {
-    marks_.reset();
+    forget();
     update();
     Q_EMIT marksChanged();
 }
@@ -51,18 +66,42 @@ void DrawnMarks::noteChange()
 const std::vector<DrawnMarks::Mark>& DrawnMarks::knownMarks() const
 {
     if (!marks_) {
-        marks_ = marks();
+        marks_ = drawing_ ? marks() : std::vector<Mark>();
     }
     return *marks_;
 }
 
+const std::vector<DrawnHandle>& DrawnMarks::handles() const
+{
+    if (!handles_) {
+        handles_ = drawing_ ? drawing_->handles() : std::vector<DrawnHandle>();
+    }
+    return *handles_;
+}
+
 bool DrawnMarks::eventFilter(QObject* watched, QEvent* event)
 {
-    if (watched == parent() && event->type() == QEvent::Resize) {
-        setGeometry(parentWidget()->rect());
+    if (watched == parent()) {
+        if (event->type() == QEvent::Resize) {
+            setGeometry(parentWidget()->rect());
+            forget();
+        }
+    } else if (event->type() == QEvent::Show || event->type() == QEvent::Hide ||
+               event->type() == QEvent::Move || event->type() == QEvent::Resize) {
+        // Labels make way for it, or return.
         marks_.reset();
+        update();
+        Q_EMIT marksChanged();
     }
     return QWidget::eventFilter(watched, event);
+}
+
+void DrawnMarks::changeEvent(QEvent* event)
+{
+    if (event->type() == QEvent::FontChange || event->type() == QEvent::StyleChange) {
+        marks_.reset();
+    }
+    QWidget::changeEvent(event);
 }
 
 QColor DrawnMarks::colorOf(const Rgb8& color)
@@ -94,11 +133,17 @@ DrawnMarks::LabelRoom DrawnMarks::roomBeside(const std::vector<Mark>& marks) con
 {
     constexpr std::size_t kMarksMax = 500; // beyond, no room is left anyway
     LabelRoom room;
-    if (neighbor_ != nullptr) {
-        room.labels = neighbor_->labelBoxes();
-    }
     for (std::size_t i = 0; i < std::min(marks.size(), kMarksMax); ++i) {
         room.marks.push_back(marks[i].box);
+    }
+    if (neighbor_ != nullptr) {
+        if (gives_way_) {
+            room.labels = neighbor_->labelBoxes();
+        }
+        const std::vector<DrawnHandle>& others = neighbor_->handles();
+        for (std::size_t i = 0; i < std::min(others.size(), kMarksMax); ++i) {
+            room.marks.push_back(boxAround(others[i].place, kNeighborRadius));
+        }
     }
     return room;
 }
@@ -108,7 +153,7 @@ std::optional<DrawnMarks::Mark> DrawnMarks::labelMark(QPointF place,
                                                       const QColor& color,
                                                       LabelRoom& room) const
 {
-    const QFontMetricsF metrics(font());
+    const QFontMetricsF metrics(font(), this); // as this screen draws it
     const QSizeF size(metrics.horizontalAdvance(text) + 2.0 * kLabelPadding,
                       metrics.height() + kLabelPadding);
     const auto plate = labelBox(place, size, room);
@@ -119,8 +164,18 @@ std::optional<DrawnMarks::Mark> DrawnMarks::labelMark(QPointF place,
     return Mark{*plate, true, [plate = *plate, text, color](QPainter& painter) {
                     drawPlate(painter, plate);
                     painter.setPen(color);
-                    drawText(painter, plate, Qt::AlignCenter, text);
+                    // Fractions of a pixel that letters are wider at 150 % cut nothing off.
+                    const QRectF wide = plate.adjusted(-kLabelPadding, 0.0, kLabelPadding, 0.0);
+                    drawText(painter, wide, Qt::AlignCenter, text);
                 }};
+}
+
+// Not all of them are children of the view.
+QRectF DrawnMarks::placeOf(const QWidget& obstacle) const
+{
+    return obstacle.parentWidget() == parentWidget()
+               ? QRectF(obstacle.geometry())
+               : QRectF(mapFromGlobal(obstacle.mapToGlobal(QPointF())), QSizeF(obstacle.size()));
 }
 
 std::optional<QRectF>
@@ -140,9 +195,9 @@ DrawnMarks::labelBox(QPointF place, const QSizeF& size, const LabelRoom& room) c
     std::optional<QRectF> over_marks; // if there is nothing better
     for (const QPointF& corner : corners) {
         const QRectF box(corner, size);
-        const bool is_clear =
-            std::none_of(obstacles_.begin(), obstacles_.end(), [&box](const QWidget* obstacle) {
-                return obstacle->isVisible() && box.intersects(obstacle->geometry());
+        const bool is_clear = std::none_of(
+            obstacles_.begin(), obstacles_.end(), [this, &box](const QWidget* obstacle) {
+                return obstacle->isVisible() && box.intersects(placeOf(*obstacle));
             });
         if (!is_clear || !inside.contains(box) || !is_clear_of(room.labels, box)) {
             continue;
@@ -168,7 +223,6 @@ std::vector<QRectF> DrawnMarks::labelBoxes() const
 
 void DrawnMarks::paintEvent(QPaintEvent* /*event*/)
 {
-    marks_.reset(); // obstacles may have moved
     QPainter painter(this);
     painter.setRenderHint(QPainter::Antialiasing);
     for (const Mark& mark : knownMarks()) {

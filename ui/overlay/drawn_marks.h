@@ -7,6 +7,7 @@
 
 #include <QColor>
 #include <QList>
+#include <QPointer>
 #include <QRectF>
 #include <QWidget>
 
@@ -25,13 +26,16 @@ class DrawnMarks : public QWidget {
     Q_OBJECT
 
 public:
-    /// Follows the items of `drawing`, which outlives its last event.
+    /// Follows the items of `drawing`. Without it there are no marks.
     DrawnMarks(const DrawingBase& drawing, QWidget* view);
 
-    /// Widgets that labels keep clear of while they are visible.
-    void setObstacles(const QList<QWidget*>& obstacles) { obstacles_ = obstacles; }
-    /// Marks of the same view whose labels take their room first; they outlive this.
+    /// Widgets over the view that labels keep clear of while they are visible.
+    void setObstacles(const QList<QWidget*>& obstacles);
+    /// Marks of the same view, which outlive this. Labels leave their points uncovered where there
+    /// is other room.
     void setNeighbor(const DrawnMarks& neighbor) { neighbor_ = &neighbor; }
+    /// The labels of the neighbor take their room first. Not for both of two neighbors.
+    void giveWayToNeighbor() { gives_way_ = true; }
     /// Of the labels as they are drawn now, in points. None overlap, also not those of neighbors.
     std::vector<QRectF> labelBoxes() const;
     /// For a picture of the view of any size: as large as in the view where it is as high.
@@ -60,7 +64,9 @@ protected:
         std::vector<QRectF> labels;
         std::vector<QRectF> marks;
     };
-    /// With the labels of the neighbors, and these marks.
+    /// The handles of the items as they are now.
+    const std::vector<DrawnHandle>& handles() const;
+    /// With the labels and handles of the neighbor, and these marks.
     LabelRoom roomBeside(const std::vector<Mark>& marks) const;
     /// Next to a place, within the view and clear of obstacles and other labels, and adds it to
     /// `room`. Empty if it does not fit.
@@ -68,16 +74,23 @@ protected:
     labelMark(QPointF place, const QString& text, const QColor& color, LabelRoom& room) const;
     void noteChange();
 
+    void changeEvent(QEvent* event) override;
     void paintEvent(QPaintEvent* event) override;
     bool eventFilter(QObject* watched, QEvent* event) override;
 
 private:
     std::optional<QRectF> labelBox(QPointF place, const QSizeF& size, const LabelRoom& room) const;
+    QRectF placeOf(const QWidget& obstacle) const;
     const std::vector<Mark>& knownMarks() const;
+    void forget();
 
+    QPointer<const DrawingBase> drawing_; // null once the window is being closed
     QList<QWidget*> obstacles_;
     const DrawnMarks* neighbor_ = nullptr;
-    mutable std::optional<std::vector<Mark>> marks_; // since the last change
+    bool gives_way_ = false;
+    // Since the last change.
+    mutable std::optional<std::vector<DrawnHandle>> handles_;
+    mutable std::optional<std::vector<Mark>> marks_;
 };
 
 } // namespace marsview

@@ -30,8 +30,7 @@ std::vector<DrawnMarks::Mark> MeasureMarks::marks() const
     if (state.items.empty()) {
         return marks;
     }
-    const std::vector<DrawnHandle> handles = controller_.handles();
-    for (auto handle = handles.rbegin(); handle != handles.rend(); ++handle) {
+    for (auto handle = handles().rbegin(); handle != handles().rend(); ++handle) {
         marks.push_back(handleMark(*handle, handle->item == state.current));
     }
     if (const auto cursor = controller_.profileCursorPlace()) {
