@@ -3,6 +3,7 @@
 
 #include "ui/canvas/place_tool.h"
 #include "ui/canvas/terrain_view.h"
+#include "ui/drawing/dot_index.h"
 #include "ui/drawing/draped_geometry.h"
 #include "ui/drawing/drawing_base.h"
 #include "ui/drawing/handle_grid.h"
@@ -270,12 +271,7 @@ public:
             }
         }
         placeDots();
-        const double exaggeration = view_.exaggeration();
-        for (const Dot& dot : dots_) {
-            if (dot.place && dot.item != state_.current) {
-                add({dot.place->x, dot.place->y, dot.place->z * exaggeration}, dot.item, 0, false);
-            }
-        }
+        addDots(sight, grid, handles, points);
         for (const std::uint32_t id : others_) {
             const Item* item = itemOf(id);
             if (item == nullptr || id == state_.current || !isShown(*item) || !hasHandles(*item)) {
@@ -322,9 +318,9 @@ public:
                 nearest = vertex;
             }
         };
-        placeDots();
-        for (const Dot& dot : dots_) {
-            look(screenPlaceOf(dot), dot.vertex);
+        if (const auto near = dotNear(position, reach)) {
+            reach = near->away;
+            nearest = itemOf(near->dot.id)->vertices.front();
         }
         for (const std::uint32_t id : others_) {
             const Item& item = *itemOf(id);
@@ -532,6 +528,7 @@ private:
                 dots_.push_back(*known);
                 continue;
             }
+            unindexed_.push_back(item.id);
             dots_.push_back({.item = item.id,
                              .vertex = item.vertices.front(),
                              .place = isShown(item) && hasHandles(item)
@@ -540,12 +537,92 @@ private:
         }
         are_dots_listed_ = true;
         are_dots_placed_ = true;
+        // One more point is looked at beside the index, which is not made anew for it.
+        constexpr std::size_t kUnindexedMax = 1000;
+        std::sort(unindexed_.begin(), unindexed_.end());
+        unindexed_.erase(std::unique(unindexed_.begin(), unindexed_.end()), unindexed_.end());
+        if (unindexed_.size() > kUnindexedMax || dots_.size() < dot_index_.size() / 2) {
+            std::vector<DotIndex::Dot> placed;
+            placed.reserve(dots_.size());
+            for (const Dot& dot : dots_) {
+                if (dot.place) {
+                    placed.push_back({.id = dot.item, .place = *dot.place});
+                }
+            }
+            dot_index_ = DotIndex(std::move(placed));
+            unindexed_.clear();
+        }
     }
-    std::optional<QPointF> screenPlaceOf(const Dot& dot) const
+    const Dot* dotOf(std::uint32_t id) const
     {
-        return dot.place ? view_.positionOfPlace(
-                               {dot.place->x, dot.place->y, dot.place->z * view_.exaggeration()})
-                         : std::nullopt;
+        const auto hit = std::lower_bound(
+            dots_.begin(), dots_.end(), id,
+            [](const Dot& dot, std::uint32_t wanted) { return dot.item < wanted; });
+        return hit != dots_.end() && hit->item == id ? &*hit : nullptr;
+    }
+    // What the index has of a dot may be of earlier items.
+    DotIndex::IsValid isDot() const
+    {
+        return [this](const DotIndex::Dot& known) {
+            const Dot* dot = dotOf(known.id);
+            return dot != nullptr && dot->place == known.place;
+        };
+    }
+    DotSight dotSight(const QRectF& area) const
+    {
+        return {view_.camera(), view_.viewport(), view_.devicePixelRatioF(), view_.exaggeration(),
+                area};
+    }
+    // Those that are single points, as far as there is room.
+    void addDots(const QRectF& area,
+                 HandleGrid& grid,
+                 std::vector<DrawnHandle>& handles,
+                 std::vector<ScenePoint>& points) const
+    {
+        const DotSight sight = dotSight(area);
+        std::vector<std::pair<DotIndex::Dot, QPointF>> found;
+        const auto take = [&](const DotIndex::Dot& dot, QPointF place) {
+            if (dot.id != state_.current) {
+                found.emplace_back(dot, place);
+            }
+        };
+        for (const std::uint32_t id : unindexed_) {
+            const Dot* dot = dotOf(id);
+            const auto place = dot != nullptr && dot->place ? sight.at(*dot->place) : std::nullopt;
+            if (place && area.contains(*place) && grid.take(*place)) {
+                take({.id = id, .place = *dot->place}, *place);
+            }
+        }
+        dot_index_.thinned(sight, grid, isDot(), take);
+        std::sort(found.begin(), found.end(),
+                  [](const auto& a, const auto& b) { return a.first.id < b.first.id; });
+        for (const auto& [dot, place] : found) {
+            handles.push_back({.place = place, .item = dot.id, .index = 0});
+            points.push_back({dot.place.x, dot.place.y, dot.place.z * view_.exaggeration()});
+        }
+    }
+    // Within reach of a position of the view.
+    std::optional<DotIndex::Near> dotNear(QPointF position, double reach) const
+    {
+        placeDots();
+        const DotSight sight = dotSight(QRectF(view_.rect()));
+        std::optional<DotIndex::Near> nearest = dot_index_.nearest(sight, position, reach, isDot());
+        for (const std::uint32_t id : unindexed_) {
+            const Dot* dot = dotOf(id);
+            if (dot == nullptr || !dot->place) {
+                continue;
+            }
+            const std::optional<QPointF> place = sight.at(*dot->place);
+            if (!place) {
+                continue;
+            }
+            const double away = distanceBetween(*place, position);
+            if (away <= (nearest ? nearest->away : reach)) {
+                nearest = DotIndex::Near{
+                    .dot = {.id = id, .place = *dot->place}, .place = *place, .away = away};
+            }
+        }
+        return nearest;
     }
 
     // Places ----------------------------------------------------------------------------------
@@ -691,9 +768,9 @@ private:
         if (nearest || (selected != nullptr && !selected->is_finished)) {
             return nearest;
         }
-        placeDots();
-        for (const Dot& dot : dots_) {
-            look(screenPlaceOf(dot), dot.item, 0);
+        if (const auto near = dotNear(position, reach)) {
+            reach = near->away;
+            nearest = DrawnHandle{.place = near->place, .item = near->dot.id, .index = 0};
         }
         for (const std::uint32_t id : others_) {
             if (const Item& item = *itemOf(id); isShown(item) && hasHandles(item)) {
@@ -955,11 +1032,13 @@ private:
     std::vector<Snap> snaps_;
     std::optional<QPointF> pointer_;
     std::optional<Grabbed> grabbed_;
-    bool is_stylus_holding_ = false;            // what is grabbed
-    mutable std::vector<Dot> dots_;             // by id
-    mutable std::vector<std::uint32_t> others_; // items that are more than a dot
-    mutable bool are_dots_listed_ = false;      // both are those of the state
-    mutable bool are_dots_placed_ = false;      // dots are where the maps have them
+    bool is_stylus_holding_ = false;               // what is grabbed
+    mutable std::vector<Dot> dots_;                // by id
+    mutable DotIndex dot_index_;                   // some of them may have moved or be gone
+    mutable std::vector<std::uint32_t> unindexed_; // those that it lacks
+    mutable std::vector<std::uint32_t> others_;    // items that are more than a dot
+    mutable bool are_dots_listed_ = false;         // both are those of the state
+    mutable bool are_dots_placed_ = false;         // dots are where the maps have them
     mutable std::set<std::pair<std::uint32_t, std::size_t>> hidden_; // in the last picture
     bool is_moving_ = false; // the camera has moved since the picture was complete
     QTimer draw_timer_;      // gathers reasons to draw the lines again

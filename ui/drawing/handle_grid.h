@@ -26,16 +26,45 @@ public:
     /// Takes the square at a place inside the area; false if it is taken.
     bool take(QPointF place)
     {
-        const auto column = static_cast<std::size_t>((place.x() - corner_.x()) / gap_);
-        const auto row = static_cast<std::size_t>((place.y() - corner_.y()) / gap_);
-        if (column >= columns_ || row >= rows_ || is_taken_[row * columns_ + column]) {
+        if (isTaken(place)) {
             return false;
         }
-        is_taken_[row * columns_ + column] = true;
+        is_taken_[squareOf(place.y(), corner_.y(), rows_) * columns_ +
+                  squareOf(place.x(), corner_.x(), columns_)] = true;
+        return true;
+    }
+    bool isTaken(QPointF place) const
+    {
+        return is_taken_[squareOf(place.y(), corner_.y(), rows_) * columns_ +
+                         squareOf(place.x(), corner_.x(), columns_)];
+    }
+    /// Whether no place in a box, as far as it is inside the area, has a free square.
+    bool isTaken(const QRectF& box) const
+    {
+        const std::size_t left = squareOf(box.left(), corner_.x(), columns_);
+        const std::size_t right = squareOf(box.right(), corner_.x(), columns_);
+        const std::size_t top = squareOf(box.top(), corner_.y(), rows_);
+        const std::size_t bottom = squareOf(box.bottom(), corner_.y(), rows_);
+        for (std::size_t row = top; row <= bottom; ++row) {
+            for (std::size_t column = left; column <= right; ++column) {
+                if (!is_taken_[row * columns_ + column]) {
+                    return false; // a large box has one soon
+                }
+            }
+        }
         return true;
     }
 
 private:
+    // Beyond the area, the nearest one.
+    std::size_t squareOf(double at, double from, std::size_t count) const
+    {
+        const double square = std::floor((at - from) / gap_);
+        return square > 0.0
+                   ? static_cast<std::size_t>(std::fmin(square, static_cast<double>(count - 1)))
+                   : 0;
+    }
+
     QPointF corner_;
     double gap_;
     std::size_t columns_;

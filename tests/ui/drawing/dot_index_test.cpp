@@ -1,0 +1,135 @@
+#include "tests/support/random.h"
+#include "ui/drawing/dot_index.h"
+#include "ui/drawing/handle_grid.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace marsview {
+namespace {
+
+constexpr Viewport kViewport{.width = 1280, .height = 800};
+constexpr double kScale = 1.25; // pixels per point
+constexpr double kExaggeration = 3.0;
+const QRectF kArea(0.0, 0.0, 1280.0 / kScale, 800.0 / kScale);
+
+bool areAllValid(const DotIndex::Dot& /*dot*/)
+{
+    return true;
+}
+
+std::vector<DotIndex::Dot> someDots(test::Random& random, std::uint32_t count)
+{
+    std::vector<DotIndex::Dot> dots;
+    for (std::uint32_t id = 1; id <= count; ++id) {
+        dots.push_back({.id = id,
+                        .place = {random.uniform(-1e5, 1e5), random.uniform(-5e4, 5e4),
+                                  random.uniform(-2e3, 2e3)}});
+    }
+    return dots;
+}
+
+OrbitCamera someCamera(test::Random& random)
+{
+    return {.target = {random.uniform(-8e4, 8e4), random.uniform(-4e4, 4e4), 0.0},
+            .distance_m = std::pow(10.0, random.uniform(3.5, 5.5)),
+            .azimuth = Angle::degrees(random.uniform(0.0, 360.0)),
+            .tilt = Angle::degrees(random.uniform(0.0, 85.0))};
+}
+
+// By the camera's own projection.
+std::optional<QPointF> placeOf(const DotIndex::Dot& dot, const OrbitCamera& camera)
+{
+    const auto pixel =
+        project(camera, kViewport, {dot.place.x, dot.place.y, dot.place.z * kExaggeration});
+    return pixel ? std::optional(QPointF(pixel->x, pixel->y) / kScale) : std::nullopt;
+}
+
+std::pair<int, int> squareOf(QPointF place, double gap)
+{
+    return {static_cast<int>(place.x() / gap), static_cast<int>(place.y() / gap)};
+}
+
+} // namespace
+
+TEST(DotIndex, ShowsOneDotInEachSquareThatHasAny)
+{
+    test::Random random(11);
+    const std::vector<DotIndex::Dot> dots = someDots(random, 5000);
+    const DotIndex index(dots);
+    EXPECT_EQ(index.size(), dots.size());
+    for (int i = 0; i < 60; ++i) {
+        const OrbitCamera camera = someCamera(random);
+        for (const double gap : {6.0, 14.0, 90.0}) {
+            std::set<std::pair<int, int>> expected;
+            for (const DotIndex::Dot& dot : dots) {
+                if (const auto place = placeOf(dot, camera); place && kArea.contains(*place)) {
+                    expected.insert(squareOf(*place, gap));
+                }
+            }
+            std::set<std::pair<int, int>> found;
+            HandleGrid grid(kArea, gap);
+            index.thinned(DotSight(camera, kViewport, kScale, kExaggeration, kArea), grid,
+                          areAllValid, [&](const DotIndex::Dot& dot, QPointF place) {
+                              const auto expected_place = placeOf(dot, camera);
+                              ASSERT_TRUE(expected_place);
+                              EXPECT_NEAR(place.x(), expected_place->x(), 1e-6);
+                              EXPECT_NEAR(place.y(), expected_place->y(), 1e-6);
+                              EXPECT_TRUE(found.insert(squareOf(place, gap)).second)
+                                  << "two in a square";
+                          });
+            EXPECT_EQ(found, expected) << "camera " << i << ", gap " << gap;
+        }
+    }
+}
+
+TEST(DotIndex, FindsTheNearestValidDot)
+{
+    test::Random random(12);
+    const std::vector<DotIndex::Dot> dots = someDots(random, 3000);
+    const DotIndex index(dots);
+    const auto is_even = [](const DotIndex::Dot& dot) { return dot.id % 2 == 0; };
+    int hits = 0;
+    for (int i = 0; i < 400; ++i) {
+        const OrbitCamera camera = someCamera(random);
+        const QPointF position(random.uniform(0.0, kArea.width()),
+                               random.uniform(0.0, kArea.height()));
+        constexpr double kReach = 12.0;
+        double away = kReach;
+        std::optional<std::uint32_t> expected;
+        for (const DotIndex::Dot& dot : dots) {
+            const auto place = is_even(dot) ? placeOf(dot, camera) : std::nullopt;
+            const double here =
+                place ? std::hypot(place->x() - position.x(), place->y() - position.y()) : 1e9;
+            if (here <= away) {
+                away = here;
+                expected = dot.id;
+            }
+        }
+        const auto found = index.nearest(DotSight(camera, kViewport, kScale, kExaggeration, kArea),
+                                         position, kReach, is_even);
+        ASSERT_EQ(found.has_value(), expected.has_value());
+        if (found) {
+            ++hits;
+            EXPECT_EQ(found->dot.id, *expected);
+            EXPECT_NEAR(found->away, away, 1e-6);
+        }
+    }
+    EXPECT_GT(hits, 20);
+}
+
+TEST(DotIndex, HasNothingWithoutDots)
+{
+    HandleGrid grid(kArea, 6.0);
+    const DotSight sight({}, kViewport, kScale, 1.0, kArea);
+    DotIndex().thinned(sight, grid, areAllValid,
+                       [](const DotIndex::Dot&, QPointF) { ADD_FAILURE(); });
+    EXPECT_FALSE(DotIndex().nearest(sight, {10.0, 10.0}, 1e9, areAllValid));
+}
+
+} // namespace marsview

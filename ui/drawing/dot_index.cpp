@@ -1,0 +1,193 @@
+#include "ui/drawing/dot_index.h"
+
+#include "ui/drawing/handle_grid.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace marsview {
+namespace {
+
+constexpr std::uint32_t kLeafDots = 16;
+
+std::array<ScenePoint, 8> cornersOf(const ScenePoint& low, const ScenePoint& high)
+{
+    return {ScenePoint{low.x, low.y, low.z}, {high.x, low.y, low.z},  {low.x, high.y, low.z},
+            {high.x, high.y, low.z},         {low.x, low.y, high.z},  {high.x, low.y, high.z},
+            {low.x, high.y, high.z},         {high.x, high.y, high.z}};
+}
+
+} // namespace
+
+DotSight::DotSight(const OrbitCamera& camera,
+                   const Viewport& viewport,
+                   double pixels_per_point,
+                   double exaggeration,
+                   const QRectF& area)
+    : exaggeration_(exaggeration)
+    , area_(area)
+{
+    const CameraPose pose(camera);
+    // Half the height of the picture at a depth of 1.
+    const double half = std::tan(0.5 * pose.field_of_view.radians());
+    const double points = 0.5 * viewport.height / pixels_per_point / half;
+    eye_ = pose.eye;
+    axes_ = {.right = pose.axes.right * points,
+             .up = pose.axes.up * points,
+             .forward = pose.axes.forward};
+    center_ = QPointF(0.5 * viewport.width, 0.5 * viewport.height) / pixels_per_point;
+}
+
+std::optional<QPointF> DotSight::at(const ScenePoint& place) const
+{
+    const Vec3 p = ScenePoint{place.x, place.y, place.z * exaggeration_} - eye_;
+    const double depth = dot(p, axes_.forward);
+    if (!(depth > 0.0)) {
+        return std::nullopt;
+    }
+    return QPointF(center_.x() + dot(p, axes_.right) / depth,
+                   center_.y() - dot(p, axes_.up) / depth);
+}
+
+std::optional<QRectF> DotSight::enclosing(const ScenePoint& low, const ScenePoint& high) const
+{
+    double left = std::numeric_limits<double>::infinity();
+    double top = left;
+    double right = -left;
+    double bottom = -left;
+    for (const ScenePoint& corner : cornersOf(low, high)) {
+        const auto place = at(corner);
+        if (!place) {
+            return std::nullopt;
+        }
+        left = std::min(left, place->x());
+        right = std::max(right, place->x());
+        top = std::min(top, place->y());
+        bottom = std::max(bottom, place->y());
+    }
+    constexpr double kRounding = 1e-3; // points
+    return QRectF(QPointF(left, top), QPointF(right, bottom))
+        .adjusted(-kRounding, -kRounding, kRounding, kRounding);
+}
+
+bool DotSight::isBehind(const ScenePoint& low, const ScenePoint& high) const
+{
+    const auto corners = cornersOf(low, high);
+    return std::none_of(corners.begin(), corners.end(),
+                        [this](const ScenePoint& corner) { return at(corner).has_value(); });
+}
+
+DotIndex::DotIndex(std::vector<Dot> dots)
+    : dots_(std::move(dots))
+{
+    if (!dots_.empty()) {
+        nodes_.reserve(4 * dots_.size() / kLeafDots + 1);
+        build(0, static_cast<std::uint32_t>(dots_.size()));
+    }
+}
+
+// Halves of equal number, across the longer side on the ground.
+std::uint32_t DotIndex::build(std::uint32_t begin, std::uint32_t end)
+{
+    Node node{.low = dots_[begin].place,
+              .high = dots_[begin].place,
+              .begin = begin,
+              .end = end,
+              .further = 0};
+    for (std::uint32_t i = begin + 1; i < end; ++i) {
+        const ScenePoint& place = dots_[i].place;
+        node.low = {std::min(node.low.x, place.x), std::min(node.low.y, place.y),
+                    std::min(node.low.z, place.z)};
+        node.high = {std::max(node.high.x, place.x), std::max(node.high.y, place.y),
+                     std::max(node.high.z, place.z)};
+    }
+    const auto at = static_cast<std::uint32_t>(nodes_.size());
+    nodes_.push_back(node);
+    if (end - begin <= kLeafDots) {
+        return at;
+    }
+    const bool is_wide = node.high.x - node.low.x > node.high.y - node.low.y;
+    const std::uint32_t middle = begin + (end - begin) / 2;
+    std::nth_element(dots_.begin() + begin, dots_.begin() + middle, dots_.begin() + end,
+                     [is_wide](const Dot& a, const Dot& b) {
+                         return is_wide ? a.place.x < b.place.x : a.place.y < b.place.y;
+                     });
+    build(begin, middle);
+    const std::uint32_t further = build(middle, end);
+    nodes_[at].further = further;
+    return at;
+}
+
+// `look` says whether a node may have something; `see` sees the dots of its leaves.
+template <typename Look, typename See>
+void DotIndex::visit(std::uint32_t at, const Look& look, const See& see) const
+{
+    const Node& node = nodes_[at];
+    if (!look(node)) {
+        return;
+    }
+    if (node.further == 0) {
+        for (std::uint32_t i = node.begin; i < node.end; ++i) {
+            see(dots_[i]);
+        }
+        return;
+    }
+    visit(at + 1, look, see);
+    visit(node.further, look, see);
+}
+
+void DotIndex::thinned(const DotSight& sight,
+                       HandleGrid& grid,
+                       const IsValid& is_valid,
+                       const std::function<void(const Dot&, QPointF)>& take) const
+{
+    if (nodes_.empty()) {
+        return;
+    }
+    const auto may_have = [&](const Node& node) {
+        const auto box = sight.enclosing(node.low, node.high);
+        return box ? box->intersects(sight.area()) && !grid.isTaken(*box)
+                   : !sight.isBehind(node.low, node.high);
+    };
+    visit(0, may_have, [&](const Dot& dot) {
+        const auto place = sight.at(dot.place);
+        const bool is_free = place && sight.area().contains(*place) && !grid.isTaken(*place);
+        if (is_free && is_valid(dot)) {
+            grid.take(*place);
+            take(dot, *place);
+        }
+    });
+}
+
+std::optional<DotIndex::Near> DotIndex::nearest(const DotSight& sight,
+                                                QPointF position,
+                                                double reach,
+                                                const IsValid& is_valid) const
+{
+    std::optional<Near> found;
+    if (nodes_.empty()) {
+        return found;
+    }
+    const auto may_have = [&](const Node& node) {
+        const auto box = sight.enclosing(node.low, node.high);
+        return box ? box->adjusted(-reach, -reach, reach, reach).contains(position)
+                   : !sight.isBehind(node.low, node.high);
+    };
+    visit(0, may_have, [&](const Dot& dot) {
+        const auto place = sight.at(dot.place);
+        if (!place) {
+            return;
+        }
+        const double away = std::hypot(place->x() - position.x(), place->y() - position.y());
+        if (away <= reach && is_valid(dot)) {
+            reach = away;
+            found = Near{.dot = dot, .place = *place, .away = away};
+        }
+    });
+    return found;
+}
+
+} // namespace marsview
