@@ -1583,6 +1583,11 @@
         <extracomment>The vertical datum of Mars: a surface of equal potential</extracomment>
         <translation>Areoid</translation>
     </message>
+    <message>
+        <source>EGM96 geoid</source>
+        <extracomment>The vertical datum of many maps of the Earth</extracomment>
+        <translation>EGM96-Geoid</translation>
+    </message>
 </context>
 <context>
     <name>marsview::AboutDialog</name>

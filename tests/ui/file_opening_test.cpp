@@ -36,6 +36,10 @@ TEST_F(FileOpeningTest, BundledMapsOpenFromTheirMenuAndAreNoRecentFiles)
     EXPECT_EQ(window_->session().layers.back().name, "mars_mola_4ppd.tif");
     EXPECT_EQ(window_->session().layers.front().name, "mount_st_helens_30m.tif");
     EXPECT_TRUE(window_->commands().files.recentFiles()->files().isEmpty());
+    // Again: the layer that there is.
+    bundled().actions().front()->trigger();
+    EXPECT_EQ(window_->session().layers.size(), 2U);
+    EXPECT_EQ(activeLayer(window_->session())->name, "mars_mola_4ppd.tif");
 }
 
 TEST_F(FileOpeningTest, AProgramWithoutItsMapsHasNoMenuOfThem)

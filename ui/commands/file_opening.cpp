@@ -111,10 +111,24 @@ void FileOpening::fillBundledMaps()
         const QString file = QDir(parts_.bundled_maps).filePath(QString::fromLatin1(map.file));
         if (!parts_.bundled_maps.isEmpty() && QFileInfo::exists(file)) {
             connect(menu.addAction(tr(map.title)), &QAction::triggered, this,
-                    [this, file] { open({file}); });
+                    [this, file] { openBundledMap(file); });
         }
     }
     menu.menuAction()->setVisible(!menu.isEmpty());
+}
+
+// Once: it is the same map.
+void FileOpening::openBundledMap(const QString& file)
+{
+    for (const Layer& layer : parts_.session.session().layers) {
+        if (QFileInfo(QString::fromStdString(layer.map->info().path)) == QFileInfo(file)) {
+            const LayerId id = layer.id;
+            parts_.session.setVisible(id, true);
+            parts_.session.activate(id);
+            return;
+        }
+    }
+    open({file});
 }
 
 bool FileOpening::isBundled(const QString& file) const

@@ -51,6 +51,7 @@ private:
     static QStringList rasterFilters();
     void openMaps(QStringList maps);
     void fillBundledMaps();
+    void openBundledMap(const QString& file);
     bool isBundled(const QString& file) const;
     void remember(const QString& file);
 

@@ -294,6 +294,10 @@ QString datumText(const RasterInfo& info)
         //: The vertical datum of Mars: a surface of equal potential
         return tr("areoid");
     }
+    if (info.vertical_datum == "EGM96 geoid") {
+        //: The vertical datum of many maps of the Earth
+        return tr("EGM96 geoid");
+    }
     return QString::fromStdString(info.vertical_datum);
 }
 

@@ -6,8 +6,8 @@ class QWidget;
 
 namespace marsview {
 
-/// Without a frame; scrolls up and down only: wide content wraps. Whatever gets the focus, except by
-/// a click, is scrolled into sight.
+/// Without a frame; scrolls up and down only: wide content wraps. Whatever gets the focus, except
+/// by a click, is scrolled into sight.
 QScrollArea* makeScrollArea(QWidget* parent);
 
 } // namespace marsview
