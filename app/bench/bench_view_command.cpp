@@ -35,6 +35,8 @@ struct BenchViewOptions {
     double target_ms = 33.0;
     ViewBenchOptions bench;
     bool is_json = false;
+
+    bool isOnBody() const { return bench.scene == SceneKind::Body; }
 };
 
 double megabytes(std::size_t bytes)
@@ -116,15 +118,23 @@ Json asJson(const RestingPose& pose)
                       {"max_color_difference_levels", pose.difference->max_levels},
                       {"share_visibly_different", pose.difference->share_visible}};
     }
-    return {{"camera", asJson(pose.camera)},
-            {"triangle_count", pose.triangle_count},
-            {"error_bound_px", pose.error_bound_px},
-            {"pixel_count", pose.error.pixel_count},
-            {"share_within_threshold", pose.error.share_within},
-            {"error_mean_px", pose.error.mean_px},
-            {"error_p99_px", pose.error.p99_px},
-            {"error_max_px", pose.error.max_px},
-            {"against_every_sample", difference}};
+    Json json = {{"camera", asJson(pose.camera)},
+                 {"triangle_count", pose.triangle_count},
+                 {"error_bound_px", pose.error_bound_px},
+                 {"pixel_count", nullptr},
+                 {"share_within_threshold", nullptr},
+                 {"error_mean_px", nullptr},
+                 {"error_p99_px", nullptr},
+                 {"error_max_px", nullptr},
+                 {"against_every_sample", difference}};
+    if (pose.error) {
+        json["pixel_count"] = pose.error->pixel_count;
+        json["share_within_threshold"] = pose.error->share_within;
+        json["error_mean_px"] = pose.error->mean_px;
+        json["error_p99_px"] = pose.error->p99_px;
+        json["error_max_px"] = pose.error->max_px;
+    }
+    return json;
 }
 
 Json asJson(const FlightResult& flight)
@@ -169,14 +179,10 @@ Json asJson(const ColorError& error)
             {"max_levels", error.max_levels}};
 }
 
-Json asJson(const ViewBenchResult& result, const ViewBenchResult& first)
+Json asJson(const std::vector<ColorResult>& results)
 {
-    Json flights = Json::array();
-    for (const FlightResult& flight : result.flights) {
-        flights.push_back(asJson(flight));
-    }
     Json colors = Json::array();
-    for (const ColorResult& color : result.colors) {
+    for (const ColorResult& color : results) {
         Json poses = Json::array();
         for (const ColorPose& pose : color.poses) {
             Json means = asJson(pose.means);
@@ -185,6 +191,15 @@ Json asJson(const ViewBenchResult& result, const ViewBenchResult& first)
             entry["against_means"] = std::move(means);
         }
         colors.push_back({{"exaggeration", color.exaggeration}, {"poses", poses}});
+    }
+    return colors;
+}
+
+Json asJson(const ViewBenchResult& result, const ViewBenchResult& first, bool is_on_body)
+{
+    Json flights = Json::array();
+    for (const FlightResult& flight : result.flights) {
+        flights.push_back(asJson(flight));
     }
     return {{"file", result.path},
             {"columns", result.columns},
@@ -197,7 +212,7 @@ Json asJson(const ViewBenchResult& result, const ViewBenchResult& first)
             {"peak_memory_flown_mb", megabytes(result.peak_memory_flown_bytes)},
             {"frame_median_ms", medianMilliseconds(result)},
             {"frame_median_against_first_map", growth(result, first)},
-            {"colors_at_rest", colors},
+            {"colors_at_rest", is_on_body ? Json(nullptr) : asJson(result.colors)},
             {"flights", flights}};
 }
 
@@ -206,17 +221,20 @@ void printJson(const BenchViewOptions& options, const std::vector<ViewBenchResul
     const ViewBenchOptions& bench = options.bench;
     Json maps = Json::array();
     for (const ViewBenchResult& result : results) {
-        maps.push_back(asJson(result, results.front()));
+        maps.push_back(asJson(result, results.front(), options.isOnBody()));
     }
-    const Json json = {{"processor", processorName()},
-                       {"core_count", std::thread::hardware_concurrency()},
-                       {"graphics_driver", results.front().driver},
-                       {"width_px", bench.viewport.width},
-                       {"height_px", bench.viewport.height},
-                       {"target_ms", options.target_ms},
-                       {"frame_count", bench.frame_count},
-                       {"error_threshold_at_rest_px", bench.error_px},
-                       {"maps", maps}};
+    Json json = {{"processor", processorName()},
+                 {"core_count", std::thread::hardware_concurrency()},
+                 {"graphics_driver", results.front().driver},
+                 {"width_px", bench.viewport.width},
+                 {"height_px", bench.viewport.height},
+                 {"target_ms", options.target_ms},
+                 {"frame_count", bench.frame_count},
+                 {"error_threshold_at_rest_px", bench.error_px}};
+    if (options.isOnBody()) {
+        json["scene"] = "body";
+    }
+    json["maps"] = std::move(maps);
     marsview::printJson(withSchema(json));
 }
 
@@ -269,11 +287,13 @@ void printPoses(const ViewBenchResult& result, double error_px)
                                   pose.difference->max_levels,
                                   100.0 * pose.difference->share_visible)
                     : std::string("left out");
-            printLine(fmt::format("{:<7}{:>11}{:>9.3f} %{:>9.3f}{:>9.3f}{:>9.3f}{:>9.3f}  {}",
-                                  flightName(flight.flight), pose.triangle_count,
-                                  100.0 * pose.error.share_within, pose.error.mean_px,
-                                  pose.error.p99_px, pose.error.max_px, pose.error_bound_px,
-                                  difference));
+            const std::string errors =
+                pose.error ? fmt::format("{:>9.3f} %{:>9.3f}{:>9.3f}{:>9.3f}",
+                                         100.0 * pose.error->share_within, pose.error->mean_px,
+                                         pose.error->p99_px, pose.error->max_px)
+                           : fmt::format("{:>11}{:>9}{:>9}{:>9}", "-", "-", "-", "-");
+            printLine(fmt::format("{:<7}{:>11}{}{:>9.3f}  {}", flightName(flight.flight),
+                                  pose.triangle_count, errors, pose.error_bound_px, difference));
         }
     }
 }
@@ -321,8 +341,9 @@ void printForPeople(const BenchViewOptions& options, const std::vector<ViewBench
     const ViewBenchOptions& bench = options.bench;
     printLine(fmt::format("{}, {} cores; {}", processorName(), std::thread::hardware_concurrency(),
                           results.front().driver));
-    printLine(fmt::format("{} × {} pixels, {} ms/frame, {} frames/flight", bench.viewport.width,
-                          bench.viewport.height, asText(options.target_ms), bench.frame_count));
+    printLine(fmt::format("{} × {} pixels, {} ms/frame, {} frames/flight{}", bench.viewport.width,
+                          bench.viewport.height, asText(options.target_ms), bench.frame_count,
+                          options.isOnBody() ? ", on the body" : ""));
     for (const ViewBenchResult& result : results) {
         printLine(fmt::format("\n{}", result.path));
         printLine(fmt::format("{} × {} samples, {} triangles, exaggeration {}", result.columns,
@@ -336,7 +357,11 @@ void printForPeople(const BenchViewOptions& options, const std::vector<ViewBench
         printFlights(result);
         printCourses(result);
         printPoses(result, bench.error_px);
-        printColors(result);
+        if (options.isOnBody()) {
+            printLine("\ncolors at rest against those of the surface at full resolution: -");
+        } else {
+            printColors(result);
+        }
     }
     if (results.size() > 1) {
         printLine("\ngrowth of the median frame against the first map");
@@ -435,6 +460,18 @@ void addBenchViewCommand(CLI::App& bench, CommandAction& run)
         ->check(exaggerationFactor());
     command->add_flag("--full", options->bench.is_full,
                       "compare with pictures of every sample even of large maps");
+    command
+        ->add_option_function<std::string>(
+            "--scene",
+            [options](const std::string& scene) {
+                options->bench.scene = scene == "body" ? SceneKind::Body : SceneKind::Flat;
+            },
+            "flat: the map is laid out in the plane; body: it lies on its body, where the errors "
+            "of pictures at rest and their colors are left out (null in JSON): only the flat map "
+            "has a reference for them")
+        ->type_name("SCENE")
+        ->default_str("flat")
+        ->check(oneOf({"flat", "body"}));
     command->add_flag("--json", options->is_json, "print JSON, with every frame");
     command->callback([options, &run] { run = [options] { return runBenchView(*options); }; });
 }

@@ -3,6 +3,8 @@
 #include "app/console/long_job.h"
 #include "app/console/machine.h"
 #include "core/base/check.h"
+#include "core/globe/body_navigation.h"
+#include "core/session/body_terrain.h"
 #include "ui/render/frame_buffer.h"
 #include "ui/render/governed_picture.h"
 #include "ui/render/offscreen_picture.h"
@@ -15,6 +17,7 @@
 #include <fmt/format.h>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <utility>
 
@@ -88,7 +91,13 @@ ColorDifference differenceOf(const Picture& a, const Picture& b)
     return difference;
 }
 
-// Draws one map as ui/canvas/terrain_view.cpp does.
+// From where a picture is drawn.
+struct FlownView {
+    OrbitCamera camera; // as in RestingPose
+    std::optional<CameraPose> body_pose{};
+};
+
+// Draws one map as ui/canvas/terrain_view.cpp does, on its body as ui/globe/globe_view.cpp does.
 class ViewBench {
 public:
     ViewBench(const Scene& scene,
@@ -112,24 +121,48 @@ public:
     {
         picture_.setTarget(options.target);
         style_.exaggeration = exaggeration;
+        if (scene.body_grid) {
+            const HeightRange range = scene.map->heightfield().range().value_or(HeightRange{});
+            body_ground_ = BodyFlightGround{
+                .limits = bodyLimits(*scene.body_grid, range.minimum_m * exaggeration,
+                                     range.maximum_m * exaggeration),
+                .pixel_m = ground_.pixel_m,
+                .height = [terrain = BodyTerrain(scene.map, scene.body_grid),
+                           exaggeration](const GeographicPoint& place) {
+                    return exaggeration * terrain.height(place);
+                }};
+        }
     }
     ViewBench(const ViewBench&) = delete;
     ViewBench& operator=(const ViewBench&) = delete;
 
     bool canDraw() const { return buffer_.isComplete(); }
 
-    OrbitCamera camera(Flight flight, double t) const
+    FlownView view(Flight flight, double t) const
     {
-        return scene_.bounded(cameraOn(flight, t, ground_, options_.viewport), exaggeration_);
+        if (!body_ground_) {
+            return {scene_.bounded(cameraOn(flight, t, ground_, options_.viewport), exaggeration_)};
+        }
+        const Ellipsoid& ellipsoid = body_ground_->limits.ellipsoid;
+        const BodyCamera camera =
+            constrained(bodyCameraOn(flight, t, *body_ground_, options_.viewport),
+                        body_ground_->limits, body_ground_->height);
+        return {.camera = {.target = targetOf(camera, ellipsoid),
+                           .distance_m = camera.distance_m,
+                           .azimuth = camera.azimuth,
+                           .tilt = camera.tilt,
+                           .field_of_view = camera.field_of_view},
+                .body_pose = poseOf(camera, ellipsoid)};
     }
 
-    DrawReport paint(const OrbitCamera& camera, PictureStage stage)
+    DrawReport paint(const FlownView& view, PictureStage stage)
     {
-        const DrawReport report = picture_.paint({.camera = camera,
+        const DrawReport report = picture_.paint({.camera = view.camera,
                                                   .viewport = options_.viewport,
                                                   .stage = stage,
                                                   .is_touching = false,
-                                                  .is_kept = true},
+                                                  .is_kept = true,
+                                                  .body_pose = view.body_pose},
                                                  style_, buffer_.id());
         scene_.renderer->presentDepth(buffer_.id(), cursorArea());
         glFinish();
@@ -137,15 +170,15 @@ public:
     }
 
     // Draws until all shading is ready, as often as the window would.
-    DrawReport paintWhole(const OrbitCamera& camera, PictureStage stage)
+    DrawReport paintWhole(const FlownView& view, PictureStage stage)
     {
-        DrawReport report = paint(camera, stage);
+        DrawReport report = paint(view, stage);
         Clock::time_point last = Clock::now();
         while (!report.is_complete && !monitor_.isCanceled()) {
             while (scene_.renderer->isLoading() && Clock::now() < last + kNewsInterval) {
                 news_.waitUntil(last + kNewsInterval);
             }
-            report = paint(camera, stage);
+            report = paint(view, stage);
             last = Clock::now();
         }
         return report;
@@ -155,11 +188,11 @@ public:
     {
         FlightResult result;
         result.flight = flight;
-        OrbitCamera last;
+        FlownView last;
         for (int i = 0; i < options_.frame_count && !monitor_.isCanceled(); ++i) {
             const Clock::time_point begin = Clock::now();
             const Milliseconds processor_begin = processorTime();
-            last = camera(flight, momentOf(i));
+            last = view(flight, momentOf(i));
             const DrawReport report = paint(last, PictureStage::Moving);
             result.frames.push_back({.wall = Clock::now() - begin,
                                      .processor = processorTime() - processor_begin,
@@ -176,24 +209,29 @@ public:
         return result;
     }
 
-    Result<RestingPose> rest(const OrbitCamera& camera)
+    Result<RestingPose> rest(const FlownView& view)
     {
-        DrawRequest request{.camera = camera, .viewport = options_.viewport};
+        const bool is_on_body = view.body_pose.has_value();
+        DrawRequest request{.camera = view.camera, .viewport = options_.viewport};
+        request.body_pose = view.body_pose;
         request.detail = {.error_px = options_.error_px, .texel_px = 1.0};
-        const Result<OffscreenPicture> picture =
-            drawOffscreen(*scene_.renderer, request, style_, DepthUse::Yes);
+        const Result<OffscreenPicture> picture = drawOffscreen(
+            *scene_.renderer, request, style_, is_on_body ? DepthUse::No : DepthUse::Yes);
         if (!picture) {
             return picture.error();
         }
-        const Heightfield& heightfield = scene_.map->heightfield();
-        const SceneFrame& frame = scene_.map->georeference().sceneFrame();
-        RestingPose pose{.camera = camera,
+        RestingPose pose{.camera = view.camera,
                          .triangle_count = picture->report.triangle_count,
                          .error_bound_px = picture->report.error_px,
-                         .error = measurePictureError({heightfield, frame, exaggeration_}, camera,
-                                                      options_.viewport, picture->depths_m,
-                                                      options_.error_px),
+                         .error = std::nullopt,
                          .difference = std::nullopt};
+        if (!is_on_body) {
+            const Heightfield& heightfield = scene_.map->heightfield();
+            const SceneFrame& frame = scene_.map->georeference().sceneFrame();
+            pose.error =
+                measurePictureError({heightfield, frame, exaggeration_}, view.camera,
+                                    options_.viewport, picture->depths_m, options_.error_px);
+        }
         const std::size_t all = scene_.map->info().triangleCount();
         if (options_.is_full || all <= kFullTrianglesMax) {
             request.detail.has_every_sample = true;
@@ -278,6 +316,7 @@ private:
     FrameBuffer buffer_; // like the window's
     GovernedPicture picture_;
     FlightGround ground_;
+    std::optional<BodyFlightGround> body_ground_; // on the body, instead of ground_
     DrawStyle style_;
 };
 
@@ -288,7 +327,8 @@ Result<ViewBenchResult> benchView(const MapOptions& map, const ViewBenchOptions&
     forgetPeakMemory();
     const Clock::time_point begin = Clock::now();
     const auto news = std::make_shared<News>();
-    Result<Scene> scene = openScene(map, nullptr, [news] { news->post(); });
+    Result<Scene> scene = openScene(
+        map, nullptr, [news] { news->post(); }, options.scene);
     if (!scene) {
         return std::move(scene).error();
     }
@@ -308,15 +348,17 @@ Result<ViewBenchResult> benchView(const MapOptions& map, const ViewBenchOptions&
     result.rows = info.rows;
     result.triangle_count = info.triangleCount();
     result.exaggeration = scene->exaggeration;
-    const OrbitCamera opening = bench.camera(Flight::Orbit, 0.0);
+    const FlownView opening = bench.view(Flight::Orbit, 0.0);
     bench.paint(opening, PictureStage::Moving);
     result.first_picture = Clock::now() - begin;
     bench.paintWhole(opening, PictureStage::Sharp);
     result.sharp_picture = Clock::now() - begin;
     result.peak_memory_loaded_bytes = peakMemoryBytes();
+    const std::vector<double> color_exaggerations =
+        options.scene == SceneKind::Flat ? options.color_exaggerations : std::vector<double>{};
     const std::size_t step_count =
         kFlights.size() + kFlights.size() * static_cast<std::size_t>(options.pose_count) *
-                              (1 + options.color_exaggerations.size());
+                              (1 + color_exaggerations.size());
     std::size_t step = 0;
     const auto go_on = [&] {
         job.monitor().report(static_cast<double>(++step) / static_cast<double>(step_count));
@@ -334,7 +376,7 @@ Result<ViewBenchResult> benchView(const MapOptions& map, const ViewBenchOptions&
     // Last, since the window does not draw these pictures.
     for (FlightResult& flight : result.flights) {
         for (int i = 0; i < options.pose_count; ++i) {
-            Result<RestingPose> pose = bench.rest(bench.camera(flight.flight, pose_moment(i)));
+            Result<RestingPose> pose = bench.rest(bench.view(flight.flight, pose_moment(i)));
             if (!pose) {
                 return std::move(pose).error();
             }
@@ -344,13 +386,14 @@ Result<ViewBenchResult> benchView(const MapOptions& map, const ViewBenchOptions&
             }
         }
     }
-    for (const double exaggeration : options.color_exaggerations) {
+    for (const double exaggeration : color_exaggerations) {
         ViewBench other(*scene, exaggeration, options, *news, job.monitor());
         ColorResult& colors = result.colors.emplace_back();
         colors.exaggeration = exaggeration;
         for (const Flight flight : kFlights) {
             for (int i = 0; i < options.pose_count; ++i) {
-                const Result<ColorPose> pose = other.colors(other.camera(flight, pose_moment(i)));
+                const Result<ColorPose> pose =
+                    other.colors(other.view(flight, pose_moment(i)).camera);
                 if (!pose) {
                     return pose.error();
                 }

@@ -24,6 +24,8 @@ struct ViewBenchOptions {
     std::optional<double> exaggeration; // default: chosen for each map
     std::vector<double> color_exaggerations{0.5, 1.0, 2.0, 10.0}; // for the color measurement
     bool is_full = false; // compare with pictures of every sample, however many there are
+    /// On the body the errors and colors of pictures at rest have no reference: they are left out.
+    SceneKind scene = SceneKind::Flat;
 };
 
 /// One frame of a flight.
@@ -46,10 +48,10 @@ struct ColorDifference {
 
 /// A picture at rest.
 struct RestingPose {
-    OrbitCamera camera;
+    OrbitCamera camera; // on the body: target in the body-fixed frame, angles as of BodyCamera
     std::size_t triangle_count = 0;
-    double error_bound_px = 0.0; // the renderer's bound
-    PictureError error;          // measured
+    double error_bound_px = 0.0;       // the renderer's bound
+    std::optional<PictureError> error; // measured; nothing on the body
     std::optional<ColorDifference> difference;
 };
 

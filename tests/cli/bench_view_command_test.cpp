@@ -1,4 +1,5 @@
 #include "tests/cli/run_cli.h"
+#include "tests/support/make_raster.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/temp_folder.h"
 
@@ -6,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace marsview::test {
@@ -120,6 +122,88 @@ TEST(BenchViewCommand, ComparesSeveralMapsInATableForPeople)
     EXPECT_NE(output.out.find(helens), std::string::npos);
 }
 
+TEST(BenchViewCommand, FliesOverAMapOnItsBody)
+{
+    const nlohmann::json bench = measured({bundledMars(), "--scene", "body"});
+    EXPECT_EQ(bench["scene"], "body");
+    const nlohmann::json& map = bench["maps"][0];
+    EXPECT_TRUE(map["colors_at_rest"].is_null());
+    EXPECT_EQ(map["triangle_count"], 2 * 1439 * 719);
+    EXPECT_LE(map["first_picture_ms"], map["sharp_picture_ms"]);
+    ASSERT_EQ(map["flights"].size(), 3U);
+    for (const nlohmann::json& flight : map["flights"]) {
+        SCOPED_TRACE(flight["name"]);
+        EXPECT_LE(flight["sharp_after_ms"], flight["smooth_after_ms"]);
+        EXPECT_GT(flight["sharp_triangle_count"], 0);
+        ASSERT_EQ(flight["frames"].size(), 8U);
+        for (const nlohmann::json& frame : flight["frames"]) {
+            EXPECT_GT(frame["triangle_count"], 0);
+        }
+        ASSERT_EQ(flight["resting_poses"].size(), 2U);
+        for (const nlohmann::json& pose : flight["resting_poses"]) {
+            EXPECT_TRUE(pose["error_mean_px"].is_null());
+            EXPECT_TRUE(pose["share_within_threshold"].is_null());
+            EXPECT_LE(pose["error_bound_px"], 1.0);
+            const nlohmann::json& every = pose["against_every_sample"];
+            EXPECT_GE(every["full_triangle_count"], pose["triangle_count"]);
+            EXPECT_LE(every["mean_color_difference_levels"], 4.0);
+            // Mars has a radius of 3376 to 3396 km, and terrain from -8.2 to 21.3 km; the map is
+            // exaggerated.
+            const nlohmann::json& target = pose["camera"]["target_m"];
+            const double exaggeration = map["exaggeration"];
+            EXPECT_NEAR(std::hypot(target[0].get<double>(), target[1].get<double>(),
+                                   target[2].get<double>()),
+                        3.39e6, 1.5e4 + 2.2e4 * exaggeration);
+        }
+    }
+    const auto distance = [&](std::size_t flight, std::size_t pose) {
+        return map["flights"][flight]["resting_poses"][pose]["camera"]["distance_m"].get<double>();
+    };
+    EXPECT_EQ(distance(0, 0), distance(0, 1));
+    EXPECT_GT(distance(0, 0), 3.39e6) << "the whole body is in the picture";
+    EXPECT_LT(distance(1, 1), 0.3 * distance(0, 0));
+    EXPECT_LT(distance(2, 0), 0.3 * distance(0, 0));
+}
+
+TEST(BenchViewCommand, SaysWhatAFlightOverTheBodyLeavesOut)
+{
+    const ProgramOutput output = runCli({"bench", "view", bundledMars(), "--scene", "body",
+                                         "--size", "160x100", "--frames", "3", "--poses", "1"});
+    EXPECT_EQ(output.exit_status, 0) << output.err;
+    EXPECT_THAT(output.out, testing::HasSubstr("3 frames/flight, on the body\n"));
+    EXPECT_THAT(output.out, testing::ContainsRegex("dive +[0-9]+ +- +- +- +- +[0-9.]+  mean"));
+    EXPECT_THAT(output.out, testing::HasSubstr("full resolution: -\n"));
+}
+
+TEST(BenchViewCommand, TheFlatSceneIsTheDefault)
+{
+    const nlohmann::json named = measured({bundledMars(), "--scene", "flat"});
+    const nlohmann::json usual = measured({bundledMars()});
+    EXPECT_FALSE(named.contains("scene"));
+    EXPECT_EQ(named["maps"][0]["colors_at_rest"], usual["maps"][0]["colors_at_rest"]);
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(named["maps"][0]["flights"][i]["resting_poses"],
+                  usual["maps"][0]["flights"][i]["resting_poses"]);
+    }
+}
+
+TEST(BenchViewCommand, RefusesWhatCannotLieOnABody)
+{
+    const TempFolder folder;
+    const std::string local =
+        writeRaster(folder, "local.tif", "GTiff", recipeFor(8, std::vector<float>(64, 5.0F)));
+    const std::string mesh = folder.write("mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    for (const auto& [file, said] : {std::pair<std::string, std::string>{local, "state the CRS"},
+                                     {mesh, "convert it to GeoTIFF"}}) {
+        SCOPED_TRACE(file);
+        const ProgramOutput output = runCli({"bench", "view", file, "--scene", "body"});
+        EXPECT_EQ(output.exit_status, 1);
+        EXPECT_EQ(output.out, "");
+        EXPECT_THAT(output.err, testing::HasSubstr(said));
+        EXPECT_EQ(std::count(output.err.begin(), output.err.end(), '\n'), 1) << output.err;
+    }
+}
+
 TEST(BenchViewCommand, RefusesInvalidInput)
 {
     for (const std::vector<std::string>& options : {std::vector<std::string>{"--frames", "0"},
@@ -130,6 +214,8 @@ TEST(BenchViewCommand, RefusesInvalidInput)
                                                     {"--poses", "-1"},
                                                     {"--size", "0x5"},
                                                     {"--size", "wide"},
+                                                    {"--scene", "globe"},
+                                                    {"--scene", ""},
                                                     {"--colour"}}) {
         std::vector<std::string> arguments{"bench", "view", bundledMars()};
         arguments.insert(arguments.end(), options.begin(), options.end());

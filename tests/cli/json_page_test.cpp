@@ -175,6 +175,9 @@ TEST(JsonPage, ListsTheFieldsOfBenchmarks)
                                                "20", "--speeds", "1", "--scales", "1", "--json"}));
     expectDocumented("bench view", printed({"bench", "view", bundledMountain(), "--size", "160x120",
                                             "--frames", "2", "--poses", "1", "--json"}));
+    expectDocumented("bench view",
+                     printed({"bench", "view", bundledMountain(), "--scene", "body", "--size",
+                              "160x120", "--frames", "2", "--poses", "1", "--json"}));
     const std::string made = folder.file("made.tif");
     expectDocumented("bench terrain", printed({"bench", "terrain", bundledMountain(), "--only",
                                                "prepare", "--json"}));
