@@ -16,7 +16,7 @@ quiet=()
 echo "Building MarsView (takes minutes the first time)"
 cmake --preset release -S "$root" -B "$build" --log-level=WARNING \
     -DMARSVIEW_BUILD_TESTS=OFF -DMARSVIEW_WERROR=OFF >/dev/null
-cmake --build "$build" "${quiet[@]}"
+cmake --build "$build" --target marsview marsview-cli "${quiet[@]}"
 
 if [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ]; then
     exec "$program" "$@"
