@@ -3,7 +3,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-shellcheck -x .ci/run packaging/*.sh packaging/cluster/*.sh tests/packaging/*.sh
+shellcheck -x .ci/run packaging/*.sh packaging/cluster/*.sh packaging/trial/*.sh tests/packaging/*.sh
 desktop-file-validate packaging/linux/*.desktop
 cmake --preset clang --log-level=WARNING
 appstreamcli validate --no-net build/clang/packaging/*.metainfo.xml
