@@ -8,5 +8,8 @@ desktop-file-validate packaging/linux/*.desktop
 cmake --preset clang --log-level=WARNING
 appstreamcli validate --no-net build/clang/packaging/*.metainfo.xml
 cmake --build --preset clang --target format-check
-codespell --ignore-words packaging/codespell-ignore.txt --skip '*.tif,*.png,*.svg,*.csv,*/samples/*' \
+# The spelling of English: without German texts, the letters behind & in menus, and \n.
+codespell=(codespell --ignore-words packaging/codespell-ignore.txt --ignore-regex '\w+&\w+|\\n')
+"${codespell[@]}" --skip '*.tif,*.png,*.svg,*.csv,*/samples/*,*.ts,packaging/linux/*' \
     app core haptics ui tests packaging resources ./*.md
+sed -e '/xml:lang="de"/,/<\//d' -e '/\[de\]=/d' packaging/linux/* | "${codespell[@]}" -
