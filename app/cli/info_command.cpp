@@ -135,6 +135,7 @@ Result<Description> describe(const MapOptions& options, bool has_statistics)
         if (computed) {
             statistics = *computed;
             noteSuspiciousSamples(info, *statistics);
+            info.notices = noticesWithOptions(info);
         } else if (computed.error().code == ErrorCode::TooLarge) {
             const std::string path = addressOf(info.path) + ": ";
             const std::string& why = computed.error().message;

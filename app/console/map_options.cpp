@@ -6,6 +6,7 @@
 #include "core/base/nearest_word.h"
 #include "core/files/remote_raster.h"
 #include "core/geo/crs.h"
+#include "core/raster/sample_suggestions.h"
 #include "core/session/map.h"
 
 #include <CLI/CLI.hpp>
@@ -216,17 +217,29 @@ Result<OpenRaster> openRaster(const MapOptions& options)
         job.emplace("opening");
     }
     Result<OpenRaster> raster = openRaster(options.spec());
-    if (raster && raster->info.crs_suggestion) { // here it is set by an option
-        RasterInfo& info = raster->info;
-        std::replace(info.notices.begin(), info.notices.end(), noticeOf(*info.crs_suggestion),
-                     optionNoticeOf(*info.crs_suggestion));
+    if (raster) {
+        raster->info.notices = noticesWithOptions(raster->info);
     }
     return raster;
 }
 
+std::vector<std::string> noticesWithOptions(const RasterInfo& info)
+{
+    std::vector<std::string> notices = info.notices;
+    const auto name_option = [&notices](const auto& suggestion) {
+        if (suggestion) {
+            std::replace(notices.begin(), notices.end(), noticeOf(*suggestion),
+                         optionNoticeOf(*suggestion));
+        }
+    };
+    name_option(info.crs_suggestion);
+    name_option(info.unit_suggestion);
+    return notices;
+}
+
 void printNotices(const RasterInfo& info)
 {
-    for (const std::string& notice : info.notices) {
+    for (const std::string& notice : noticesWithOptions(info)) {
         std::fprintf(stderr, "marsview-cli: %s\n",
                      asOneLine(addressOf(info.path) + ": " + notice).c_str());
     }

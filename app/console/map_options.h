@@ -47,6 +47,9 @@ struct MapOptions {
 /// The raster that the options name, with their overrides. Shows progress where that takes long.
 Result<OpenRaster> openRaster(const MapOptions& options);
 
+/// The notices about the map; suggestions name the options that follow them.
+std::vector<std::string> noticesWithOptions(const RasterInfo& info);
+
 /// Prints the notices about the map to stderr; call it after the result has been printed. After an
 /// error only the error is printed.
 void printNotices(const RasterInfo& info);

@@ -95,6 +95,8 @@ Json mapReport(const RasterInfo& info,
     json["offset"] = info.offset;
     json["vertical_unit"] = info.unit.name;
     json["is_vertical_unit_declared"] = info.is_unit_declared;
+    json["vertical_unit_suggestion"] =
+        info.unit_suggestion ? Json(info.unit_suggestion->unit.name) : Json(nullptr);
     json["vertical_datum"] = textOrNull(info.vertical_datum);
     json["reference_radius_m"] =
         info.reference_radius_m ? asJson(*info.reference_radius_m) : Json(nullptr);

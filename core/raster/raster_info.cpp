@@ -1,5 +1,7 @@
 #include "core/raster/raster_info.h"
 
+#include "core/raster/sample_suggestions.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -360,11 +362,18 @@ void noteSuspiciousSamples(RasterInfo& info, const SampleStatistics& statistics)
     if (info.nodata_suggestion) {
         info.notices.push_back(noticeOfNodata(*info.nodata_suggestion));
     }
+    info.unit_suggestion = suggestUnit(info, statistics);
+    if (info.unit_suggestion) {
+        info.notices.push_back(noticeOf(*info.unit_suggestion));
+    }
     constexpr double kHeightMaxM = 1e6; // if the body is unknown
     const double height_max_m = bodyRadius(info).value_or(kHeightMaxM);
+    const bool is_of_earth = info.body != nullptr && info.body == bodyNamed("Earth");
     for (const double raw : {statistics.raw_minimum, statistics.raw_maximum}) {
         const double height_m = info.elevationScale().height(raw);
-        if (!(std::abs(height_m) <= height_max_m) && raw != info.nodata_suggestion) {
+        const bool is_plausible = is_of_earth ? isOnEarth(height_m) || info.unit_suggestion
+                                              : std::abs(height_m) <= height_max_m;
+        if (!is_plausible && raw != info.nodata_suggestion) {
             info.notices.push_back(
                 fmt::format("the sample {} makes an elevation of {} m, which is implausible; set "
                             "it as nodata, or set the unit or the scale",

@@ -53,6 +53,15 @@ struct LabelCorrection {
     bool operator==(const LabelCorrection&) const = default;
 };
 
+/// A unit that fits elevations better than meters, where the file declares none.
+struct UnitSuggestion {
+    VerticalUnit unit;
+    /// An elevation in meters that no place on the body has, which the samples reach if they are
+    /// read as meters. Empty if only the unit of the CRS suggests the unit.
+    std::optional<double> implausible_m;
+    bool operator==(const UnitSuggestion&) const = default;
+};
+
 /// The description of one band of a raster file.
 struct RasterInfo {
     std::string path; // the opened file; may differ from the requested one (a label for its data)
@@ -92,6 +101,8 @@ struct RasterInfo {
     /// A raw value at an end of the samples' range that usually marks nodata, where the file
     /// declares none. Set by noteSuspiciousSamples().
     std::optional<double> nodata_suggestion;
+    /// Set by noteSuspiciousSamples().
+    std::optional<UnitSuggestion> unit_suggestion;
 
     /// Observations, assumptions and corrections, as sentences for the user.
     std::vector<std::string> notices;
@@ -142,8 +153,8 @@ std::optional<OverrideField> refusedField(const Error& error);
 /// for a grid that cannot be in degrees, and a map projection for a grid that must be.
 Result<RasterInfo> withOverrides(RasterInfo info, const RasterOverrides& overrides);
 
-/// Adds a notice if the file seems to have undeclared voids, has only voids, or has values that
-/// cannot be elevations. Sets the nodata suggestion.
+/// Adds a notice if the file seems to have undeclared voids or an undeclared unit, has only voids,
+/// or has values that cannot be elevations. Sets the suggestions of nodata and unit.
 void noteSuspiciousSamples(RasterInfo& info, const SampleStatistics& statistics);
 
 /// The sentence in RasterInfo::notices that corresponds to a nodata suggestion.

@@ -6406,3 +6406,31 @@ A scene: the one that suits the layers</extracomment>
     </message>
 </context>
 </TS>
+    <message>
+        <source>Looks like feet, but the file has no unit of elevation: no place on the Earth is as high as %1</source>
+        <extracomment>%1 is an elevation in meters</extracomment>
+        <translation>Sieht nach Fuß aus, aber die Datei hat keine Höheneinheit: Kein Ort der Erde liegt auf %1 Höhe</translation>
+    </message>
+    <message>
+        <source>Looks like feet, but the file has no unit of elevation: no place on the Earth is as low as %1</source>
+        <extracomment>%1 is an elevation in meters</extracomment>
+        <translation>Sieht nach Fuß aus, aber die Datei hat keine Höheneinheit: Kein Ort der Erde liegt so tief wie %1</translation>
+    </message>
+    <message>
+        <source>The file has no unit of elevation: elevations are read as meters, but the unit of the CRS is the US survey foot</source>
+        <translation>Die Datei hat keine Höheneinheit: Höhen werden als Meter gelesen, aber die Einheit des KBS ist der US-Vermessungsfuß</translation>
+    </message>
+    <message>
+        <source>The file has no unit of elevation: elevations are read as meters, but the unit of the CRS is the foot</source>
+        <translation>Die Datei hat keine Höheneinheit: Höhen werden als Meter gelesen, aber die Einheit des KBS ist der Fuß</translation>
+    </message>
+    <message>
+        <source>Use US Survey Feet</source>
+        <extracomment>On a button: read the elevations of a map in US survey feet</extracomment>
+        <translation>US-Vermessungsfuß verwenden</translation>
+    </message>
+    <message>
+        <source>Use Feet</source>
+        <extracomment>On a button: read the elevations of a map in feet</extracomment>
+        <translation>Fuß verwenden</translation>
+    </message>

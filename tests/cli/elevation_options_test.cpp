@@ -59,6 +59,24 @@ TEST(ElevationOptions, ScaleOffsetAndUnitConvertSamplesToElevations)
     EXPECT_EQ(info["minimum"], 1000.0 - 2.0 * (599 + 2 * 499));
 }
 
+TEST(ElevationOptions, InfoNamesTheOptionForElevationsInFeet)
+{
+    const TempFolder folder;
+    RasterRecipe recipe = recipeFor(2, std::vector<std::int16_t>{4458, 9000, 11000, 14176});
+    recipe.srs = "EPSG:4267";
+    recipe.transform = {-105.0, 0.001, 0.0, 38.0, 0.0, -0.001};
+    const std::string path = writeRaster(folder, "feet.tif", "GTiff", recipe);
+    const nlohmann::json info = cliInfo(path);
+    EXPECT_EQ(info["vertical_unit_suggestion"], "ft");
+    EXPECT_THAT(runCli({"info", path}).err, HasSubstr("--unit ft"));
+    EXPECT_THAT(runCli({"render", path, "-o", folder.file("a.png"), "--size", "16x16"}).err,
+                HasSubstr("--unit ft"));
+    const nlohmann::json in_feet = cliInfo(path, {"--unit", "ft"});
+    EXPECT_TRUE(in_feet["vertical_unit_suggestion"].is_null());
+    EXPECT_DOUBLE_EQ(in_feet["maximum"], 14176 * 0.3048);
+    EXPECT_EQ(runCli({"info", path, "--unit", "ft"}).err, "");
+}
+
 TEST(ElevationOptions, ApplyToAMapPreparedWithOtherOptions)
 {
     const TempFolder folder;

@@ -1,6 +1,6 @@
 #include "ui/controllers/session_controller.h"
 
-#include "core/raster/certain_nodata.h"
+#include "core/raster/sample_suggestions.h"
 #include "core/session/range_in_picture.h"
 #include "core/view/exaggeration.h"
 #include "ui/canvas/terrain_view.h"

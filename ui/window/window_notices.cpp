@@ -1,5 +1,6 @@
 #include "ui/window/window_notices.h"
 
+#include "core/raster/sample_suggestions.h"
 #include "core/tiles/tile_disk_cache.h"
 #include "ui/canvas/terrain_view.h"
 #include "ui/controllers/haptics/haptics_controller.h"
@@ -143,6 +144,8 @@ void WindowNotices::addNotices(const Layer& layer,
     const std::string of_suggestion = suggestion ? noticeOf(*suggestion) : std::string();
     const auto& nodata = map.info().nodata_suggestion;
     const std::string of_nodata = nodata ? noticeOfNodata(*nodata) : std::string();
+    const auto& unit = map.info().unit_suggestion;
+    const std::string of_unit = unit ? noticeOf(*unit) : std::string();
     const auto& texts = map.info().notices;
     for (std::size_t i = first; i < texts.size(); ++i) {
         const QString text = QString::fromStdString(texts[i]);
@@ -155,6 +158,9 @@ void WindowNotices::addNotices(const Layer& layer,
         } else if (nodata && texts[i] == of_nodata) {
             addNodata(notice, *nodata, layer);
             corrections.prepend(notice);
+        } else if (unit && texts[i] == of_unit) {
+            addUnit(notice, *unit, layer);
+            corrections.append(notice);
         } else {
             others.append(notice);
         }
@@ -191,6 +197,43 @@ void WindowNotices::addNodata(Notice& notice, double raw, const Layer& layer) co
     notice.actions.append({tr("Set %1 as Nodata").arg(value), [&session, id = layer.id, overrides] {
                                session.overrideGeoreferencing(id, overrides);
                            }});
+}
+
+void WindowNotices::addUnit(Notice& notice,
+                            const UnitSuggestion& suggestion,
+                            const Layer& layer) const
+{
+    const bool is_survey_foot = suggestion.unit == verticalUnitFrom("US survey ft");
+    if (suggestion.implausible_m) {
+        const QString elevation =
+            withUnit(numberText(*suggestion.implausible_m, 0), unitSymbol(HeightUnit::Meters));
+        notice.text =
+            *suggestion.implausible_m > 0.0
+                //: %1 is an elevation in meters
+                ? tr("Looks like feet, but the file has no unit of elevation: no place on the "
+                     "Earth is as high as %1")
+                      .arg(elevation)
+                //: %1 is an elevation in meters
+                : tr("Looks like feet, but the file has no unit of elevation: no place on the "
+                     "Earth is as low as %1")
+                      .arg(elevation);
+    } else {
+        notice.text = is_survey_foot
+                          ? tr("The file has no unit of elevation: elevations are read as meters, "
+                               "but the unit of the CRS is the US survey foot")
+                          : tr("The file has no unit of elevation: elevations are read as meters, "
+                               "but the unit of the CRS is the foot");
+    }
+    SessionController& session = parts_.session;
+    RasterOverrides overrides = layer.map->spec().overrides;
+    overrides.vertical_unit = suggestion.unit.name;
+    notice.actions.append(
+        {is_survey_foot
+             //: On a button: read the elevations of a map in US survey feet
+             ? tr("Use US Survey Feet")
+             //: On a button: read the elevations of a map in feet
+             : tr("Use Feet"),
+         [&session, id = layer.id, overrides] { session.overrideGeoreferencing(id, overrides); }});
 }
 
 // One click for each system that would fit; every one is a step that can be undone.

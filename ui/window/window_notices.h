@@ -55,6 +55,7 @@ private:
     /// Appends those of the layer: `corrections` are what the user should decide first.
     void addNotices(const Layer& layer, QList<Notice>& corrections, QList<Notice>& others) const;
     void addNodata(Notice& notice, double raw, const Layer& layer) const;
+    void addUnit(Notice& notice, const UnitSuggestion& suggestion, const Layer& layer) const;
     Notice ofAssumedNodata(const Layer& layer) const;
     void addChoices(Notice& notice, const CrsSuggestion& suggestion, const Layer& layer) const;
     Notice ofPreview(const Layer& layer) const;

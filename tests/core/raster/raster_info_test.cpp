@@ -1,10 +1,11 @@
-#include "core/raster/certain_nodata.h"
 #include "core/raster/raster_info.h"
+#include "core/raster/sample_suggestions.h"
 #include "tests/support/nan.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <limits>
 #include <string>
 #include <utility>
@@ -386,6 +387,88 @@ TEST(UndeclaredNodata, ADeclaredValueIsTrusted)
     noteSuspiciousSamples(info, statistics);
     EXPECT_EQ(info.nodata_suggestion, std::nullopt);
     EXPECT_TRUE(info.notices.empty());
+}
+
+RasterInfo earth(const char* crs = "EPSG:4326")
+{
+    RasterInfo info;
+    info.crs = *Crs::fromText(crs);
+    info.body = info.crs->body();
+    return info;
+}
+
+// A unit name, and the elevation that is the reason, if there is one.
+std::string suggestedUnit(const RasterInfo& info, double low, double high)
+{
+    SampleStatistics statistics;
+    statistics.sample_count = 4;
+    statistics.raw_minimum = low;
+    statistics.raw_maximum = high;
+    RasterInfo noted = info;
+    noteSuspiciousSamples(noted, statistics);
+    const bool is_noted =
+        noted.unit_suggestion && std::count(noted.notices.begin(), noted.notices.end(),
+                                            noticeOf(*noted.unit_suggestion)) == 1;
+    EXPECT_EQ(is_noted, noted.unit_suggestion.has_value());
+    if (!noted.unit_suggestion) {
+        return "";
+    }
+    const auto reason = noted.unit_suggestion->implausible_m;
+    return noted.unit_suggestion->unit.name + (reason ? fmt::format(" {}", *reason) : "");
+}
+
+// Culebra Peak, Colorado, is at 14,053 ft; Mount Everest at 8,849 m, which are 29,032 ft; the
+// Challenger Deep at -35,876 ft.
+TEST(UndeclaredUnit, ElevationsThatTheEarthDoesNotHaveInMetersAreInFeet)
+{
+    EXPECT_EQ(suggestedUnit(earth(), 4458.0, 14176.0), "ft 14176");
+    EXPECT_EQ(suggestedUnit(earth(), 0.0, 29032.0), "ft 29032");
+    EXPECT_EQ(suggestedUnit(earth(), -35876.0, 0.0), "ft -35876");
+    EXPECT_EQ(suggestedUnit(earth(), -10935.0, 8849.0), "");
+    EXPECT_EQ(suggestedUnit(earth(), 0.0, 32000.0), "") << "not in feet either";
+    EXPECT_EQ(suggestedUnit(earth(), -32767.0, 2400.0), "") << "nodata that is not declared";
+    EXPECT_EQ(suggestedUnit(earth(), -32767.0, 14176.0), "ft 14176");
+    EXPECT_EQ(suggestedUnit(mars(), -8201.0, 21241.0), "") << "Olympus Mons";
+    RasterInfo declared = earth();
+    declared.is_unit_declared = true;
+    EXPECT_EQ(suggestedUnit(declared, 4458.0, 14176.0), "");
+    RasterInfo scaled = earth();
+    scaled.scale = 0.1;
+    EXPECT_EQ(suggestedUnit(scaled, 4458.0, 14176.0), "");
+    EXPECT_EQ(suggestedUnit(RasterInfo{}, 4458.0, 14176.0), "") << "the body is unknown";
+}
+
+TEST(NoteSuspiciousSamples, NamesElevationsThatTheEarthDoesNotHave)
+{
+    const auto count = [](double low, double high) {
+        RasterInfo info = earth();
+        info.is_unit_declared = true;
+        SampleStatistics statistics;
+        statistics.sample_count = 4;
+        statistics.raw_minimum = low;
+        statistics.raw_maximum = high;
+        noteSuspiciousSamples(info, statistics);
+        return info.notices.size();
+    };
+    EXPECT_EQ(count(-10935.0, 8849.0), 0U);
+    EXPECT_EQ(count(0.0, 12000.0), 1U);
+    EXPECT_EQ(count(-12000.0, 0.0), 1U);
+}
+
+TEST(UndeclaredUnit, MayBeThatOfTheCrs)
+{
+    const RasterInfo virginia = earth("EPSG:2924"); // in US survey feet
+    EXPECT_EQ(suggestedUnit(virginia, 10.0, 500.0), "US survey ft");
+    EXPECT_EQ(suggestedUnit(virginia, 10.0, 14000.0), "US survey ft 14000");
+    EXPECT_EQ(suggestedUnit(earth("EPSG:2222"), 10.0, 500.0), "ft"); // Arizona, in feet
+    EXPECT_EQ(suggestedUnit(earth("EPSG:32613"), 10.0, 500.0), "");
+}
+
+TEST(UndeclaredUnit, IsSetByAnOption)
+{
+    const UnitSuggestion survey{.unit = *verticalUnitFrom("US survey ft"),
+                                .implausible_m = std::nullopt};
+    EXPECT_NE(optionNoticeOf(survey).find("--unit \"US survey ft\""), std::string::npos);
 }
 
 } // namespace

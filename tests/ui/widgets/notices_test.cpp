@@ -270,6 +270,32 @@ TEST_F(NoticesTest, UndeclaredNodataThatMayBeAnElevationIsKept)
     EXPECT_FALSE(window_->controller().isNodataAssumed(*activeLayer(window_->session())));
 }
 
+// The highest of the samples is above Mount Everest, if they are in meters.
+TEST_F(NoticesTest, ElevationsInFeetAreReadAsSuchByOneClick)
+{
+    const QString file =
+        maps_.write(QStringLiteral("peaks.asc"), {}, [](int, int row) { return 9000.0 + row; });
+    const QString placed = maps_.path(QStringLiteral("peaks.tif"));
+    test::runTool(
+        {"gdal_translate", "-q", "-a_srs", "EPSG:32613", file.toStdString(), placed.toStdString()});
+    ASSERT_TRUE(openAndWait(*window_, placed));
+    const auto highest = [this] {
+        return activeLayer(window_->session())->map->heightfield().range()->maximum_m;
+    };
+    const double as_meters = highest();
+    EXPECT_EQ(shown(), QStringLiteral("Looks like feet, but the file has no unit of elevation: no "
+                                      "place on the Earth is as high as %1 m")
+                           .arg(QLocale().toString(as_meters, 'f', 0)));
+    QToolButton* button = noticeButton(bar(), "noticeAction");
+    EXPECT_EQ(button->text(), QStringLiteral("Use Feet"));
+    QTest::mouseClick(button, Qt::LeftButton);
+    ASSERT_TRUE(waitFor([&] { return highest() < as_meters; }));
+    EXPECT_NEAR(highest(), as_meters * 0.3048, 1e-6);
+    EXPECT_FALSE(shown().contains(QStringLiteral("feet"))) << shown().toStdString();
+    window_->undoStack().undo();
+    EXPECT_EQ(highest(), as_meters);
+}
+
 class SoundMemoryTest : public testing::Test {
 protected:
     void SetUp() override { QSettings().clear(); }

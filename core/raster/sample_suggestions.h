@@ -1,0 +1,29 @@
+// What the samples suggest that a file does not declare: its nodata value and its unit.
+#pragma once
+
+#include "core/raster/raster_info.h"
+
+#include <optional>
+#include <string>
+
+namespace marsview {
+
+/// A nodata suggestion that no elevation on any body has: a window may read it as nodata until its
+/// user decides. Empty if there is no suggestion, or if it may be an elevation.
+std::optional<double> certainNodata(const RasterInfo& info);
+
+/// Whether some place on the Earth, the sea floor included, may have this elevation.
+bool isOnEarth(double elevation_m);
+
+/// Feet for a map of the Earth without a declared unit, if in meters it would be higher or lower
+/// than any place on the Earth but not in feet, or if the unit of its CRS is the foot. Samples of
+/// the nodata suggestion are ignored.
+std::optional<UnitSuggestion> suggestUnit(const RasterInfo& info,
+                                          const SampleStatistics& statistics);
+
+/// The corresponding sentence in RasterInfo::notices.
+std::string noticeOf(const UnitSuggestion& suggestion);
+/// The same for the command line, which sets a unit with --unit.
+std::string optionNoticeOf(const UnitSuggestion& suggestion);
+
+} // namespace marsview
