@@ -125,6 +125,36 @@ SceneBox SceneSurface::box(double exaggeration) const
     return box;
 }
 
+std::vector<SceneBox> SceneSurface::partBoxes(double exaggeration) const
+{
+    constexpr std::size_t kPartsMax = 16; // along a side of a map
+    std::vector<SceneBox> boxes;
+    for (const SceneMap& part : maps_) {
+        const MinMaxPyramid& bounds = part.map->analysis()->bounds;
+        std::size_t level = 0;
+        while (std::max(bounds.columns(level), bounds.rows(level)) > kPartsMax) {
+            ++level;
+        }
+        const std::size_t cells = MinMaxPyramid::kBlock << level;
+        const std::size_t last_column = part.map->heightfield().columns() - 1;
+        const std::size_t last_row = part.map->heightfield().rows() - 1;
+        for (std::size_t row = 0; row < bounds.rows(level); ++row) {
+            for (std::size_t column = 0; column < bounds.columns(level); ++column) {
+                const MinMaxPyramid::Bounds heights = bounds.bounds(level, column, row);
+                if (!heights.isEmpty()) {
+                    boxes.push_back(boxAround(
+                        part.frame,
+                        {static_cast<double>(column * cells), static_cast<double>(row * cells)},
+                        {static_cast<double>(std::min((column + 1) * cells, last_column)),
+                         static_cast<double>(std::min((row + 1) * cells, last_row))},
+                        {heights.minimum_m, heights.maximum_m}, exaggeration));
+                }
+            }
+        }
+    }
+    return boxes;
+}
+
 double SceneSurface::pixelMeters() const
 {
     double pixel_m = std::numeric_limits<double>::infinity();

@@ -48,6 +48,9 @@ public:
     std::optional<std::size_t> mapAt(double east_m, double north_m) const;
     /// Around all maps.
     SceneBox box(double exaggeration) const;
+    /// Boxes around parts of the maps, some hundred at most: all terrain lies in them. Empty
+    /// without terrain.
+    std::vector<SceneBox> partBoxes(double exaggeration) const;
     /// The smallest pixel side in meters.
     double pixelMeters() const;
 

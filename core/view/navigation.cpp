@@ -1,8 +1,11 @@
 #include "core/view/navigation.h"
 
+#include "core/base/check.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace marsview {
 namespace {
@@ -133,7 +136,7 @@ struct Fit {
     double depth = 0.0;
 };
 
-Fit fitBetween(const std::array<ScenePoint, 8>& points,
+Fit fitBetween(std::span<const ScenePoint> points,
                const Vec3& across,
                const Vec3& forward,
                double slope)
@@ -153,6 +156,35 @@ Fit fitBetween(const std::array<ScenePoint, 8>& points,
 double exitFrom(const SceneBox& box, const ScenePoint& from, const Vec3& forward)
 {
     return std::min((box.maximum.y - from.y) / forward.y, (box.minimum.z - from.z) / forward.z);
+}
+
+struct HomeView {
+    OrbitCamera camera;
+    double spare_m = 0.0; // how much nearer the eye could be if only the picture's height counted
+};
+
+// From the south, with all of `points`, which lie in `box`, in the picture.
+HomeView homeView(std::span<const ScenePoint> points,
+                  const SceneBox& box,
+                  const Viewport& viewport,
+                  Angle tilt,
+                  Angle field_of_view)
+{
+    OrbitCamera camera;
+    camera.field_of_view = field_of_view;
+    camera.tilt = tilt;
+    const CameraAxes axes = axesOf(camera);
+    const double slope = std::tan(field_of_view.radians() / 2.0) / kHomeMargin;
+    const Fit across = fitBetween(points, axes.right, axes.forward, slope * viewport.aspect());
+    const Fit upward = fitBetween(points, axes.up, axes.forward, slope);
+    const ScenePoint eye = axes.right * across.across + axes.up * upward.across +
+                           axes.forward * std::min(across.depth, upward.depth);
+    // The target lies where the axis leaves the box: constrained() would lower a target high above
+    // the terrain next to a cliff, and part of the map would leave the picture at the top.
+    const double distance_m = std::max(exitFrom(box, eye, axes.forward), 1e-3 * box.diagonal_m());
+    camera.distance_m = distance_m;
+    camera.target = eye + axes.forward * distance_m;
+    return {.camera = camera, .spare_m = upward.depth - across.depth};
 }
 
 } // namespace
@@ -246,22 +278,30 @@ OrbitCamera retargeted(OrbitCamera camera, double distance_m)
 
 OrbitCamera homeCamera(const SceneBox& box, const Viewport& viewport, Angle field_of_view)
 {
-    OrbitCamera camera;
-    camera.field_of_view = field_of_view;
-    camera.tilt = kHomeTilt;
-    const CameraAxes axes = axesOf(camera);
-    const double slope = std::tan(field_of_view.radians() / 2.0) / kHomeMargin;
-    const auto corners = box.corners();
-    const Fit across = fitBetween(corners, axes.right, axes.forward, slope * viewport.aspect());
-    const Fit upward = fitBetween(corners, axes.up, axes.forward, slope);
-    const ScenePoint eye = axes.right * across.across + axes.up * upward.across +
-                           axes.forward * std::min(across.depth, upward.depth);
-    // The target lies where the axis leaves the box: constrained() would lower a target high above
-    // the terrain next to a cliff, and part of the map would leave the picture at the top.
-    const double distance_m = std::max(exitFrom(box, eye, axes.forward), 1e-3 * box.diagonal_m());
-    camera.distance_m = distance_m;
-    camera.target = eye + axes.forward * distance_m;
-    return camera;
+    return homeView(box.corners(), box, viewport, kHomeTilt, field_of_view).camera;
+}
+
+OrbitCamera
+fillingCamera(std::span<const SceneBox> boxes, const Viewport& viewport, Angle field_of_view)
+{
+    MARSVIEW_CHECK(!boxes.empty());
+    SceneBox all = boxes.front();
+    std::vector<ScenePoint> points;
+    for (const SceneBox& box : boxes) {
+        all = united(all, box);
+        const auto corners = box.corners();
+        points.insert(points.end(), corners.begin(), corners.end());
+    }
+    // A steeper view takes more of the picture's height. Halved until a step is not seen.
+    constexpr int kHalvings = 10;
+    Angle low = kFillingTiltMin;
+    Angle high = kFillingTiltMax;
+    for (int i = 0; i < kHalvings; ++i) {
+        const Angle middle = (low + high) * 0.5;
+        const bool is_wide = homeView(points, all, viewport, middle, field_of_view).spare_m > 0.0;
+        (is_wide ? high : low) = middle;
+    }
+    return homeView(points, all, viewport, (low + high) * 0.5, field_of_view).camera;
 }
 
 namespace {

@@ -9,6 +9,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 
 namespace marsview {
 
@@ -28,6 +29,8 @@ inline constexpr double kGroundLowest = 0.75;
 /// Of the first view: its size over that of what it shows, and its tilt.
 inline constexpr double kHomeMargin = 1.04;
 inline constexpr Angle kHomeTilt = Angle::degrees(40.0);
+inline constexpr Angle kFillingTiltMin = Angle::degrees(20.0);
+inline constexpr Angle kFillingTiltMax = Angle::degrees(50.0);
 
 /// The limits of the camera.
 struct NavigationLimits {
@@ -82,6 +85,12 @@ OrbitCamera retargeted(OrbitCamera camera, double distance_m);
 /// box is many times as high as wide.
 OrbitCamera
 homeCamera(const SceneBox& box, const Viewport& viewport, Angle field_of_view = Angle::degrees(40));
+
+/// Shows all of the boxes, parts of a map, from the south: as large as the picture has room for, at
+/// the tilt between 20° and 50° at which they fill it best. `boxes` must not be empty.
+OrbitCamera fillingCamera(std::span<const SceneBox> boxes,
+                          const Viewport& viewport,
+                          Angle field_of_view = Angle::degrees(40));
 
 /// A first view of a map around its body, oblique and filled by the map: on Mars, Tharsis and Valles
 /// Marineris from the southeast, otherwise its middle from the south. Empty for other maps.

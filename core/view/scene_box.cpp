@@ -22,18 +22,16 @@ SceneBox united(const SceneBox& a, const SceneBox& b) noexcept
              std::max(a.maximum.z, b.maximum.z)}};
 }
 
-SceneBox sceneBox(const SceneFrame& frame,
-                  std::size_t columns,
-                  std::size_t rows,
-                  const HeightRange& range,
-                  double exaggeration)
+SceneBox boxAround(const SceneFrame& frame,
+                   GridPoint first,
+                   GridPoint last,
+                   const HeightRange& range,
+                   double exaggeration)
 {
-    const double last_column = static_cast<double>(columns) - 1.0;
-    const double last_row = static_cast<double>(rows) - 1.0;
-    SceneBox box{.minimum = frame.toScene({0.0, 0.0}, range.minimum_m * exaggeration),
-                 .maximum = frame.toScene({0.0, 0.0}, range.maximum_m * exaggeration)};
-    for (const GridPoint corner : {GridPoint{last_column, 0.0}, GridPoint{0.0, last_row},
-                                   GridPoint{last_column, last_row}}) {
+    SceneBox box{.minimum = frame.toScene(first, range.minimum_m * exaggeration),
+                 .maximum = frame.toScene(first, range.maximum_m * exaggeration)};
+    for (const GridPoint corner :
+         {GridPoint{last.column, first.row}, GridPoint{first.column, last.row}, last}) {
         const ScenePoint p = frame.toScene(corner, 0.0);
         box.minimum.x = std::min(box.minimum.x, p.x);
         box.minimum.y = std::min(box.minimum.y, p.y);
@@ -41,6 +39,17 @@ SceneBox sceneBox(const SceneFrame& frame,
         box.maximum.y = std::max(box.maximum.y, p.y);
     }
     return box;
+}
+
+SceneBox sceneBox(const SceneFrame& frame,
+                  std::size_t columns,
+                  std::size_t rows,
+                  const HeightRange& range,
+                  double exaggeration)
+{
+    return boxAround(frame, {0.0, 0.0},
+                     {static_cast<double>(columns) - 1.0, static_cast<double>(rows) - 1.0}, range,
+                     exaggeration);
 }
 
 } // namespace marsview

@@ -32,6 +32,13 @@ struct SceneBox {
 /// The smallest box around both.
 SceneBox united(const SceneBox& a, const SceneBox& b) noexcept;
 
+/// The box around the part of a grid between two opposite corners, including rotated rasters.
+SceneBox boxAround(const SceneFrame& frame,
+                   GridPoint first,
+                   GridPoint last,
+                   const HeightRange& range,
+                   double exaggeration);
+
 /// The box around the outermost samples of a grid of columns × rows, including rotated rasters.
 SceneBox sceneBox(const SceneFrame& frame,
                   std::size_t columns,

@@ -121,7 +121,7 @@ void CameraController::steer(const CapRates& rates, double seconds)
 void CameraController::goHome()
 {
     if (!scene_.isEmpty()) {
-        moveTo(homeCamera(scene_.box(), viewport()), kFlyDuration);
+        moveTo(wholeView(), kFlyDuration);
     }
 }
 
@@ -184,8 +184,13 @@ OrbitCamera CameraController::lookingAt(const ScenePoint& place, const OrbitCame
 void CameraController::goToOpeningView()
 {
     is_at_opening_view_ = true;
-    navigator_.jumpTo(
-        openingCamera(scene_.map()->georeference()).value_or(homeCamera(scene_.box(), viewport())));
+    navigator_.jumpTo(openingCamera(scene_.map()->georeference()).value_or(wholeView()));
+}
+
+OrbitCamera CameraController::wholeView() const
+{
+    const std::vector<SceneBox> parts = scene_.ground().partBoxes(scene_.style.exaggeration);
+    return parts.empty() ? homeCamera(scene_.box(), viewport()) : fillingCamera(parts, viewport());
 }
 
 void CameraController::resize()

@@ -82,6 +82,7 @@ Q_SIGNALS:
 
 private:
     OrbitCamera bounded(const OrbitCamera& camera) const;
+    OrbitCamera wholeView() const;
     OrbitCamera lookingAt(const ScenePoint& place, const OrbitCamera& camera) const;
 
     const ShownScene& scene_;

@@ -462,6 +462,7 @@ TEST_F(SceneSurfaceTest, BoxIsTightAroundAllSamples)
         const double exaggeration = 3.0;
         ScenePoint low{HUGE_VAL, HUGE_VAL, HUGE_VAL};
         ScenePoint high = -low;
+        std::vector<ScenePoint> terrain;
         for (std::size_t i = 0; i < scene.maps.size(); ++i) {
             const Heightfield& h = scene.maps[i]->heightfield();
             for (std::size_t r = 0; r < h.rows(); ++r) {
@@ -470,6 +471,9 @@ TEST_F(SceneSurfaceTest, BoxIsTightAroundAllSamples)
                     const double z = h.sample(c, r) * exaggeration;
                     const ScenePoint p =
                         brute.scene(i, {static_cast<double>(c), static_cast<double>(r)}, z);
+                    if (!std::isnan(z)) {
+                        terrain.push_back(p);
+                    }
                     low = {std::min(low.x, p.x), std::min(low.y, p.y),
                            std::isnan(z) ? low.z : std::min(low.z, z)};
                     high = {std::max(high.x, p.x), std::max(high.y, p.y),
@@ -481,6 +485,15 @@ TEST_F(SceneSurfaceTest, BoxIsTightAroundAllSamples)
         const double slack = 1e-6 * cellMeters(scene);
         EXPECT_LT(length(box.minimum - low), slack) << scene.name;
         EXPECT_LT(length(box.maximum - high), slack) << scene.name;
+        const std::vector<SceneBox> parts = surface.partBoxes(exaggeration);
+        const auto is_in_part = [&](const ScenePoint& p) {
+            return std::any_of(parts.begin(), parts.end(), [&](const SceneBox& part) {
+                const ScenePoint above = part.maximum - p;
+                const ScenePoint below = p - part.minimum;
+                return std::min({above.x, above.y, above.z, below.x, below.y, below.z}) > -slack;
+            });
+        };
+        EXPECT_TRUE(std::all_of(terrain.begin(), terrain.end(), is_in_part)) << scene.name;
     }
 }
 

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace marsview {
 namespace {
@@ -37,6 +39,74 @@ TEST(HomeCamera, ShowsTheWholeBoxFromTheSouth)
         }
         EXPECT_GT(widest, 0.4) << "the map fills the view in one direction";
     }
+}
+
+// The box of `picture`, as shares of its sides, in which the boxes appear.
+struct Covered {
+    double width = 0.0;
+    double height = 0.0;
+    bool is_inside = true;
+};
+
+Covered
+covered(const std::vector<SceneBox>& boxes, const OrbitCamera& camera, const Viewport& picture)
+{
+    double left = HUGE_VAL;
+    double right = -HUGE_VAL;
+    double top = HUGE_VAL;
+    double bottom = -HUGE_VAL;
+    for (const SceneBox& box : boxes) {
+        for (const ScenePoint& corner : box.corners()) {
+            const auto pixel = project(camera, picture, corner);
+            if (!pixel) {
+                return {.is_inside = false};
+            }
+            left = std::min(left, pixel->x / picture.width);
+            right = std::max(right, pixel->x / picture.width);
+            top = std::min(top, pixel->y / picture.height);
+            bottom = std::max(bottom, pixel->y / picture.height);
+        }
+    }
+    return {.width = right - left,
+            .height = bottom - top,
+            .is_inside = left >= 0.0 && right <= 1.0 && top >= 0.0 && bottom <= 1.0};
+}
+
+TEST(FillingCamera, AWholeBodyTakesMoreOfThePictureThanAtTheUsualTilt)
+{
+    const std::vector<SceneBox> body{{{-1e7, -5e6, -8e3}, {1e7, 5e6, 21e3}}};
+    constexpr Viewport kView{852, 694}; // of a window of 1280 × 800
+    const Covered usual = covered(body, homeCamera(body.front(), kView), kView);
+    const Covered filled = covered(body, fillingCamera(body, kView), kView);
+    EXPECT_TRUE(filled.is_inside);
+    EXPECT_GT(filled.width, 0.95);
+    EXPECT_GT(filled.height, 0.5);
+    EXPECT_LT(usual.height, 0.4);
+}
+
+TEST(FillingCamera, FillsThePictureInBothDirectionsWhereATiltDoes)
+{
+    const std::vector<SceneBox> tile{{{-4e4, -5.5e4, 0.0}, {4e4, 5.5e4, 2e3}}};
+    for (const Viewport view : {Viewport{700, 700}, Viewport{800, 700}}) {
+        const Covered filled = covered(tile, fillingCamera(tile, view), view);
+        EXPECT_TRUE(filled.is_inside);
+        EXPECT_GT(filled.width, 0.9) << view.width;
+        EXPECT_GT(filled.height, 0.9) << view.width;
+    }
+}
+
+// A ridge in the middle of a plain: no corner of the box around all is on the terrain.
+TEST(FillingCamera, RoomAroundTheTerrainIsNotKeptForABoxAroundIt)
+{
+    const std::vector<SceneBox> parts{{{-1e5, -1e5, 0.0}, {-1e4, 1e5, 1e2}},
+                                      {{-1e4, -1e4, 0.0}, {1e4, 1e4, 8e4}},
+                                      {{1e4, -1e5, 0.0}, {1e5, 1e5, 1e2}}};
+    const SceneBox around = united(united(parts[0], parts[1]), parts[2]);
+    const Covered by_box = covered(parts, homeCamera(around, kViewport), kViewport);
+    const Covered by_parts = covered(parts, fillingCamera(parts, kViewport), kViewport);
+    EXPECT_TRUE(by_parts.is_inside);
+    EXPECT_GT(by_parts.height, 0.9);
+    EXPECT_LT(by_box.height, 0.8);
 }
 
 // Of other bodies than Mars, which has a view of its own; whole bodies, and a belt.
