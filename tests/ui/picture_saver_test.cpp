@@ -7,6 +7,7 @@
 #include "ui/window/window_actions.h"
 
 #include <QAction>
+#include <QApplication>
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDialogButtonBox>
@@ -50,7 +51,7 @@ protected:
     // Closes the dialog with this file name and waits for the picture.
     void saveAs(SavePictureDialog* dialog, const QString& file)
     {
-        dialog->accept();
+        Q_EMIT dialog->fileRequested();
         auto* files = window_->findChild<QFileDialog*>();
         ASSERT_NE(files, nullptr);
         Q_EMIT files->fileSelected(file);
@@ -86,6 +87,25 @@ TEST_F(PictureSaverTest, WritesEachFormatByItsEnding)
         ASSERT_TRUE(file.open(QIODevice::ReadOnly)) << format.name;
         EXPECT_EQ(file.read(format.begin.size()), format.begin) << format.name;
     }
+}
+
+TEST_F(PictureSaverTest, IsBackAtTheSizesIfNoFileIsChosen)
+{
+    SavePictureDialog* dialog = ask();
+    ASSERT_NE(dialog, nullptr);
+    dialog->findChild<QSpinBox*>(QStringLiteral("width"))->setValue(321);
+    QTest::keyClick(dialog, Qt::Key_Return);
+    auto* files = dialog->findChild<QFileDialog*>();
+    ASSERT_NE(files, nullptr);
+    EXPECT_EQ(QApplication::activeModalWidget(), files);
+    QTest::keyClick(files, Qt::Key_Escape);
+    ASSERT_TRUE(waitFor([&] { return dialog->findChild<QFileDialog*>() == nullptr; }));
+    EXPECT_TRUE(dialog->isVisible());
+    EXPECT_EQ(dialog->choice().size.width(), 321);
+    const QString file = maps_.path(QStringLiteral("second.png"));
+    saveAs(dialog, file);
+    EXPECT_EQ(QImage(file).width(), 321);
+    EXPECT_EQ(window_->findChild<SavePictureDialog*>(), nullptr);
 }
 
 TEST_F(PictureSaverTest, DrawsTheOfferedSizes)

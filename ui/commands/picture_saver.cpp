@@ -63,16 +63,17 @@ void PictureSaver::start(const QString& name)
     const OrbitCamera camera = view_.camera();
     auto* dialog = new SavePictureDialog({size.width, size.height}, limits, window_);
     dialog->setAttribute(Qt::WA_DeleteOnClose);
-    connect(dialog, &QDialog::accepted, this,
-            [this, dialog, name, camera] { chooseFile(name, camera, dialog->choice()); });
+    connect(dialog, &SavePictureDialog::fileRequested, this,
+            [this, dialog, name, camera] { chooseFile(*dialog, name, camera); });
     dialog->open();
 }
 
-void PictureSaver::chooseFile(const QString& name,
-                              const OrbitCamera& camera,
-                              const PictureChoice& choice)
+// Over the dialog of sizes: who chooses no file is back there.
+void PictureSaver::chooseFile(SavePictureDialog& sizes,
+                              const QString& name,
+                              const OrbitCamera& camera)
 {
-    auto* dialog = new QFileDialog(window_, tr("Save Picture"), folder());
+    auto* dialog = new QFileDialog(&sizes, tr("Save Picture"), folder());
     dialog->setAcceptMode(QFileDialog::AcceptSave);
     dialog->setNameFilters({tr("PNG picture (*.png)"), tr("JPEG picture (*.jpg *.jpeg)"),
                             tr("TIFF picture (*.tif *.tiff)")});
@@ -89,8 +90,10 @@ void PictureSaver::chooseFile(const QString& name,
             files.isEmpty() ? name : QFileInfo(files.constFirst()).completeBaseName();
         dialog->selectFile(base + QLatin1Char('.') + ending);
     });
-    connect(dialog, &QFileDialog::fileSelected, this,
-            [this, camera, choice](const QString& file) { save(file, camera, choice); });
+    connect(dialog, &QFileDialog::fileSelected, this, [this, &sizes, camera](const QString& file) {
+        sizes.accept();
+        save(file, camera, sizes.choice());
+    });
     dialog->open();
 }
 

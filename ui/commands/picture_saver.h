@@ -56,7 +56,7 @@ Q_SIGNALS:
     void canceled();
 
 private:
-    void chooseFile(const QString& name, const OrbitCamera& camera, const PictureChoice& choice);
+    void chooseFile(SavePictureDialog& sizes, const QString& name, const OrbitCamera& camera);
     void write(QImage picture);
     void end();
 

@@ -88,7 +88,7 @@ SavePictureDialog::SavePictureDialog(QSize view_size, const PictureLimits& limit
     layout->addWidget(buttons);
     layout->setSizeConstraint(QLayout::SetFixedSize);
 
-    connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
+    connect(buttons, &QDialogButtonBox::accepted, this, &SavePictureDialog::fileRequested);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
     connect(sizes_, &QComboBox::currentIndexChanged, this, &SavePictureDialog::showSize);
     for (QSpinBox* box : {width_, height_}) {

@@ -33,6 +33,10 @@ public:
 
     PictureChoice choice() const;
 
+Q_SIGNALS:
+    /// The size is chosen, but the dialog stays until it is accepted.
+    void fileRequested();
+
 private:
     void showSize();
     QString problem() const;
