@@ -116,9 +116,9 @@ private:
     MapOverlays* overlays_ = nullptr;
     SessionController* controller_ = nullptr;
     std::unique_ptr<WindowActions> actions_;
-    WindowMessages messages_;
     NoticeBar* notice_bar_ = nullptr;
     NoticeCenter* notice_center_ = nullptr;
+    WindowMessages messages_;
     bool is_closing_ = false; // the user has answered
     LayersPanel* datasets_ = nullptr;
     GeoreferencingPanel* georeferencing_ = nullptr;

@@ -6370,6 +6370,11 @@ A scene: the one that suits the layers</extracomment>
     <message>
         <source>Cannot Open Map</source>
         <translation>Die Karte kann nicht geöffnet werden</translation>
+    <message>
+        <source>%1: %2</source>
+        <extracomment>A failure: %1 is what was not done, such as &quot;Cannot Open Map&quot;, %2 why</extracomment>
+        <translation>%1: %2</translation>
+    </message>
     </message>
     <message>
         <source>map</source>

@@ -16,6 +16,7 @@ class NoticeBar;
 /// What a notice is about, the most urgent first.
 enum class NoticeSource {
     Device,
+    Failure, // of what was just asked for
     Picture,
     Project,
     VectorFile, // that was just asked for
@@ -41,7 +42,7 @@ public:
     QList<Notice> open() const;
 
 private:
-    static constexpr std::size_t kSourceCount = 8;
+    static constexpr std::size_t kSourceCount = 9;
 
     void dismissAll();
     void runAction(const QString& id, int action);

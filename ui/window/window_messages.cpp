@@ -1,16 +1,19 @@
 #include "ui/window/window_messages.h"
 
 #include "ui/text/number_text.h"
+#include "ui/widgets/notice_center.h"
 
 #include <QDir>
 #include <QMainWindow>
-#include <QMessageBox>
 #include <QStatusBar>
+
+#include <algorithm>
 
 namespace marsview {
 
-WindowMessages::WindowMessages(QMainWindow& window, Failures failures)
+WindowMessages::WindowMessages(QMainWindow& window, NoticeCenter& notices, Failures failures)
     : window_(window)
+    , notices_(notices)
     , failures_(failures)
 {}
 
@@ -29,14 +32,21 @@ void WindowMessages::showSaved(const QString& file)
 void WindowMessages::report(const QString& title, const QString& problem)
 {
     Q_EMIT reported(problem);
-    if (failures_ == Failures::InDialogs) {
-        auto* box = new QMessageBox(QMessageBox::Warning, title, isolated(problem), QMessageBox::Ok,
-                                    &window_);
-        box->setAttribute(Qt::WA_DeleteOnClose);
-        box->setTextFormat(Qt::PlainText);
-        box->setWindowModality(Qt::WindowModal);
-        box->show();
+    if (failures_ != Failures::AsNotices) {
+        return;
     }
+    const Notice notice{.id = QStringLiteral("failure %1").arg(++count_),
+                        //: A failure: %1 is what was not done, such as "Cannot Open Map", %2 why
+                        .text = tr("%1: %2").arg(title, isolated(problem))};
+    // Closed ones are forgotten, and the same again replaces what it repeats.
+    const QList<Notice> open = notices_.open();
+    reported_.removeIf([&open, &notice](const Notice& earlier) {
+        return earlier.text == notice.text ||
+               std::none_of(open.begin(), open.end(),
+                            [&earlier](const Notice& shown) { return shown.id == earlier.id; });
+    });
+    reported_.prepend(notice);
+    notices_.setNotices(NoticeSource::Failure, reported_);
 }
 
 } // namespace marsview

@@ -1,6 +1,8 @@
 // What the window says for a moment: messages in the status bar, and failures.
 #pragma once
 
+#include "ui/widgets/notice.h"
+
 #include <QObject>
 #include <QString>
 
@@ -8,20 +10,23 @@ class QMainWindow;
 
 namespace marsview {
 
-/// GUI thread; must not outlive the window.
+class NoticeCenter;
+
+/// GUI thread; must not outlive the window and the notice center.
 class WindowMessages final : public QObject {
     Q_OBJECT
 
 public:
     /// Where failures are shown besides the signal.
-    enum class Failures { InDialogs, BySignalOnly };
+    enum class Failures { AsNotices, BySignalOnly };
 
-    WindowMessages(QMainWindow& window, Failures failures);
+    WindowMessages(QMainWindow& window, NoticeCenter& notices, Failures failures);
 
     /// In the status bar, for a few seconds.
     void show(const QString& message);
     void showSaved(const QString& file);
-    /// In a dialog with that title, and by the signal.
+    /// In a notice that stays until the user closes it, and by the signal. The title says what was
+    /// not done, the problem why.
     void report(const QString& title, const QString& problem);
 
 Q_SIGNALS:
@@ -29,7 +34,10 @@ Q_SIGNALS:
 
 private:
     QMainWindow& window_;
+    NoticeCenter& notices_;
     Failures failures_;
+    QList<Notice> reported_; // the latest first
+    int count_ = 0;          // of all failures
 };
 
 } // namespace marsview

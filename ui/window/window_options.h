@@ -18,7 +18,7 @@ struct WindowOptions {
     enum class Geometry { Remembered, Fixed } geometry = Geometry::Remembered;
     /// Where failures are reported besides the signal.
     using Failures = WindowMessages::Failures;
-    Failures failures = Failures::InDialogs;
+    Failures failures = Failures::AsNotices;
     /// Whether the user is asked before unsaved changes are lost, and about what a crash left
     /// behind.
     enum class Questions { None, Ask } questions = Questions::None;

@@ -31,7 +31,7 @@ protected:
     void SetUp() override
     {
         WindowOptions options = testWindowOptions();
-        options.failures = WindowOptions::Failures::InDialogs;
+        options.failures = WindowOptions::Failures::AsNotices;
         makeWindow({1280, 900}, options);
         ASSERT_TRUE(waitUntilSettled(*window_));
     }

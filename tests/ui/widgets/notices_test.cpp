@@ -11,6 +11,7 @@
 
 #include <QApplication>
 #include <QDockWidget>
+#include <QFile>
 #include <QLabel>
 #include <QMenu>
 #include <QScrollArea>
@@ -294,6 +295,44 @@ TEST_F(NoticesTest, ElevationsInFeetAreReadAsSuchByOneClick)
     EXPECT_FALSE(shown().contains(QStringLiteral("feet"))) << shown().toStdString();
     window_->undoStack().undo();
     EXPECT_EQ(highest(), as_meters);
+}
+
+class FailureNoticesTest : public NoticesTest {
+protected:
+    void SetUp() override
+    {
+        WindowOptions options = testWindowOptions();
+        options.failures = WindowOptions::Failures::AsNotices;
+        makeWindow({1280, 500}, options);
+        ASSERT_TRUE(openAndWait(*window_, maps_.mars()));
+    }
+};
+
+TEST_F(FailureNoticesTest, AFileThatCannotBeOpenedIsReportedOverTheMapThatStays)
+{
+    QFile file(maps_.path(QStringLiteral("broken.tif")));
+    ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+    file.write("not a TIFF");
+    file.close();
+    const auto open = [&] {
+        window_->open(file.fileName());
+        ASSERT_TRUE(waitUntilSettled(*window_));
+    };
+    open();
+    EXPECT_EQ(QApplication::activeModalWidget(), nullptr);
+    EXPECT_TRUE(shown().startsWith(QStringLiteral("Cannot Open Map: ") + file.fileName()))
+        << shown().toStdString();
+    EXPECT_EQ(window_->session().layers.size(), 1U);
+    // Another map does not hide it, and the same failure is not counted twice.
+    ASSERT_TRUE(openAndWait(*window_, maps_.mars("other")));
+    EXPECT_TRUE(shown().contains(file.fileName()));
+    open();
+    EXPECT_TRUE(shown().contains(file.fileName()));
+    EXPECT_TRUE(noticeButton(bar(), "noticeNext")->isHidden());
+    noticeButton(bar(), "noticeClose")->click();
+    EXPECT_EQ(shown(), QString());
+    open();
+    EXPECT_TRUE(shown().contains(file.fileName())) << "it failed once more";
 }
 
 class SoundMemoryTest : public testing::Test {
