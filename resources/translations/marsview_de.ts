@@ -2455,13 +2455,14 @@
         <translation>Karteneinheiten</translation>
     </message>
     <message>
-        <source>%1%2</source>
-        <extracomment>The size of a pixel, and its unit with the space before it</extracomment>
-        <translation>%1%2</translation>
+        <source>%1 × %2</source>
+        <extracomment>The width and height of a pixel</extracomment>
+        <translation>%1 × %2</translation>
     </message>
     <message>
-        <source>%1 × %2%3</source>
-        <translation>%1 × %2%3</translation>
+        <source>%1° × %2°</source>
+        <extracomment>The exact width and height of a pixel in degrees</extracomment>
+        <translation>%1° × %2°</translation>
     </message>
     <message>
         <source>%1 × %2 m</source>

@@ -46,6 +46,29 @@ void drawArrow(QPainter& painter, QPointF tip, QSizeF size, const QColor& color)
     painter.drawPath(path);
 }
 
+// A long text broken where its lines are the most even: the legend hides as little of the map as it
+// can.
+QStringList inTwoLines(const QString& text, const QFontMetrics& metrics)
+{
+    constexpr int kLongChars = 18;
+    if (metrics.horizontalAdvance(text) <= kLongChars * metrics.averageCharWidth()) {
+        return {text};
+    }
+    QStringList best{text};
+    int narrowest = metrics.horizontalAdvance(text);
+    for (qsizetype at = text.indexOf(QLatin1Char(' ')); at >= 0;
+         at = text.indexOf(QLatin1Char(' '), at + 1)) {
+        const QStringList lines{text.first(at), text.sliced(at + 1)};
+        const int width =
+            std::max(metrics.horizontalAdvance(lines[0]), metrics.horizontalAdvance(lines[1]));
+        if (width < narrowest) {
+            narrowest = width;
+            best = lines;
+        }
+    }
+    return best;
+}
+
 } // namespace
 
 bool LegendContent::operator==(const LegendContent& other) const noexcept
@@ -150,10 +173,10 @@ QStringList Legend::headings() const
         lines.append(content_.layer);
     }
     lines.append(title());
-    if (content_.mode == ShadingMode::Tint && !content_.datum.isEmpty()) {
-        lines.append(content_.datum);
-    }
     const QFontMetrics metrics(font());
+    if (content_.mode == ShadingMode::Tint && !content_.datum.isEmpty()) {
+        lines += inTwoLines(content_.datum, metrics);
+    }
     for (QString& line : lines) {
         line = metrics.elidedText(line, Qt::ElideMiddle, kWidestHeading);
     }

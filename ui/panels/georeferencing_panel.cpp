@@ -232,7 +232,7 @@ void GeoreferencingPanel::addNotice(const QString& text)
 }
 
 // The name is above its value because a narrow panel cannot fit them in one line.
-void GeoreferencingPanel::addFact(const QString& name, const QString& value)
+QLabel* GeoreferencingPanel::addFact(const QString& name, const QString& value)
 {
     QLabel* caption = makeCaption(name, this);
     caption->setContentsMargins(0, facts_->rowCount() == 0 ? 0 : 6, 0, 0);
@@ -242,6 +242,7 @@ void GeoreferencingPanel::addFact(const QString& name, const QString& value)
     fact->setText(lines.join(QLatin1Char('\n')));
     fact->setAccessibleName(name);
     facts_->addRow(caption, fact);
+    return fact;
 }
 
 // A value that may be longer than the panel is wide: on one line, to be read whole in its tool tip.
@@ -286,13 +287,14 @@ void GeoreferencingPanel::addPlaceFacts(const Map& map)
                                             : info.crs->unit() == 1.0
                                                 ? QStringLiteral("m")
                                                 : QString::fromStdString(info.crs->unitName()));
-    const QString width = number(transform.pixelWidth());
-    const QString height = number(transform.pixelHeight());
+    const auto size = [is_geographic, &unit](double value) {
+        return is_geographic ? pixelAngleText(value) : number(value) + unit;
+    };
+    const QString width = size(transform.pixelWidth());
+    const QString height = size(transform.pixelHeight());
     const auto meters = [](double value) { return shortNumberText(value, 6); };
-    QString pixel = width == height
-                        //: The size of a pixel, and its unit with the space before it
-                        ? tr("%1%2").arg(width, unit)
-                        : tr("%1 × %2%3").arg(width, height, unit);
+    //: The width and height of a pixel
+    QString pixel = width == height ? width : tr("%1 × %2").arg(width, height);
     const bool is_in_meters = info.crs && !is_geographic && info.crs->unit() == 1.0;
     if (!is_in_meters) {
         const QString in_meters = tr("%1 × %2 m")
@@ -300,7 +302,15 @@ void GeoreferencingPanel::addPlaceFacts(const Map& map)
                                            meters(georeference.pixelHeightMeters()));
         pixel += QLatin1Char('\n') + (info.crs ? in_meters : tr("%1, assumed").arg(in_meters));
     }
-    addFact(tr("Pixel size"), pixel);
+    QLabel* const fact = addFact(tr("Pixel size"), pixel);
+    if (is_geographic) {
+        constexpr int kExactDigits = 12;
+        fact->setToolTip(leftToRight(
+            //: The exact width and height of a pixel in degrees
+            tr("%1° × %2°")
+                .arg(shortNumberText(transform.pixelWidth(), kExactDigits),
+                     shortNumberText(transform.pixelHeight(), kExactDigits))));
+    }
     const MapExtent extent = mapExtent(georeference);
     if (!is_geographic) {
         const auto range = [](double low, double high) {

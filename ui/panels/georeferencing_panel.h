@@ -48,7 +48,7 @@ private:
     void makeFactsPage();
     void makeForm();
     void fillFacts();
-    void addFact(const QString& name, const QString& value);
+    QLabel* addFact(const QString& name, const QString& value);
     void addLongFact(const QString& name, const QString& value);
     void addNotice(const QString& text);
     void flash(QLabel& label);

@@ -282,6 +282,29 @@ extentText(const GeographicExtent& extent, const CoordinateFormat& format, const
             .latitudes = leftToRight(span.arg(degreesText(shown[2]), degreesText(shown[3])))};
 }
 
+QString pixelAngleText(double degrees)
+{
+    constexpr int kDigits = 5;
+    constexpr double kNoise = 1e-6; // of a size that was written with few digits
+    struct Unit {
+        double per_degree;
+        double least; // below it the next unit is easier to read
+        QString sign;
+    };
+    const std::array<Unit, 3> units{Unit{1.0, 0.01, QStringLiteral("°")},
+                                    {60.0, 1.0, QStringLiteral("′")},
+                                    {3600.0, 0.0, QStringLiteral("″")}};
+    for (const Unit& unit : units) {
+        const double size = degrees * unit.per_degree;
+        const double shown = QString::number(size, 'g', kDigits).toDouble();
+        if (std::abs(shown - size) <= kNoise * std::abs(size) && std::abs(size) >= unit.least) {
+            return leftToRight(shortNumberText(size, kDigits) + unit.sign);
+        }
+    }
+    const Unit& unit = std::abs(degrees) < 0.1 ? units[2] : units[0];
+    return leftToRight(shortNumberText(degrees * unit.per_degree, kDigits) + unit.sign);
+}
+
 QString datumText(const RasterInfo& info)
 {
     // Not one that the user has named.

@@ -76,6 +76,9 @@ struct ExtentText {
 ExtentText
 extentText(const GeographicExtent& extent, const CoordinateFormat& format, const RasterInfo& info);
 
+/// The size of a pixel in the unit that needs the fewest digits: "0.25°", "5′", "3″".
+QString pixelAngleText(double degrees);
+
 /// "areoid", "sphere of radius 1,737,400 m"; empty if it is unknown.
 QString datumText(const RasterInfo& info);
 

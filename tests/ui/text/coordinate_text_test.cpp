@@ -166,5 +166,19 @@ TEST(DatumText, WritesTheRadiusOfASphereInGroups)
     QLocale::setDefault(before);
 }
 
+TEST(PixelAngleText, UsesTheUnitThatNeedsTheFewestDigits)
+{
+    const QLocale before;
+    QLocale::setDefault(QLocale::c());
+    EXPECT_EQ(pixelAngleText(0.25), QStringLiteral("0.25°"));
+    EXPECT_EQ(pixelAngleText(0.015625), QStringLiteral("0.015625°"));
+    EXPECT_EQ(pixelAngleText(5.0 / 60.0), QStringLiteral("5′"));
+    EXPECT_EQ(pixelAngleText(0.000833333333), QStringLiteral("3″"));
+    EXPECT_EQ(pixelAngleText(0.0008333333535119891), QStringLiteral("3″")) << "from floats";
+    EXPECT_EQ(pixelAngleText(1.0 / 3600.0 / 3.0), QStringLiteral("0.33333″"));
+    EXPECT_EQ(pixelAngleText(0.0019538483), QStringLiteral("7.0339″"));
+    QLocale::setDefault(before);
+}
+
 } // namespace
 } // namespace marsview
