@@ -139,6 +139,7 @@ private:
         noteEvent();
         const auto kind = static_cast<std::size_t>(unit() * kTerrainCount) % kTerrainCount;
         loop_.setMap(mapOf(kind, ++map_id_), heightOf(kind));
+        kind_ = kind;
     }
 
     // Something for a tenth of a second up to one.
@@ -259,6 +260,17 @@ private:
         return loop_.state().modes.pan.velocity_m_per_s == Vec3{} && offFit() <= kFitM;
     }
 
+    // Of the hand over the surface below it; at the map's edge, which holds the hand back, over the
+    // nearest point of the map.
+    double clearance() const
+    {
+        const WorkspacePoint hand = loop_.hand().measured();
+        ScenePoint at = loop_.frame().toScene(hand);
+        at.z = terrainHeight(kind_, std::clamp(at.x, -kHalfM, kHalfM),
+                             std::clamp(at.y, -kHalfM, kHalfM));
+        return hand.z - loop_.frame().toWorkspace(at).z;
+    }
+
     // Free space, then a press in the middle of the workspace.
     void rest()
     {
@@ -275,8 +287,7 @@ private:
         const bool is_free = !loop_.last().contact.is_in_contact;
         // Near the surface the workspace rests: that is within reach.
         const FitOptions fit;
-        const bool is_near = loop_.hand().measured().z - loop_.surfaceZ() <=
-                             fit.clearance_min_m + fit.clearance_fade_m;
+        const bool is_near = clearance() <= fit.clearance_min_m + fit.clearance_fade_m;
         if (is_free && !is_near && !(off_m <= kFitM)) {
             note(TouchInvariant::ViewIsReachable, fmt::format("{} mm off", off_m * 1e3));
         }
@@ -318,6 +329,7 @@ private:
     bool has_event_ = true; // less than two seconds ago: it has put the surface elsewhere
     std::uint64_t event_tick_ = 0;
     std::uint64_t map_id_ = 1;
+    std::size_t kind_ = 0; // of the terrain
     double seconds_ = 0.0;
     TouchSessionResult result_;
 };
