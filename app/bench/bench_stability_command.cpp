@@ -2,9 +2,12 @@
 
 #include "app/bench/bench_commands.h"
 #include "app/bench/stability_case.h"
+#include "app/bench/touch_gestures.h"
 #include "app/bench/touch_sessions.h"
+#include "app/console/flight_plot.h"
 #include "app/console/long_job.h"
 #include "app/console/number_checks.h"
+#include "app/console/output_file.h"
 #include "app/console/text_output.h"
 
 #include <CLI/CLI.hpp>
@@ -32,6 +35,7 @@ struct BenchStabilityOptions {
     double jitter_ms = 0.2;
     std::uint64_t seed = 1;
     std::uint64_t sessions = 0;
+    std::string plots; // a folder
     bool is_json = false;
 };
 
@@ -234,8 +238,25 @@ Result<std::vector<Row>> measureScenes(const BenchStabilityOptions& options)
     return rows;
 }
 
+Status writeGesturePlots(const std::string& folder)
+{
+    for (const TouchGesture gesture : kTouchGestures) {
+        const std::string path = fmt::format("{}/{}.svg", folder, touchGestureName(gesture));
+        Status written = writeOutputFile(
+            path, flightPlot(makeGesture(gesture), std::string(touchGestureTitle(gesture))));
+        if (!written) {
+            return written;
+        }
+        printLine(path);
+    }
+    return Done{};
+}
+
 Status runBench(const BenchStabilityOptions& options)
 {
+    if (!options.plots.empty()) {
+        return writeGesturePlots(options.plots);
+    }
     if (options.sessions > 0) {
         return runSessions(options);
     }
@@ -290,6 +311,11 @@ void addBenchStabilityCommand(CLI::App& bench, CommandAction& run)
             "--sessions", options->sessions,
             "run only so many random sessions with a camera; without it, all scenes and 200")
         ->check(wholeNumberFrom(1, 100'000'000));
+    command
+        ->add_option("--plots", options->plots,
+                     "only make the paper's gestures and plot what the hand feels, as SVG files in "
+                     "this folder")
+        ->type_name("FOLDER");
     command->add_flag("--json", options->is_json, "print JSON");
     command->callback([options, &run] { run = [options] { return runBench(*options); }; });
 }

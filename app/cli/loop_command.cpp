@@ -2,11 +2,11 @@
 
 #include "app/bench/followed_view.h"
 #include "app/cli/commands.h"
-#include "app/cli/flight_plot.h"
 #include "app/cli/loop_map.h"
 #include "app/cli/loop_outcome.h"
 #include "app/cli/loop_report.h"
 #include "app/cli/replay_notice.h"
+#include "app/console/flight_plot.h"
 #include "app/console/long_job.h"
 #include "app/console/number_checks.h"
 #include "app/console/output_file.h"

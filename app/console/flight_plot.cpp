@@ -1,4 +1,4 @@
-#include "app/cli/flight_plot.h"
+#include "app/console/flight_plot.h"
 
 #include "core/view/round_numbers.h"
 
@@ -7,9 +7,9 @@
 #include <cmath>
 #include <cstddef>
 #include <fmt/format.h>
-#include <functional>
 #include <limits>
 #include <string_view>
+#include <utility>
 
 namespace marsview {
 namespace {
@@ -28,12 +28,10 @@ constexpr std::string_view kZoomTone = "#dcecd2";
 constexpr std::string_view kOffTone = "#d8d8d8";
 constexpr std::string_view kLabel = "fill=\"#333333\" font-size=\"12\"";
 
-using Value = std::function<double(const TickRecord&)>;
-
 struct Series {
     std::string name;
     std::string color;
-    Value value;
+    std::vector<double> values; // one for each record
 };
 
 struct Panel {
@@ -76,20 +74,89 @@ std::string escaped(std::string_view text)
     return result;
 }
 
-std::vector<Panel> panels()
+template <typename Value>
+std::vector<double> valuesOf(const std::vector<TickRecord>& records, Value value)
+{
+    std::vector<double> values;
+    values.reserve(records.size());
+    for (const TickRecord& record : records) {
+        values.push_back(value(record));
+    }
+    return values;
+}
+
+// How far the hand has moved the map since the first record.
+struct MapMotion {
+    std::vector<double> east_m;
+    std::vector<double> north_m;
+    std::vector<double> turn_deg;
+    std::vector<double> octaves; // of its size in the workspace
+};
+
+MapMotion motionOf(const std::vector<TickRecord>& records)
+{
+    MapMotion motion;
+    Vec3 shift_m;
+    double turn_rad = 0.0;
+    double octaves = 0.0;
+    for (const TickRecord& record : records) {
+        if (record.has_motion) {
+            // The workspace has moved; the map moves against it.
+            shift_m = shift_m + (record.motion.from - record.motion.to);
+            turn_rad -= record.motion.turn_rad;
+            octaves -= std::log2(record.motion.scale);
+        }
+        motion.east_m.push_back(shift_m.x);
+        motion.north_m.push_back(shift_m.y);
+        motion.turn_deg.push_back(Angle::radians(turn_rad).degrees());
+        motion.octaves.push_back(octaves);
+    }
+    return motion;
+}
+
+bool isStill(const std::vector<double>& values)
+{
+    return std::all_of(values.begin(), values.end(),
+                       [](double value) { return std::abs(value) < 1e-9; });
+}
+
+constexpr const char* kBlack = "#111111";
+constexpr const char* kBlue = "#1f6fb5";
+constexpr const char* kOrange = "#c8541a";
+constexpr const char* kBrown = "#8a5a2b";
+
+std::vector<Panel> panelsOf(const std::vector<TickRecord>& records)
 {
     constexpr double kMm = 1e3;
-    const auto magnitude = [](const TickRecord& r) { return length(r.force_n); };
-    const auto up = [](const TickRecord& r) { return r.force_n.z; };
-    const auto across = [](const TickRecord& r) { return std::hypot(r.force_n.x, r.force_n.y); };
-    const auto hand = [](const TickRecord& r) { return kMm * r.hand.z; };
-    const auto surface = [](const TickRecord& r) { return kMm * r.surface_z_m; };
-    return {{"force on the hand, N",
-             {{"magnitude", "#111111", magnitude},
-              {"upward", "#1f6fb5", up},
-              {"horizontal", "#c8541a", across}}},
-            {"height in the workspace, mm",
-             {{"surface below the hand", "#8a5a2b", surface}, {"hand", "#1f6fb5", hand}}}};
+    const auto values = [&records](auto value) { return valuesOf(records, value); };
+    std::vector<Panel> panels{
+        {"force on the hand, N",
+         {{"magnitude", kBlack, values([](const TickRecord& r) { return length(r.force_n); })},
+          {"upward", kBlue, values([](const TickRecord& r) { return r.force_n.z; })},
+          {"horizontal", kOrange,
+           values([](const TickRecord& r) { return std::hypot(r.force_n.x, r.force_n.y); })}}},
+        {"height in the workspace, mm",
+         {{"surface below the hand", kBrown,
+           values([](const TickRecord& r) { return kMm * r.surface_z_m; })},
+          {"hand", kBlue, values([](const TickRecord& r) { return kMm * r.hand.z; })}}}};
+    MapMotion motion = motionOf(records);
+    const bool is_turned = !isStill(motion.turn_deg);
+    const bool is_enlarged = !isStill(motion.octaves);
+    if (is_turned) {
+        panels.push_back({"map turned by the hand, °",
+                          {{"counterclockwise", kBlack, std::move(motion.turn_deg)}}});
+    }
+    if (is_enlarged) {
+        panels.push_back({"map enlarged by the hand, octaves",
+                          {{"enlarged", kBlack, std::move(motion.octaves)}}});
+    }
+    // Turning and enlarging about the hand moves the place that is followed, too.
+    if (!is_turned && !is_enlarged && !(isStill(motion.east_m) && isStill(motion.north_m))) {
+        panels.push_back({"map moved by the hand, m",
+                          {{"east", kBlack, std::move(motion.east_m)},
+                           {"north", kBlue, std::move(motion.north_m)}}});
+    }
+    return panels;
 }
 
 class Writer {
@@ -103,7 +170,7 @@ public:
 
     std::string text()
     {
-        const std::vector<Panel> all = panels();
+        const std::vector<Panel> all = panelsOf(records_);
         const double height =
             kTop + kBottom + static_cast<double>(all.size()) * (kPanelHeight + kGap) - kGap;
         text_ = fmt::format(
@@ -187,8 +254,8 @@ private:
     {
         Range range;
         for (const Series& series : panel.series) {
-            for (const TickRecord& record : records_) {
-                range.take(series.value(record));
+            for (const double value : series.values) {
+                range.take(value);
             }
         }
         y_ = range.padded(0.02);
@@ -270,7 +337,7 @@ private:
             const double slot = slotOf(records_[i]);
             std::vector<double> values;
             for (; i < records_.size() && slotOf(records_[i]) == slot; ++i) {
-                values.push_back(series.value(records_[i]));
+                values.push_back(series.values[i]);
             }
             if (!std::all_of(values.begin(), values.end(),
                              [](double v) { return std::isfinite(v); })) {
