@@ -259,6 +259,117 @@
     </message>
 </context>
 <context>
+    <name>CoreMessage</name>
+    <message>
+        <source>does not exist</source>
+        <translation>gibt es nicht</translation>
+    </message>
+    <message>
+        <source>is not a raster that GDAL can read, or is damaged; convert it to GeoTIFF or fetch it again</source>
+        <translation>ist kein Raster, das GDAL lesen kann, oder ist beschädigt; wandeln Sie es in GeoTIFF um oder laden Sie es erneut herunter</translation>
+    </message>
+    <message>
+        <source>is a color picture, not an elevation map</source>
+        <translation>ist ein Farbbild und keine Höhenkarte</translation>
+    </message>
+    <message>
+        <source>names a data file that is missing; put it next to this file (%1)</source>
+        <translation>nennt eine Datendatei, die fehlt; legen Sie sie neben diese Datei (%1)</translation>
+    </message>
+    <message>
+        <source>is cut short or damaged: %1; fetch it again</source>
+        <translation>ist abgeschnitten oder beschädigt: %1; laden Sie die Datei erneut herunter</translation>
+    </message>
+    <message>
+        <source>reading rows %1 to %2 failed: it is cut short, %3 of the %4 bytes that its header promises are present; fetch it again</source>
+        <translation>die Zeilen %1 bis %2 lassen sich nicht lesen: Die Datei ist abgeschnitten, von den %4 Bytes, die ihr Kopf nennt, sind %3 vorhanden; laden Sie sie erneut herunter</translation>
+    </message>
+    <message>
+        <source>%1 × %2 samples are not a surface; at least 2 × 2 are needed</source>
+        <translation>%1 × %2 Abtastwerte sind keine Fläche; mindestens 2 × 2 sind nötig</translation>
+    </message>
+    <message>
+        <source>contains no elevations; all of its %1 samples are nodata</source>
+        <translation>enthält keine Höhen; alle %1 Abtastwerte sind Nodata</translation>
+    </message>
+    <message>
+        <source>unknown CRS &quot;%1&quot;; enter an EPSG or IAU code, a PROJ string or WKT</source>
+        <translation>unbekanntes KBS „%1“; geben Sie einen EPSG- oder IAU-Code, eine PROJ-Zeichenkette oder WKT ein</translation>
+    </message>
+    <message>
+        <source>&quot;%1&quot; (unit %2) cannot place a grid in degrees (%3, %4); choose a CRS of longitude and latitude, or set a geotransform in its unit</source>
+        <translation>„%1“ (Einheit %2) passt nicht zu einem Gitter in Grad (%3, %4); wählen Sie ein KBS mit Länge und Breite, oder legen Sie eine Geotransformation in dessen Einheit fest</translation>
+    </message>
+    <message>
+        <source>&quot;%1&quot; (unit %2) cannot place a grid that covers x %3 to %4 and y %5 to %6; choose a projected CRS, or set a geotransform in degrees</source>
+        <translation>„%1“ (Einheit %2) passt nicht zu einem Gitter von x %3 bis %4 und y %5 bis %6; wählen Sie ein projiziertes KBS, oder legen Sie eine Geotransformation in Grad fest</translation>
+    </message>
+    <message>
+        <source>&quot;%1&quot; is unknown; give its radii instead, or a name such as Mars, Moon, Earth, Vesta or Titan</source>
+        <translation>„%1“ ist unbekannt; geben Sie stattdessen die Radien an oder einen Namen wie Mars, Moon, Earth, Vesta oder Titan</translation>
+    </message>
+    <message>
+        <source>&quot;%1&quot; is unknown; use m, km, ft or &quot;US survey ft&quot;</source>
+        <translation>„%1“ ist unbekannt; verwenden Sie m, km, ft oder „US survey ft“</translation>
+    </message>
+    <message>
+        <source>%1 cannot scale elevations; use a finite number other than 0</source>
+        <translation>%1 kann Höhen nicht skalieren; verwenden Sie eine endliche Zahl außer 0</translation>
+    </message>
+    <message>
+        <source>no CRS: map units are read as meters; set its CRS or body to get longitude and latitude</source>
+        <translation>kein KBS: Karteneinheiten werden als Meter gelesen; legen Sie KBS oder Himmelskörper fest, um Länge und Breite zu erhalten</translation>
+    </message>
+    <message>
+        <source>no CRS, but it looks like longitude and latitude in degrees (%1): set %2; until then, map units are read as meters</source>
+        <translation>kein KBS, aber es sieht nach Länge und Breite in Grad aus (%1): Legen Sie %2 fest; bis dahin werden Karteneinheiten als Meter gelesen</translation>
+    </message>
+    <message>
+        <source>no georeferencing in the file: each pixel is placed as one unit square; give a geotransform to place it</source>
+        <translation>keine Georeferenzierung in der Datei: Jedes Pixel wird als Einheitsquadrat platziert; geben Sie eine Geotransformation an, um die Karte zu platzieren</translation>
+    </message>
+    <message>
+        <source>no unit of elevation in the file, and the elevations look like feet: read as meters they reach %1 m, and the Earth&apos;s highest place is at %2 m; set the unit %3; until then, meters are assumed</source>
+        <translation>keine Höheneinheit in der Datei, und die Höhen sehen nach Fuß aus: Als Meter gelesen reichen sie bis %1 m, und der höchste Ort der Erde liegt auf %2 m; legen Sie die Einheit %3 fest; bis dahin werden Meter angenommen</translation>
+    </message>
+    <message>
+        <source>no unit of elevation in the file, and the elevations may be in %1, the unit of the CRS; set the unit %2; until then, meters are assumed</source>
+        <translation>keine Höheneinheit in der Datei, und die Höhen sind vielleicht in %1, der Einheit des KBS; legen Sie die Einheit %2 fest; bis dahin werden Meter angenommen</translation>
+    </message>
+    <message>
+        <source>the unit &quot;%1&quot; is not a known unit of length; meters are assumed</source>
+        <translation>die Einheit „%1“ ist keine bekannte Längeneinheit; Meter werden angenommen</translation>
+    </message>
+    <message>
+        <source>samples of %1 at an end of the range often mark nodata, but the file declares no nodata value; if they do, set it as nodata</source>
+        <translation>Abtastwerte von %1 am Ende des Bereichs stehen oft für Nodata, aber die Datei nennt keinen Nodata-Wert; wenn sie das tun, legen Sie ihn als Nodata fest</translation>
+    </message>
+    <message>
+        <source>the sample %1 makes an elevation of %2 m, which is implausible; set it as nodata, or set the unit or the scale</source>
+        <translation>der Abtastwert %1 ergibt eine Höhe von %2 m, was unplausibel ist; legen Sie ihn als Nodata fest, oder legen Sie die Einheit oder die Skalierung fest</translation>
+    </message>
+    <message>
+        <source>a preview of %1 × %2 samples is shown; elevations are read from it until all %3 × %4 are available</source>
+        <translation>eine Vorschau aus %1 × %2 Abtastwerten wird gezeigt; Höhen werden aus ihr gelesen, bis alle %3 × %4 verfügbar sind</translation>
+    </message>
+    <message>
+        <source>from the label %1: %2 (GDAL reads %3)</source>
+        <translation>aus dem Label %1: %2 (GDAL liest %3)</translation>
+    </message>
+    <message>
+        <source>shifted by %1 column and %2 row to match the latitude and longitude limits in the label</source>
+        <translation>um %1 Spalte und %2 Zeile verschoben, damit die Grenzen von Breite und Länge im Label stimmen</translation>
+    </message>
+    <message>
+        <source>its detail is estimated because it has no level file</source>
+        <translation>der Detailgrad ist geschätzt, weil es keine Stufendatei gibt</translation>
+    </message>
+    <message>
+        <source>its extent is %1, %2</source>
+        <translation>die Ausdehnung ist %1, %2</translation>
+    </message>
+</context>
+<context>
     <name>Drawing</name>
     <message>
         <source>Remove %1</source>
@@ -1257,7 +1368,7 @@
     </message>
     <message>
         <source>Where the active layer lies: body, ellipsoid, CRS, pixel size, extent and elevation unit. Set Body, CRS… sets what the file lacks or states wrongly.</source>
-        <translation>Wo der aktive Layer liegt: Himmelskörper, Ellipsoid, KBS, Pixelgröße, Ausdehnung und Höheneinheit. „Himmelskörper, KBS festlegen …“ setzt, was der Datei fehlt oder was sie falsch angibt.</translation>
+        <translation>Wo der aktive Layer liegt: Himmelskörper, Ellipsoid, KBS, Pixelgröße, Ausdehnung und Höheneinheit. „Raumbezug festlegen …“ setzt, was der Datei fehlt oder was sie falsch angibt.</translation>
     </message>
     <message>
         <source>Haptic devices: connect one, set how the terrain feels, record and replay touches, and stop all forces.</source>
@@ -1441,6 +1552,11 @@
     <message>
         <source>unknown body</source>
         <translation>unbekannter Himmelskörper</translation>
+    </message>
+    <message>
+        <source>Simulated hand</source>
+        <extracomment>A device that is computed instead of built, to try touching without one</extracomment>
+        <translation>Simulierte Hand</translation>
     </message>
     <message>
         <source>Force off: emergency stop</source>
@@ -2401,7 +2517,7 @@
     </message>
     <message>
         <source>Set &amp;Body, CRS…</source>
-        <translation>&amp;Himmelskörper, KBS festlegen …</translation>
+        <translation>&amp;Raumbezug festlegen …</translation>
     </message>
     <message>
         <source>Set what the file lacks or states wrongly; the file itself is never changed</source>
@@ -2611,7 +2727,7 @@ y %2</translation>
     </message>
     <message>
         <source>Choose Touch (T) and drag to feel the terrain</source>
-        <translation>Wählen Sie Tasten (T) und ziehen Sie, um das Gelände zu fühlen</translation>
+        <translation>Tasten (T) wählen und das Gelände fühlen</translation>
     </message>
     <message>
         <source>%1. %2</source>
@@ -3830,7 +3946,7 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
     </message>
     <message>
         <source>Grat&amp;icule</source>
-        <translation>&amp;Gradnetz</translation>
+        <translation>Gra&amp;dnetz</translation>
     </message>
 </context>
 <context>
@@ -4913,7 +5029,7 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
     </message>
     <message>
         <source>Saved &amp;Views</source>
-        <translation>&amp;Gespeicherte Ansichten</translation>
+        <translation>Gespeicherte Ans&amp;ichten</translation>
     </message>
     <message>
         <source>Go to View %1</source>
@@ -4991,7 +5107,7 @@ Bewegen Sie die Karte zu einer Ansicht, die Sie behalten wollen, und drücken Si
     </message>
     <message>
         <source>Not available: the body of the topmost layer is not known. Set it with Layer › Set Body, CRS…</source>
-        <translation>Nicht verfügbar: Der Himmelskörper des obersten Layers ist unbekannt. Legen Sie ihn mit Layer › Himmelskörper, KBS festlegen … fest</translation>
+        <translation>Nicht verfügbar: Der Himmelskörper des obersten Layers ist unbekannt. Legen Sie ihn mit Layer › Raumbezug festlegen … fest</translation>
     </message>
     <message>
         <source>Not available: a haptic device cannot touch the globe yet. Disconnect it first</source>
@@ -5505,7 +5621,7 @@ Bewegen Sie die Karte zu einer Ansicht, die Sie behalten wollen, und drücken Si
     </message>
     <message>
         <source>Open Na&amp;mes…</source>
-        <translation>&amp;Namen öffnen …</translation>
+        <translation>Na&amp;men öffnen …</translation>
     </message>
     <message>
         <source>Open a file of named points to find and show on the map</source>
@@ -5525,7 +5641,7 @@ Bewegen Sie die Karte zu einer Ansicht, die Sie behalten wollen, und drücken Si
     </message>
     <message>
         <source>Open &amp;Bundled Map</source>
-        <translation>&amp;Beispielkarte öffnen</translation>
+        <translation>Beis&amp;pielkarte öffnen</translation>
     </message>
     <message>
         <source>Save &amp;Picture…</source>
@@ -5537,11 +5653,11 @@ Bewegen Sie die Karte zu einer Ansicht, die Sie behalten wollen, und drücken Si
     </message>
     <message>
         <source>&amp;Cancel Loading</source>
-        <translation>Laden &amp;abbrechen</translation>
+        <translation>Laden abbre&amp;chen</translation>
     </message>
     <message>
         <source>S&amp;top Building Overviews</source>
-        <translation>Ba&amp;uen der Übersichten anhalten</translation>
+        <translation>Bauen der Übersichten an&amp;halten</translation>
     </message>
     <message>
         <source>Stop building the overviews of a large map; it can be resumed later</source>
@@ -5633,7 +5749,7 @@ Bewegen Sie die Karte zu einer Ansicht, die Sie behalten wollen, und drücken Si
     </message>
     <message>
         <source>E&amp;xaggerate More</source>
-        <translation>&amp;Stärker überhöhen</translation>
+        <translation>S&amp;tärker überhöhen</translation>
     </message>
     <message>
         <source>Exaggerate &amp;Less</source>
@@ -5641,7 +5757,7 @@ Bewegen Sie die Karte zu einer Ansicht, die Sie behalten wollen, und drücken Si
     </message>
     <message>
         <source>&amp;Panels</source>
-        <translation>&amp;Bedienfelder</translation>
+        <translation>Bedienfe&amp;lder</translation>
     </message>
     <message>
         <source>&amp;Next Panel</source>
@@ -5747,7 +5863,7 @@ Bewegen Sie die Karte zu einer Ansicht, die Sie behalten wollen, und drücken Si
     </message>
     <message>
         <source>Set Body, &amp;CRS…</source>
-        <translation>Himmelskörper, &amp;KBS festlegen …</translation>
+        <translation>&amp;Raumbezug festlegen …</translation>
     </message>
     <message>
         <source>Set body, CRS, elevation unit and more for a file that lacks them</source>
@@ -5775,7 +5891,7 @@ Bewegen Sie die Karte zu einer Ansicht, die Sie behalten wollen, und drücken Si
     </message>
     <message>
         <source>&amp;Stretch to Current View</source>
-        <translation>&amp;Auf aktuelle Ansicht spreizen</translation>
+        <translation>Auf aktuelle Ansicht &amp;spreizen</translation>
     </message>
     <message>
         <source>Spread the color ramp over the elevations that the picture shows now</source>
@@ -5867,7 +5983,7 @@ Bewegen Sie die Karte zu einer Ansicht, die Sie behalten wollen, und drücken Si
     </message>
     <message>
         <source>&amp;About MarsView</source>
-        <translation>Ü&amp;ber MarsView</translation>
+        <translation>&amp;Über MarsView</translation>
     </message>
     <message>
         <source>Mea&amp;sure</source>
@@ -5923,7 +6039,7 @@ Bewegen Sie die Karte zu einer Ansicht, die Sie behalten wollen, und drücken Si
     </message>
     <message>
         <source>Add Point &amp;by Coordinates…</source>
-        <translation>Punkt mit &amp;Koordinaten hinzufügen …</translation>
+        <translation>Punkt mit Koordinaten hin&amp;zufügen …</translation>
     </message>
     <message>
         <source>Type the coordinates of the next point, or a name</source>
@@ -5939,7 +6055,7 @@ Bewegen Sie die Karte zu einer Ansicht, die Sie behalten wollen, und drücken Si
     </message>
     <message>
         <source>&amp;Remove Measurement</source>
-        <translation>Messung &amp;entfernen</translation>
+        <translation>Messung entfer&amp;nen</translation>
     </message>
     <message>
         <source>Remove A&amp;ll Measurements</source>
@@ -5951,7 +6067,7 @@ Bewegen Sie die Karte zu einer Ansicht, die Sie behalten wollen, und drücken Si
     </message>
     <message>
         <source>&amp;Annotate</source>
-        <translation>&amp;Anmerken</translation>
+        <translation>Anme&amp;rken</translation>
     </message>
     <message>
         <source>&amp;Point</source>
@@ -6166,7 +6282,7 @@ A scene: the one that suits the layers</extracomment>
     <message>
         <source>God-Object, Constraints &amp;Released</source>
         <extracomment>A contact model: a god-object that releases constraints</extracomment>
-        <translation>God-Object, Bedingungen &amp;gelöst</translation>
+        <translation>God-Object, &amp;Bedingungen gelöst</translation>
     </message>
     <message>
         <source>A god-object that releases faces as soon as they no longer hold it; it does not stick, but searches for every face that it reaches</source>
@@ -6254,6 +6370,11 @@ A scene: the one that suits the layers</extracomment>
         <extracomment>In the status bar, for a few seconds; %1 is a file</extracomment>
         <translation>%1 gespeichert</translation>
     </message>
+    <message>
+        <source>%1: %2</source>
+        <extracomment>A failure: %1 is what was not done, such as &quot;Cannot Open Map&quot;, %2 why</extracomment>
+        <translation>%1: %2</translation>
+    </message>
 </context>
 <context>
     <name>marsview::WindowNotices</name>
@@ -6306,6 +6427,34 @@ A scene: the one that suits the layers</extracomment>
         <source>Set %1 as Nodata</source>
         <extracomment>On a button: read samples of that value as nodata; %1 is a number</extracomment>
         <translation>%1 als Nodata festlegen</translation>
+    </message>
+    <message>
+        <source>Looks like feet, but the file has no unit of elevation: no place on the Earth is as high as %1</source>
+        <extracomment>%1 is an elevation in meters</extracomment>
+        <translation>Sieht nach Fuß aus, aber die Datei hat keine Höheneinheit: Kein Ort der Erde liegt auf %1 Höhe</translation>
+    </message>
+    <message>
+        <source>Looks like feet, but the file has no unit of elevation: no place on the Earth is as low as %1</source>
+        <extracomment>%1 is an elevation in meters</extracomment>
+        <translation>Sieht nach Fuß aus, aber die Datei hat keine Höheneinheit: Kein Ort der Erde liegt so tief wie %1</translation>
+    </message>
+    <message>
+        <source>The file has no unit of elevation: elevations are read as meters, but the unit of the CRS is the US survey foot</source>
+        <translation>Die Datei hat keine Höheneinheit: Höhen werden als Meter gelesen, aber die Einheit des KBS ist der US-Vermessungsfuß</translation>
+    </message>
+    <message>
+        <source>The file has no unit of elevation: elevations are read as meters, but the unit of the CRS is the foot</source>
+        <translation>Die Datei hat keine Höheneinheit: Höhen werden als Meter gelesen, aber die Einheit des KBS ist der Fuß</translation>
+    </message>
+    <message>
+        <source>Use US Survey Feet</source>
+        <extracomment>On a button: read the elevations of a map in US survey feet</extracomment>
+        <translation>US-Vermessungsfuß verwenden</translation>
+    </message>
+    <message>
+        <source>Use Feet</source>
+        <extracomment>On a button: read the elevations of a map in feet</extracomment>
+        <translation>Fuß verwenden</translation>
     </message>
     <message>
         <source>Looks like longitude and latitude, but the file has no CRS (%1)</source>
@@ -6371,11 +6520,6 @@ A scene: the one that suits the layers</extracomment>
     <message>
         <source>Cannot Open Map</source>
         <translation>Die Karte kann nicht geöffnet werden</translation>
-    <message>
-        <source>%1: %2</source>
-        <extracomment>A failure: %1 is what was not done, such as &quot;Cannot Open Map&quot;, %2 why</extracomment>
-        <translation>%1: %2</translation>
-    </message>
     </message>
     <message>
         <source>map</source>
@@ -6392,11 +6536,11 @@ A scene: the one that suits the layers</extracomment>
     </message>
     <message>
         <source>&amp;Cancel Saving</source>
-        <translation>Speichern &amp;abbrechen</translation>
+        <translation>Speichern abbre&amp;chen</translation>
     </message>
     <message>
         <source>&amp;Cancel Loading</source>
-        <translation>Laden &amp;abbrechen</translation>
+        <translation>Laden abbre&amp;chen</translation>
     </message>
     <message>
         <source>Cannot Record Fly-Through</source>
@@ -6408,35 +6552,7 @@ A scene: the one that suits the layers</extracomment>
     </message>
     <message>
         <source>&amp;Cancel</source>
-        <translation>&amp;Abbrechen</translation>
+        <translation>Abbre&amp;chen</translation>
     </message>
 </context>
 </TS>
-    <message>
-        <source>Looks like feet, but the file has no unit of elevation: no place on the Earth is as high as %1</source>
-        <extracomment>%1 is an elevation in meters</extracomment>
-        <translation>Sieht nach Fuß aus, aber die Datei hat keine Höheneinheit: Kein Ort der Erde liegt auf %1 Höhe</translation>
-    </message>
-    <message>
-        <source>Looks like feet, but the file has no unit of elevation: no place on the Earth is as low as %1</source>
-        <extracomment>%1 is an elevation in meters</extracomment>
-        <translation>Sieht nach Fuß aus, aber die Datei hat keine Höheneinheit: Kein Ort der Erde liegt so tief wie %1</translation>
-    </message>
-    <message>
-        <source>The file has no unit of elevation: elevations are read as meters, but the unit of the CRS is the US survey foot</source>
-        <translation>Die Datei hat keine Höheneinheit: Höhen werden als Meter gelesen, aber die Einheit des KBS ist der US-Vermessungsfuß</translation>
-    </message>
-    <message>
-        <source>The file has no unit of elevation: elevations are read as meters, but the unit of the CRS is the foot</source>
-        <translation>Die Datei hat keine Höheneinheit: Höhen werden als Meter gelesen, aber die Einheit des KBS ist der Fuß</translation>
-    </message>
-    <message>
-        <source>Use US Survey Feet</source>
-        <extracomment>On a button: read the elevations of a map in US survey feet</extracomment>
-        <translation>US-Vermessungsfuß verwenden</translation>
-    </message>
-    <message>
-        <source>Use Feet</source>
-        <extracomment>On a button: read the elevations of a map in feet</extracomment>
-        <translation>Fuß verwenden</translation>
-    </message>

@@ -28,6 +28,7 @@
 #include <QMap>
 #include <QMenuBar>
 #include <QRegularExpression>
+#include <QScrollArea>
 #include <QSet>
 #include <QTest>
 #include <QTranslator>
@@ -307,6 +308,12 @@ TEST_F(GermanTest, ReachesTheWindowAndItsDialogs)
     ASSERT_TRUE(waitUntilSettled(window));
     EXPECT_EQ(window.menuBar()->actions().front()->text(), QStringLiteral("&Datei"));
     expectGerman(window);
+    EXPECT_EQ(sharedLetters(*window.menuBar()).join(QStringLiteral(", ")).toStdString(), "");
+    for (const auto* area : window.georeferencingPanel()->findChildren<QScrollArea*>()) {
+        if (area->isVisible()) {
+            EXPECT_LE(area->widget()->minimumSizeHint().width(), area->viewport()->width());
+        }
+    }
     window.georeferencingPanel()->edit();
     expectGerman(window);
     expectGerman(AboutDialog(QString(), &window));

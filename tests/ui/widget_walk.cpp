@@ -9,7 +9,9 @@
 #include <QHeaderView>
 #include <QLabel>
 #include <QLineEdit>
+#include <QMap>
 #include <QMenu>
+#include <QMenuBar>
 #include <QProgressBar>
 #include <QScrollArea>
 #include <QSlider>
@@ -149,6 +151,31 @@ QList<QWidget*> controlsOf(const QWidget& root)
         }
     }
     return controls;
+}
+
+QStringList sharedLetters(const QMenuBar& bar)
+{
+    QStringList pairs;
+    const auto collect = [&pairs](const QList<QAction*>& actions) {
+        QMap<QChar, QString> owners;
+        for (const QAction* action : actions) {
+            const QString text = action->text();
+            const auto mark = text.indexOf(QLatin1Char('&'));
+            if (action->isSeparator() || mark < 0 || mark + 1 >= text.size()) {
+                continue;
+            }
+            const QChar letter = text[mark + 1].toLower();
+            if (owners.contains(letter)) {
+                pairs.append(text + QStringLiteral(" and ") + owners[letter]);
+            }
+            owners[letter] = text;
+        }
+    };
+    collect(bar.actions());
+    for (const QMenu* menu : bar.findChildren<QMenu*>()) {
+        collect(menu->actions());
+    }
+    return pairs;
 }
 
 } // namespace marsview

@@ -5,6 +5,7 @@
 #include <QStringList>
 
 class QObject;
+class QMenuBar;
 class QWidget;
 
 namespace marsview {
@@ -23,6 +24,10 @@ QList<FoundText> textsOf(const QWidget& root);
 /// focus. Without the internal parts of Qt's own widgets, and without the title buttons of docks,
 /// which have menu equivalents.
 QList<QWidget*> controlsOf(const QWidget& root);
+
+/// Pairs of entries of one menu that have the same letter: "&Open… and &Other". `bar` counts as a
+/// menu, too.
+QStringList sharedLetters(const QMenuBar& bar);
 
 /// "QToolButton \"cancelLoading\"".
 QString describe(const QObject& object);

@@ -315,7 +315,7 @@ void HapticsPanel::showDevices()
     list_->clear();
     for (const FoundDevice& device : device_.devices()) {
         const QString uri = QString::fromStdString(device.uri);
-        const QString name = device.name.empty() ? uri : QString::fromStdString(device.name);
+        const QString name = device.name.empty() ? uri : deviceName(device.name);
         const QString reason = asSentence(device.reason);
         auto* item = new QListWidgetItem(name, list_);
         item->setData(kUriRole, uri);
@@ -458,7 +458,7 @@ void HapticsPanel::showConnection()
         //: %1 is a device, %2 a force
         status_->setText(
             tr("%1, up to %2")
-                .arg(isolated(QString::fromStdString(device.name)),
+                .arg(isolated(deviceName(device.name)),
                      //: A force in newtons
                      leftToRight(tr("%1 N").arg(shortNumberText(device.force_n_peak, 2)))));
         break;

@@ -29,6 +29,12 @@ QString bodyText(const Ellipsoid& ellipsoid)
 
 } // namespace
 
+QString deviceName(const std::string& name)
+{
+    //: A device that is computed instead of built, to try touching without one
+    return name == "Simulated hand" ? tr("Simulated hand") : QString::fromStdString(name);
+}
+
 QString letGoText(ForceOffReason reason)
 {
     switch (reason) {

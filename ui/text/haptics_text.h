@@ -8,6 +8,7 @@
 #include <QString>
 
 #include <chrono>
+#include <string>
 
 namespace marsview {
 
@@ -16,6 +17,8 @@ struct ReplayFit;
 struct SavedTicks;
 struct TouchedGround;
 
+/// The name that a driver gives its device, in the language of the window where it is ours.
+QString deviceName(const std::string& name);
 /// A sentence: why the force is off; empty if it is on.
 QString letGoText(ForceOffReason reason);
 /// What the hand is doing.

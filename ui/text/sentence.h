@@ -1,29 +1,18 @@
 // What the core says, which begins in lower case, as a sentence of the window.
 #pragma once
 
-#include "ui/text/number_text.h"
-
-#include <QRegularExpression>
 #include <QString>
 
 #include <string>
 
 namespace marsview {
 
-inline QString asSentence(QString text)
-{
-    if (!text.isEmpty()) {
-        text[0] = text[0].toUpper();
-    }
-    // Numbers alone: names of files and definitions of systems keep their hyphens.
-    static const QRegularExpression kMinus(QStringLiteral("(?<=[ (])-(?=[0-9])"));
-    text.replace(kMinus, QString(QChar(0x2212)));
-    return isolated(text); // the core writes English, whatever the layout
-}
+/// A message of the core, which is English, in the language of the window. What comes before its
+/// sentence, such as a path, stays; a sentence without a translation does, too.
+QString translatedMessage(const QString& message);
 
-inline QString asSentence(const std::string& text)
-{
-    return asSentence(QString::fromStdString(text));
-}
+/// The same, with a capital letter at its beginning and true minus signs.
+QString asSentence(const QString& message);
+QString asSentence(const std::string& message);
 
 } // namespace marsview

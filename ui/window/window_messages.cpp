@@ -1,6 +1,7 @@
 #include "ui/window/window_messages.h"
 
 #include "ui/text/number_text.h"
+#include "ui/text/sentence.h"
 #include "ui/widgets/notice_center.h"
 
 #include <QDir>
@@ -37,7 +38,7 @@ void WindowMessages::report(const QString& title, const QString& problem)
     }
     const Notice notice{.id = QStringLiteral("failure %1").arg(++count_),
                         //: A failure: %1 is what was not done, such as "Cannot Open Map", %2 why
-                        .text = tr("%1: %2").arg(title, isolated(problem))};
+                        .text = tr("%1: %2").arg(title, isolated(translatedMessage(problem)))};
     // Closed ones are forgotten, and the same again replaces what it repeats.
     const QList<Notice> open = notices_.open();
     reported_.removeIf([&open, &notice](const Notice& earlier) {

@@ -243,7 +243,7 @@ void WindowNotices::addChoices(Notice& notice,
 {
     //: %1 is a reason, such as "its extent is 0° – 360°, 90° S – 90° N"
     notice.text = tr("Looks like longitude and latitude, but the file has no CRS (%1)")
-                      .arg(QString::fromStdString(suggestion.reason));
+                      .arg(translatedMessage(QString::fromStdString(suggestion.reason)));
     SessionController& session = parts_.session;
     for (const CrsChoice& choice : suggestion.choices) {
         const QString name =

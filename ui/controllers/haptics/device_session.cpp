@@ -2,6 +2,7 @@
 
 #include "haptics/device/home_option.h"
 #include "haptics/drivers/replay_driver.h"
+#include "ui/text/haptics_text.h"
 #include "ui/text/sentence.h"
 
 #include <algorithm>
@@ -337,7 +338,7 @@ void DeviceSession::poll()
 
 void DeviceSession::finish(const LoopState& last)
 {
-    const QString name = QString::fromStdString(loop_->device().name);
+    const QString name = deviceName(loop_->device().name);
     const std::string trouble = loop_->trouble();
     const QString uri = rememberedUri();
     const bool is_replay = isReplaying(); // may end while the force is off

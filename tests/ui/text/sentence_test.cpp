@@ -1,0 +1,114 @@
+// Messages of the core in the language of the window: real ones, so that a sentence that the core
+// changes is noticed here.
+#include "core/raster/open_raster.h"
+#include "core/raster/sample_suggestions.h"
+#include "tests/support/temp_folder.h"
+#include "ui/text/language.h"
+#include "ui/text/sentence.h"
+
+#include <QCoreApplication>
+#include <QTranslator>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace marsview {
+namespace {
+
+class GermanMessagesTest : public testing::Test {
+protected:
+    void SetUp() override
+    {
+        if (languages().size() == 1) {
+            GTEST_SKIP() << "built without Qt's LinguistTools";
+        }
+        translators_ = translateTo(QStringLiteral("de"));
+    }
+
+    // The text behind the path.
+    static std::string opening(const std::string& path)
+    {
+        const Result<OpenRaster> raster = openRaster({.path = path});
+        EXPECT_FALSE(raster);
+        const std::string text =
+            translatedMessage(QString::fromStdString(raster.error().message)).toStdString();
+        EXPECT_TRUE(text.starts_with(path + ": ")) << text;
+        return text.substr(std::min(text.size(), path.size() + 2));
+    }
+    static std::string refusal(const RasterOverrides& overrides)
+    {
+        RasterInfo info;
+        info.columns = 36;
+        info.rows = 18;
+        const Result<RasterInfo> refused = withOverrides(info, overrides);
+        EXPECT_FALSE(refused);
+        return translatedMessage(QString::fromStdString(refused.error().message)).toStdString();
+    }
+
+    static std::string german(const char* sentence, const char* word = "")
+    {
+        const QString text = QCoreApplication::translate("CoreMessage", sentence);
+        EXPECT_NE(text, QString::fromUtf8(sentence));
+        return text.contains(QStringLiteral("%1")) ? text.arg(QString::fromUtf8(word)).toStdString()
+                                                   : text.toStdString();
+    }
+
+    std::vector<std::unique_ptr<QTranslator>> translators_;
+};
+
+TEST_F(GermanMessagesTest, SayWhyAFileCannotBeOpened)
+{
+    const test::TempFolder folder;
+    EXPECT_EQ(opening(folder.file("100%1.tif")), german("does not exist"));
+    EXPECT_EQ(opening(folder.write("broken.tif", "not a TIFF")),
+              german("is not a raster that GDAL can read, or is damaged; convert it to GeoTIFF or "
+                     "fetch it again"));
+}
+
+TEST_F(GermanMessagesTest, SayWhyAnOverrideIsRefused)
+{
+    EXPECT_EQ(
+        refusal({.crs = "foo"}),
+        "CRS: " +
+            german("unknown CRS \"%1\"; enter an EPSG or IAU code, a PROJ string or WKT", "foo"));
+    EXPECT_EQ(refusal({.vertical_unit = "parsec"}),
+              "vertical unit: " +
+                  german("\"%1\" is unknown; use m, km, ft or \"US survey ft\"", "parsec"));
+    EXPECT_EQ(refusal({.scale = 0.0}),
+              "scale: " +
+                  german("%1 cannot scale elevations; use a finite number other than 0", "0"));
+}
+
+TEST_F(GermanMessagesTest, DescribeAMap)
+{
+    RasterInfo info;
+    info.columns = 36;
+    info.rows = 18;
+    info.transform = GeoTransform::fromTerms({5e5, 30.0, 0.0, 4e6, 0.0, -30.0}).value();
+    notePlacement(info);
+    ASSERT_EQ(info.notices.size(), 1U);
+    EXPECT_EQ(translatedMessage(QString::fromStdString(info.notices[0])).toStdString(),
+              german("no CRS: map units are read as meters; set its CRS or body to get longitude "
+                     "and latitude"));
+    for (const auto& reason : {std::optional(14176.0), std::optional<double>()}) {
+        const std::string notice =
+            noticeOf(UnitSuggestion{.unit = *verticalUnitFrom("ft"), .implausible_m = reason});
+        EXPECT_NE(translatedMessage(QString::fromStdString(notice)).toStdString(), notice);
+    }
+}
+
+TEST(TranslatedMessage, LeavesWhatItDoesNotKnow)
+{
+    for (const char* message :
+         {"", ": ", "out of memory", "/a: b: the moon is full", "/%1/%2.tif: does not exist"}) {
+        EXPECT_EQ(translatedMessage(QString::fromUtf8(message)), QString::fromUtf8(message));
+    }
+}
+
+} // namespace
+} // namespace marsview

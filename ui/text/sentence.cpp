@@ -1,0 +1,172 @@
+#include "ui/text/sentence.h"
+
+#include "ui/text/number_text.h"
+
+#include <QCoreApplication>
+#include <QRegularExpression>
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace marsview {
+namespace {
+
+constexpr const char* kContext = "CoreMessage";
+
+// The sentences of the core that people meet most. %1, %2 … stand for its names and numbers. A
+// sentence that is not here, or that the core has changed since, stays English.
+constexpr std::array kMessages{
+    // A file cannot be opened.
+    QT_TRANSLATE_NOOP("CoreMessage", "does not exist"),
+    QT_TRANSLATE_NOOP("CoreMessage",
+                      "is not a raster that GDAL can read, or is damaged; convert it to GeoTIFF or "
+                      "fetch it again"),
+    QT_TRANSLATE_NOOP("CoreMessage", "is a color picture, not an elevation map"),
+    QT_TRANSLATE_NOOP("CoreMessage",
+                      "names a data file that is missing; put it next to this file (%1)"),
+    QT_TRANSLATE_NOOP("CoreMessage", "is cut short or damaged: %1; fetch it again"),
+    QT_TRANSLATE_NOOP("CoreMessage",
+                      "reading rows %1 to %2 failed: it is cut short, %3 of the %4 bytes that its "
+                      "header promises are present; fetch it again"),
+    QT_TRANSLATE_NOOP("CoreMessage",
+                      "%1 × %2 samples are not a surface; at least 2 × 2 are needed"),
+    QT_TRANSLATE_NOOP("CoreMessage", "contains no elevations; all of its %1 samples are nodata"),
+    // An override is refused.
+    QT_TRANSLATE_NOOP("CoreMessage",
+                      "unknown CRS \"%1\"; enter an EPSG or IAU code, a PROJ string or WKT"),
+    QT_TRANSLATE_NOOP("CoreMessage",
+                      "\"%1\" (unit %2) cannot place a grid in degrees (%3, %4); choose a CRS of "
+                      "longitude and latitude, or set a geotransform in its unit"),
+    QT_TRANSLATE_NOOP("CoreMessage",
+                      "\"%1\" (unit %2) cannot place a grid that covers x %3 to %4 and y %5 to %6; "
+                      "choose a projected CRS, or set a geotransform in degrees"),
+    QT_TRANSLATE_NOOP("CoreMessage",
+                      "\"%1\" is unknown; give its radii instead, or a name such as Mars, Moon, "
+                      "Earth, Vesta or Titan"),
+    QT_TRANSLATE_NOOP("CoreMessage", "\"%1\" is unknown; use m, km, ft or \"US survey ft\""),
+    QT_TRANSLATE_NOOP("CoreMessage",
+                      "%1 cannot scale elevations; use a finite number other than 0"),
+    // Notices of a map.
+    QT_TRANSLATE_NOOP("CoreMessage",
+                      "no CRS: map units are read as meters; set its CRS or body to get longitude "
+                      "and latitude"),
+    QT_TRANSLATE_NOOP("CoreMessage",
+                      "no CRS, but it looks like longitude and latitude in degrees (%1): set %2; "
+                      "until then, map units are read as meters"),
+    QT_TRANSLATE_NOOP("CoreMessage",
+                      "no georeferencing in the file: each pixel is placed as one unit square; "
+                      "give a geotransform to place it"),
+    QT_TRANSLATE_NOOP("CoreMessage",
+                      "no unit of elevation in the file, and the elevations look like feet: read "
+                      "as meters they reach %1 m, and the Earth's highest place is at %2 m; set "
+                      "the unit %3; until then, meters are assumed"),
+    QT_TRANSLATE_NOOP("CoreMessage",
+                      "no unit of elevation in the file, and the elevations may be in %1, the unit "
+                      "of the CRS; set the unit %2; until then, meters are assumed"),
+    QT_TRANSLATE_NOOP("CoreMessage",
+                      "the unit \"%1\" is not a known unit of length; meters are assumed"),
+    QT_TRANSLATE_NOOP("CoreMessage",
+                      "samples of %1 at an end of the range often mark nodata, but the file "
+                      "declares no nodata value; if they do, set it as nodata"),
+    QT_TRANSLATE_NOOP("CoreMessage",
+                      "the sample %1 makes an elevation of %2 m, which is implausible; set it as "
+                      "nodata, or set the unit or the scale"),
+    QT_TRANSLATE_NOOP("CoreMessage",
+                      "a preview of %1 × %2 samples is shown; elevations are read from it until "
+                      "all %3 × %4 are available"),
+    QT_TRANSLATE_NOOP("CoreMessage", "from the label %1: %2 (GDAL reads %3)"),
+    QT_TRANSLATE_NOOP("CoreMessage",
+                      "shifted by %1 column and %2 row to match the latitude and longitude limits "
+                      "in the label"),
+    QT_TRANSLATE_NOOP("CoreMessage", "its detail is estimated because it has no level file"),
+    QT_TRANSLATE_NOOP("CoreMessage", "its extent is %1, %2"),
+};
+
+std::optional<QString> translationOf(const QString& sentence);
+
+// The number behind a percent sign at `at`; 0 if there is none.
+int placeAt(const QString& text, qsizetype at)
+{
+    return text[at] == QLatin1Char('%') && at + 1 < text.size() ? text[at + 1].digitValue() : 0;
+}
+
+// Matches what a message becomes once its places are filled, in their order.
+QRegularExpression patternOf(const char* message)
+{
+    QString pattern = QRegularExpression::escape(QString::fromUtf8(message));
+    static const QRegularExpression kPlace(QStringLiteral(R"(\\%[1-9])"));
+    pattern.replace(kPlace, QStringLiteral("(.+?)"));
+    return QRegularExpression(QRegularExpression::anchoredPattern(pattern),
+                              QRegularExpression::DotMatchesEverythingOption);
+}
+
+// What fills a place may contain percent signs: everything is filled in one pass.
+QString filled(const QString& text, const QRegularExpressionMatch& match)
+{
+    QString result;
+    for (qsizetype at = 0; at < text.size(); ++at) {
+        const int place = placeAt(text, at);
+        if (place > 0) {
+            const QString words = match.captured(place);
+            result += translationOf(words).value_or(words);
+            ++at;
+        } else {
+            result += text[at];
+        }
+    }
+    return result;
+}
+
+std::optional<QString> translationOf(const QString& sentence)
+{
+    static const std::vector<QRegularExpression> kPatterns = [] {
+        std::vector<QRegularExpression> patterns;
+        for (const char* message : kMessages) {
+            patterns.push_back(patternOf(message));
+        }
+        return patterns;
+    }();
+    for (std::size_t i = 0; i < kMessages.size(); ++i) {
+        const QRegularExpressionMatch match = kPatterns[i].match(sentence);
+        if (match.hasMatch()) {
+            return filled(QCoreApplication::translate(kContext, kMessages[i]), match);
+        }
+    }
+    return std::nullopt;
+}
+
+} // namespace
+
+QString translatedMessage(const QString& message)
+{
+    // A path, a field or both come before the sentence.
+    const QString separator = QStringLiteral(": ");
+    for (qsizetype at = 0; at >= 0 && at < message.size();) {
+        if (const auto translation = translationOf(message.sliced(at))) {
+            return message.first(at) + *translation;
+        }
+        const qsizetype next = message.indexOf(separator, at);
+        at = next < 0 ? -1 : next + separator.size();
+    }
+    return message;
+}
+
+QString asSentence(const QString& message)
+{
+    QString text = translatedMessage(message);
+    if (!text.isEmpty()) {
+        text[0] = text[0].toUpper();
+    }
+    // Numbers alone: names of files and definitions of systems keep their hyphens.
+    static const QRegularExpression kMinus(QStringLiteral("(?<=[ (])-(?=[0-9])"));
+    text.replace(kMinus, QString(QChar(0x2212)));
+    return isolated(text); // it may be English, whatever the layout
+}
+
+QString asSentence(const std::string& message)
+{
+    return asSentence(QString::fromStdString(message));
+}
+
+} // namespace marsview
