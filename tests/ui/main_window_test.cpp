@@ -15,6 +15,8 @@
 #include <QDir>
 #include <QDropEvent>
 #include <QFileDialog>
+#include <QImage>
+#include <QLabel>
 #include <QLineEdit>
 #include <QMimeData>
 #include <QPushButton>
@@ -166,6 +168,26 @@ TEST_F(MainWindowTest, OpensAFileDroppedOnIt)
     drop(file);
     ASSERT_TRUE(waitUntilSettled(*window_));
     EXPECT_EQ(shownFile(), file.toStdString());
+}
+
+TEST_F(MainWindowTest, TheNameOfAFileThatIsOpenedFitsIntoTheView)
+{
+    auto* hint = view().findChild<QLabel*>(QStringLiteral("emptyHint"));
+    ASSERT_TRUE(
+        QTest::qWaitFor([&] { return hint->isVisible() && hint->width() > 300; }, kTimeout));
+    view().setHint(QString(300, QLatin1Char('M')));
+    const QImage picture = hint->grab().toImage();
+    const auto is_empty = [&picture](int column) {
+        for (int y = 0; y < picture.height(); ++y) {
+            if (picture.pixel(column, y) != picture.pixel(0, 0)) {
+                return false;
+            }
+        }
+        return true;
+    };
+    EXPECT_FALSE(is_empty(picture.width() / 4)) << "there is text";
+    EXPECT_TRUE(is_empty(0));
+    EXPECT_TRUE(is_empty(picture.width() - 1));
 }
 
 TEST_F(MainWindowTest, KeepsTheMapWhenAnotherCannotBeOpened)

@@ -1,6 +1,7 @@
 #include "ui/canvas/terrain_view.h"
 
 #include "core/view/exaggeration.h"
+#include "ui/widgets/elided_label.h"
 
 #include <QChildEvent>
 #include <QContextMenuEvent>
@@ -36,7 +37,7 @@ TerrainView::TerrainView(QWidget* parent)
                .camera = camera_,
                .projection = projection_,
                .touch = touch_})
-    , empty_hint_(new QLabel(this))
+    , empty_hint_(new ElidedLabel({}, this)) // names of files may be long
 {
     setAccessibleName(tr("Map"));
     setAccessibleDescription(
@@ -48,6 +49,7 @@ TerrainView::TerrainView(QWidget* parent)
     setHint({});
     empty_hint_->setObjectName(QStringLiteral("emptyHint"));
     empty_hint_->setAlignment(Qt::AlignCenter);
+    empty_hint_->setFocusPolicy(Qt::NoFocus);
     empty_hint_->setAttribute(Qt::WA_TransparentForMouseEvents);
     // Over the sky, which is dark in every palette.
     QPalette palette = empty_hint_->palette();

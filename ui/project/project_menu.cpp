@@ -3,6 +3,7 @@
 #include "ui/controllers/session_controller.h"
 #include "ui/text/number_text.h"
 #include "ui/text/sentence.h"
+#include "ui/widgets/icons.h"
 
 #include <QAction>
 #include <QDateTime>
@@ -42,16 +43,21 @@ ProjectMenu::ProjectMenu(const Parts& parts, QObject* parent)
         return action;
     };
     new_ = add(tr("&New Project"), QKeySequence::New, QStringLiteral("newProject"));
+    new_->setIcon(lineIcon(QStringLiteral("new")));
     new_->setToolTip(tr("Close all layers and start an empty project"));
     open_ = add(tr("Open Pro&ject…"), QKeySequence(Qt::CTRL | Qt::ALT | Qt::Key_O),
                 QStringLiteral("openProject"));
+    open_->setIcon(lineIcon(QStringLiteral("open-project")));
     open_->setToolTip(tr("Open the layers, colors and view that were saved in a project"));
     recent_menu_ = new QMenu(tr("Rec&ent Projects"), &menu);
+    recent_menu_->setIcon(lineIcon(QStringLiteral("recent")));
     menu.insertMenu(first, recent_menu_);
     save_ = add(tr("&Save Project"), QKeySequence::Save, QStringLiteral("saveProject"));
+    save_->setIcon(lineIcon(QStringLiteral("save")));
     save_->setToolTip(tr("Save the layers, colors and view"));
     save_as_ = add(tr("Sa&ve Project As…"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_S),
                    QStringLiteral("saveProjectAs"));
+    save_as_->setIcon(lineIcon(QStringLiteral("save-as")));
     menu.insertSeparator(first);
     recent_ =
         new RecentFiles(*recent_menu_, parts_.memory, this, QStringLiteral("projects/recent"));

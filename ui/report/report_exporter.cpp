@@ -48,6 +48,7 @@ ReportExporter::ReportExporter(const Parts& parts, QObject* parent)
     , action_(new QAction(lineIcon(QStringLiteral("report")), tr("E&xport Report…"), this))
 {
     action_->setObjectName(QStringLiteral("exportReport"));
+    action_->setShortcut(QKeySequence(Qt::CTRL | Qt::Key_E));
     action_->setToolTip(
         tr("Save the map with legend and scale, the measurements and their diagrams as one PDF or "
            "web page"));

@@ -44,8 +44,7 @@ void ElidedLabel::paintEvent(QPaintEvent*)
     line.replace(QLatin1Char('\n'), QLatin1Char(' '));
     painter.setPen(palette().color(QPalette::WindowText));
     painter.drawText(rect(),
-                     static_cast<int>(QStyle::visualAlignment(layoutDirection(), Qt::AlignLeft) |
-                                      Qt::AlignVCenter),
+                     static_cast<int>(QStyle::visualAlignment(layoutDirection(), alignment())),
                      isolated(fontMetrics().elidedText(line, Qt::ElideMiddle, width())));
     if (hasFocus()) {
         QStyleOptionFocusRect option;

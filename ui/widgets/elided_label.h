@@ -5,8 +5,8 @@
 
 namespace marsview {
 
-/// Its text() is the whole text, which the tool tip shows too. Takes the focus; Ctrl+C and the
-/// context menu copy the whole text.
+/// Its text() is the whole text, which the tool tip shows too. Aligned as a QLabel is. Takes the
+/// focus; Ctrl+C and the context menu copy the whole text.
 class ElidedLabel final : public QLabel {
     Q_OBJECT
 

@@ -20,6 +20,7 @@ void setIcons(const WindowActions& actions)
              std::pair{actions.open_folder, "open-folder"},
              std::pair{actions.open_address, "address"},
              std::pair{actions.open_names, "names"},
+             std::pair{actions.open_vector, "open-vector"},
              std::pair{actions.find_name, "find"},
              std::pair{actions.recent->menuAction(), "recent"},
              std::pair{actions.bundled->menuAction(), "globe"},

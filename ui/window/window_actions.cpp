@@ -167,6 +167,7 @@ void WindowActions::makeFileMenu(QMainWindow& window)
     open_names->setToolTip(tr("Open a file of named points to find and show on the map"));
     open_names->setEnabled(false);
     open_vector = menu->addAction(tr("Open Vector Fi&le…"));
+    open_vector->setShortcut(QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_V));
     open_vector->setToolTip(tr("Draw points, lines and polygons of a file on the terrain"));
     open_vector->setEnabled(false);
     recent = menu->addMenu(tr("Open &Recent"));
