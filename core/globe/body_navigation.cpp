@@ -181,6 +181,33 @@ BodyCamera constrained(BodyCamera camera, const BodyLimits& limits, const BodyGr
     return cleared(camera, limits, ground);
 }
 
+BodyCamera withGroundAhead(BodyCamera camera, const Ellipsoid& ellipsoid)
+{
+    constexpr double kUpperTenth = 0.8; // of half of the picture's height, from its middle
+    const double radius_m = length(targetOf(camera, ellipsoid));
+    const double wanted = std::atan(kUpperTenth * std::tan(camera.field_of_view.radians() / 2.0));
+    // From the view axis up to the horizon, seen from the eye.
+    const auto horizon_above = [&](double tilt) {
+        const double along = camera.distance_m * std::sin(tilt);
+        const double up = radius_m + camera.distance_m * std::cos(tilt);
+        const double from_center = std::hypot(along, up);
+        const double to_target = std::asin(radius_m * std::sin(tilt) / from_center);
+        return std::asin(std::min(1.0, radius_m / from_center)) - to_target;
+    };
+    double low = 0.0;
+    double high = camera.tilt.radians();
+    if (horizon_above(high) >= wanted) {
+        return camera;
+    }
+    constexpr int kHalvings = 20;
+    for (int i = 0; i < kHalvings; ++i) {
+        const double middle = 0.5 * (low + high);
+        (horizon_above(middle) >= wanted ? low : high) = middle;
+    }
+    camera.tilt = Angle::radians(low);
+    return camera;
+}
+
 BodyCamera homeCamera(const BodyLimits& limits, const Viewport& viewport, Angle field_of_view)
 {
     BodyCamera camera{.target = limits.area.middle,

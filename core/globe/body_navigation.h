@@ -46,6 +46,11 @@ BodyLimits united(const BodyLimits& a, const BodyLimits& b);
 /// then by reducing the tilt.
 BodyCamera constrained(BodyCamera camera, const BodyLimits& limits, const BodyGround& ground);
 
+/// The camera with its tilt reduced, as far as needed and possible, so that the horizon is in the
+/// upper tenth of the picture or above it: a flat map has no horizon, and its camera may see the
+/// ground up to the upper edge of the picture. On the sphere through the target.
+BodyCamera withGroundAhead(BodyCamera camera, const Ellipsoid& ellipsoid);
+
 /// Shows the whole area: from straight above if it is most of the body, otherwise from the south
 /// at a tilt of 40°.
 BodyCamera homeCamera(const BodyLimits& limits,

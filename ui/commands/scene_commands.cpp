@@ -1,5 +1,6 @@
 #include "ui/commands/scene_commands.h"
 
+#include "core/globe/body_navigation.h"
 #include "core/session/saved_view.h"
 #include "ui/canvas/terrain_view.h"
 #include "ui/controllers/haptics/device_session.h"
@@ -96,6 +97,7 @@ void SceneCommands::connectParts()
             parts_.messages.show(reason);
         },
         Qt::QueuedConnection);
+    connect(&parts_.globe, &GlobeView::placed, this, &SceneCommands::rememberHanded);
     connect(&parts_.globe, &GlobeView::failed, this, [this](const QString& reason) {
         choose(SceneChoice::Flat);
         parts_.messages.report(tr("Cannot Show Globe"), reason);
@@ -309,17 +311,31 @@ void SceneCommands::handToGlobe()
     }
     if (isWhole(view)) {
         parts_.globe.setHomeCamera();
+        is_handing_ = true;
         return;
     }
     const auto camera =
         viewCamera(view.map()->georeference(), view.cameraGoal(), view.exaggeration());
     if (camera && std::holds_alternative<GeographicPoint>(camera->target)) {
-        parts_.globe.setCamera({.target = std::get<GeographicPoint>(camera->target),
-                                .height_m = camera->elevation_m * view.exaggeration(),
-                                .distance_m = camera->distance_m,
-                                .azimuth = camera->azimuth,
-                                .tilt = camera->tilt,
-                                .field_of_view = camera->field_of_view});
+        parts_.globe.setCamera(
+            withGroundAhead({.target = std::get<GeographicPoint>(camera->target),
+                             .height_m = camera->elevation_m * view.exaggeration(),
+                             .distance_m = camera->distance_m,
+                             .azimuth = camera->azimuth,
+                             .tilt = camera->tilt,
+                             .field_of_view = camera->field_of_view},
+                            *view.map()->info().crs->ellipsoid()));
+        is_handing_ = true;
+    }
+}
+
+// The globe has the flat map's camera, within its own limits.
+void SceneCommands::rememberHanded()
+{
+    if (parts_.globe.terrain() != nullptr && std::exchange(is_handing_, false)) {
+        handed_ = {.map = parts_.view.map(),
+                   .flat = parts_.view.cameraGoal(),
+                   .globe = parts_.globe.cameraGoal()};
     }
 }
 
@@ -331,6 +347,10 @@ void SceneCommands::handToMap()
         return; // it was never looked at
     }
     const BodyCamera& from = parts_.globe.cameraGoal();
+    if (handed_ && handed_->map.lock() == view.map() && handed_->globe == from) {
+        view.setCamera(handed_->flat); // nothing moved since
+        return;
+    }
     const auto camera = orbitCamera(view.map()->georeference(),
                                     {.target = from.target,
                                      .elevation_m = from.height_m / view.exaggeration(),

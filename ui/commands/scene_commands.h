@@ -73,6 +73,7 @@ private:
     void follow();
     std::vector<ShownLayer> layersOnBody() const;
     void handToGlobe();
+    void rememberHanded();
     void handToMap();
     void readOnGlobe();
     void withhold(QAction& action);
@@ -80,7 +81,7 @@ private:
     /// Why the globe cannot be shown; empty where it can.
     QString whyNoGlobe() const;
 
-    // The camera of the globe when the flat map got it.
+    // The cameras of both when one got the other's.
     struct HandedCamera {
         std::weak_ptr<const Map> map;
         OrbitCamera flat;
@@ -98,6 +99,7 @@ private:
     bool is_withholding_ = false; // this changes an action, not its feature
     QHash<QAction*, Tips> withheld_;
     std::optional<HandedCamera> handed_;
+    bool is_handing_ = false;           // until the globe has a layer
     std::weak_ptr<const Map> read_map_; // that positions in the status bar are on
 };
 

@@ -146,7 +146,7 @@ void GlobeOverlays::showSettings()
     };
     layout_->setCovered(flat_.coveredHeight());
     labels_->setNamesShown(is_on("names"));
-    layout_->setWanted(minimap_, is_on("minimap"));
+    layout_->setWanted(minimap_, !overview_.isNull() && is_on("minimap"));
     layout_->setWanted(legend_, is_on("legend"));
     layout_->setWanted(compass_, has_terrain && is_on("compass"));
     layout_->setWanted(scale_bar_, is_on("compass"));
@@ -163,6 +163,7 @@ void GlobeOverlays::readOverview()
     }
     overviews_m_.clear();
     if (globe_.scene().isEmpty()) {
+        overview_ = {};
         return;
     }
     reading_ = std::make_shared<JobMonitor>();
@@ -202,7 +203,11 @@ void GlobeOverlays::showOverview()
             QPainter(&picture).drawImage(0, 0, layer);
         }
     }
-    minimap_->setMap(picture, overviewFrame(), kOverviewColumns, kOverviewRows);
+    if (!picture.isNull()) { // until then that of the layers before
+        overview_ = picture;
+        showSettings();
+    }
+    minimap_->setMap(overview_, overviewFrame(), kOverviewColumns, kOverviewRows);
     minimap_->setOutlines(std::move(outlines));
     showSight();
 }

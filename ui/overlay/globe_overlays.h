@@ -4,6 +4,7 @@
 #include "core/base/job_monitor.h"
 #include "ui/controllers/detached_jobs.h"
 
+#include <QImage>
 #include <QObject>
 
 #include <cstddef>
@@ -77,6 +78,7 @@ private:
     OverlayLayout* layout_ = nullptr;
     std::shared_ptr<JobMonitor> reading_;         // of the overview
     std::vector<std::vector<float>> overviews_m_; // elevations, a map
+    QImage overview_;                             // the latest; null until there is one
     DetachedJobs jobs_;
 };
 

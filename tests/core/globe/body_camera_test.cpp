@@ -180,5 +180,36 @@ TEST(BodyNavigation, HomeShowsEverySampleOfAMapAndTheWholeBall)
     }
 }
 
+// Where a ray through a point of the picture's upright middle line, 1 at its upper edge, meets the
+// sphere.
+bool seesGround(const BodyCamera& camera, const Ellipsoid& sphere, double height)
+{
+    const CameraPose pose = poseOf(camera, sphere);
+    const double slope = height * std::tan(camera.field_of_view.radians() / 2.0);
+    const Vec3 way = pose.axes.forward + pose.axes.up * slope;
+    const double b = dot(pose.eye, way);
+    const double c = dot(pose.eye, pose.eye) - sphere.equatorial_m * sphere.equatorial_m;
+    return b * b >= dot(way, way) * c;
+}
+
+TEST(BodyNavigation, GroundAheadKeepsTheHorizonOutOfTheMiddleOfThePicture)
+{
+    const Ellipsoid sphere{3.39e6, 3.39e6};
+    BodyCamera camera{.target = {.longitude = Angle::degrees(266.0), .latitude = Angle()},
+                      .distance_m = 5.6e6,
+                      .azimuth = Angle::degrees(-28.0),
+                      .tilt = Angle::degrees(52.0)};
+    EXPECT_FALSE(seesGround(camera, sphere, 0.5));
+    const BodyCamera over = withGroundAhead(camera, sphere);
+    EXPECT_TRUE(seesGround(over, sphere, 0.79));
+    EXPECT_FALSE(seesGround(over, sphere, 0.81)) << "tilted as much as that allows";
+    EXPECT_EQ(over.distance_m, camera.distance_m);
+    EXPECT_EQ(over.azimuth, camera.azimuth);
+    camera.distance_m = 1e5;
+    EXPECT_EQ(withGroundAhead(camera, sphere), camera) << "the ground is as good as flat";
+    camera.distance_m = 3e7;
+    EXPECT_NEAR(withGroundAhead(camera, sphere).tilt.degrees(), 0.0, 1e-3) << "all of the body";
+}
+
 } // namespace
 } // namespace marsview

@@ -12,6 +12,7 @@
 #include "ui/overlay/minimap.h"
 #include "ui/overlay/scale_bar_view.h"
 
+#include <QImage>
 #include <QMouseEvent>
 #include <QTest>
 
@@ -27,6 +28,10 @@ class GlobeOverlaysTest : public GlobeTest {
 protected:
     GlobeOverlays& overlays() { return *globe().findChild<GlobeOverlays*>(); }
     MapOverlays& flat() { return *window_->overlays(); }
+    bool hasOverview()
+    {
+        return waitFor([this] { return overlays().minimap()->isVisible(); });
+    }
     QAction* preference(const char* name)
     {
         for (QAction* action : flat().visibilityActions()) {
@@ -49,13 +54,30 @@ TEST_F(GlobeOverlaysTest, TheyLieWhereTheFlatMapHasThem)
     EXPECT_EQ(overlays().legend()->geometry(), legend);
     EXPECT_EQ(overlays().compass()->geometry(), compass);
     EXPECT_EQ(overlays().scaleBar()->geometry(), bar);
-    EXPECT_TRUE(overlays().minimap()->isVisible());
+    ASSERT_TRUE(hasOverview());
     EXPECT_EQ(overlays().minimap()->geometry().topRight(), map.topRight());
+}
+
+// Its elevations take a moment to be read.
+TEST_F(GlobeOverlaysTest, TheOverviewIsNeverEmpty)
+{
+    Minimap& map = *overlays().minimap();
+    int seen = 0;
+    scene(2)->trigger();
+    ASSERT_TRUE(waitFor([&] {
+        if (map.isVisible()) {
+            const QImage picture = map.grab().toImage();
+            EXPECT_GT(qGray(picture.pixel(picture.rect().center() / 2)), 40) << seen;
+            ++seen;
+        }
+        return seen > 2;
+    }));
 }
 
 TEST_F(GlobeOverlaysTest, TheActionsOfTheFlatMapShowAndHideThem)
 {
     ASSERT_TRUE(showGlobe());
+    ASSERT_TRUE(hasOverview());
     for (const auto& [name, part] :
          {std::pair<const char*, QWidget*>{"legend", overlays().legend()},
           {"minimap", overlays().minimap()},
@@ -152,6 +174,7 @@ TEST_F(GlobeOverlaysTest, TheCompassTurnsNorthUp)
 TEST_F(GlobeOverlaysTest, TheOverviewShowsTheWholeBodyAndLeadsToAnyPlace)
 {
     ASSERT_TRUE(showGlobe());
+    ASSERT_TRUE(hasOverview());
     Minimap& map = *overlays().minimap();
     const GeographicPoint place{.longitude = Angle::degrees(100.0),
                                 .latitude = Angle::degrees(-45.0)};

@@ -35,6 +35,20 @@ TEST_F(GlobeTest, ReplacesTheFlatMapAndHandsTheCameraOverBothWays)
     EXPECT_NEAR(view().camera().distance_m, before.distance_m, 1e-6 * before.distance_m);
 }
 
+// The view in which the bundled Mars opens: Tharsis, from so far that the body is seen as a ball.
+TEST_F(GlobeTest, ShowsTheGroundOfAnObliqueFlatViewInsteadOfTheHorizonInItsMiddle)
+{
+    const OrbitCamera flat = view().camera();
+    ASSERT_GT(flat.tilt.degrees(), 45.0);
+    ASSERT_TRUE(showGlobe());
+    for (const double height : {0.15, 0.5, 0.95}) {
+        EXPECT_TRUE(globe().hitAt({globeMiddle().x(), height * globe().height()})) << height;
+    }
+    // Back without a motion: the oblique view.
+    scene(1)->trigger();
+    EXPECT_EQ(view().camera(), flat);
+}
+
 TEST_F(GlobeTest, ShowsABallBeforeTheSky)
 {
     ASSERT_TRUE(showGlobe());
