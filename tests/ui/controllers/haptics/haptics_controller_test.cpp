@@ -1,6 +1,7 @@
 // Devices in a real window: contact, moving the map, and disconnecting.
 #include "core/contact/contact_model.h"
 #include "core/view/color_ramp.h"
+#include "core/view/navigation.h"
 #include "haptics/trace/goal_file.h"
 #include "tests/support/map_maker.h"
 #include "tests/ui/controllers/haptics/touched_hill.h"
@@ -40,7 +41,7 @@ QByteArray contentOf(const QString& file)
 void expectStrokesInPicture(TerrainView& view, const HapticsController& haptics)
 {
     const auto wait_for = [](auto condition) { return QTest::qWaitFor(condition, kTimeout); };
-    const OrbitCamera home = view.camera();
+    const OrbitCamera home = homeCamera(view.ground().box(view.exaggeration()), view.viewport());
     struct Sight {
         const char* name;
         double distance_share;
