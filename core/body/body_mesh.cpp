@@ -77,30 +77,6 @@ BodyMesh::build(std::shared_ptr<const FilledHeightfield> heights,
     return std::shared_ptr<const BodyMesh>(std::move(mesh));
 }
 
-std::uint32_t BodyMesh::vertexAt(std::uint32_t corner) const noexcept
-{
-    const std::uint32_t face = corner / 3;
-    const std::uint32_t number = corner % 3;
-    const std::uint32_t cell = face / 2;
-    const std::uint32_t row = cell / cell_columns_;
-    if (row >= rows_ - 1) {
-        const Cap& cap = capOf(face);
-        const std::uint32_t turned = cap.is_turned && number != 0U ? 3U - number : number;
-        return cap.row * columns_ + capColumns(face - cap.first_face)[turned];
-    }
-    const std::uint32_t column = cell - row * cell_columns_;
-    const bool is_upper = face % 2 == 1;
-    switch (roleOf(is_upper, number)) {
-    case kFirst:
-        return row * columns_ + column;
-    case kFar:
-        return (row + 1) * columns_ + nextColumn(column);
-    case kThird:
-        break;
-    }
-    return is_upper ? row * columns_ + nextColumn(column) : (row + 1) * columns_ + column;
-}
-
 std::uint32_t BodyMesh::across(std::uint32_t corner) const noexcept
 {
     const std::uint32_t face = corner / 3;
@@ -194,6 +170,37 @@ std::uint32_t BodyMesh::capCornerAtEdge(const Cap& cap, std::uint32_t column) co
     return capCorner(cap, count - 1, (count - 1) % 2 == 1 ? 2U : 0U);
 }
 
+std::uint32_t BodyMesh::cornerAtEdge(std::uint32_t a, std::uint32_t b) const noexcept
+{
+    // The first end is further up or, in its row, further left.
+    const std::uint32_t first = std::min(a, b);
+    const std::uint32_t row = first / columns_;
+    const std::uint32_t column = first - row * columns_;
+    const std::uint32_t step = std::max(a, b) - first;
+    if (column + 1 < columns_) {
+        if (step == 1 && row > 0) { // along a row: the cell above
+            return cellCorner(column, row - 1, false, kFirst);
+        }
+        if (step == columns_ && column > 0) { // along a column: the cell to the left
+            return cellCorner(column - 1, row, true, kFirst);
+        }
+        if (step == columns_ + 1) { // a diagonal
+            return cellCorner(column, row, false, kThird);
+        }
+    }
+    for (const std::uint32_t corner : fan(a)) {
+        const std::uint32_t next = nextCorner(corner);
+        const std::uint32_t previous = previousCorner(corner);
+        if (vertexAt(next) == b) {
+            return std::min(previous, across(previous));
+        }
+        if (vertexAt(previous) == b) {
+            return std::min(next, across(next));
+        }
+    }
+    return 0; // not edges of one face
+}
+
 FanCorners BodyMesh::fan(std::uint32_t vertex) const noexcept
 {
     const std::uint32_t row = vertex / columns_;
@@ -245,23 +252,27 @@ FanCorners BodyMesh::fan(std::uint32_t vertex) const noexcept
     return corners;
 }
 
-VertexRing BodyMesh::ring(std::uint32_t vertex, const FanCorners& corners) const noexcept
+VertexRing BodyMesh::ring(std::uint32_t vertex,
+                          const ScenePoint& point,
+                          const FanCorners& corners) const noexcept
 {
     const std::uint32_t row = vertex / columns_;
     const std::uint32_t column = vertex - row * columns_;
     VertexRing ring;
     if (isInside(column, row)) {
-        const std::array<std::array<std::uint32_t, 2>, 6> around{{{column, row + 1},
-                                                                  {column + 1, row + 1},
-                                                                  {column + 1, row},
-                                                                  {column, row - 1},
-                                                                  {column - 1, row - 1},
-                                                                  {column - 1, row}}};
-        ring.count = around.size();
-        for (std::size_t i = 0; i < around.size(); ++i) {
-            const auto [c, r] = around[is_mirrored_ && i > 0 ? around.size() - i : i];
-            ring.vertices[i] = r * columns_ + c;
-            ring.points[i] = sampleAt(c, r);
+        const auto add = [&](std::uint32_t c, std::uint32_t r) {
+            ring.vertices[ring.count] = r * columns_ + c;
+            ring.along[ring.count++] = sampleAt(c, r) - point;
+        };
+        add(column, row + 1);
+        add(column + 1, row + 1);
+        add(column + 1, row);
+        add(column, row - 1);
+        add(column - 1, row - 1);
+        add(column - 1, row);
+        if (is_mirrored_) { // the same from the first one on, the other way around
+            std::reverse(ring.vertices.begin() + 1, ring.vertices.begin() + 6);
+            std::reverse(ring.along.begin() + 1, ring.along.begin() + 6);
         }
         return ring;
     }
@@ -273,7 +284,7 @@ VertexRing BodyMesh::ring(std::uint32_t vertex, const FanCorners& corners) const
         ring.vertices[ring.count++] = end;
     }
     for (std::size_t i = 0; i < ring.count; ++i) {
-        ring.points[i] = this->vertex(ring.vertices[i]);
+        ring.along[i] = this->vertex(ring.vertices[i]) - point;
     }
     return ring;
 }

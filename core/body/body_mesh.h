@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -28,18 +29,25 @@ public:
     const std::uint32_t* end() const noexcept { return corners_.data() + count_; }
     std::uint32_t front() const noexcept { return corners_.front(); }
     std::uint32_t back() const noexcept { return corners_[count_ - 1]; }
+    std::size_t size() const noexcept { return count_; }
 
 private:
     std::array<std::uint32_t, kCountMax> corners_{};
     std::size_t count_ = 0;
 };
 
-/// The ends of the edges of a vertex, in the order of its corners, each of which lies between two
-/// of them: after the last comes the first, unless the vertex is at the border.
+/// A sample by its column and row in the positions; where there is none, outside them.
+struct BodySample {
+    std::uint32_t column;
+    std::uint32_t row;
+};
+
+/// The edges of a vertex, in the order of its corners, each of which lies between two of them:
+/// after the last comes the first, unless the vertex is at the border, which has one more edge.
 struct VertexRing {
     static constexpr std::size_t kCountMax = FanCorners::kCountMax + 1;
-    std::array<std::uint32_t, kCountMax> vertices;
-    std::array<ScenePoint, kCountMax> points;
+    std::array<std::uint32_t, kCountMax> vertices; // at their ends
+    std::array<Vec3, kCountMax> along;             // to their ends
     std::size_t count = 0;
 };
 
@@ -78,12 +86,13 @@ public:
     }
     MeshFace face(std::uint32_t index) const noexcept
     {
-        return {vertexAt(3 * index), vertexAt(3 * index + 1), vertexAt(3 * index + 2)};
+        const std::array<BodySample, 3> at = samplesOf(index);
+        return {vertexOf(at[0]), vertexOf(at[1]), vertexOf(at[2])};
     }
     std::array<ScenePoint, 3> points(std::uint32_t face) const noexcept
     {
-        return {vertex(vertexAt(3 * face)), vertex(vertexAt(3 * face + 1)),
-                vertex(vertexAt(3 * face + 2))};
+        const std::array<BodySample, 3> at = samplesOf(face);
+        return {pointOf(at[0]), pointOf(at[1]), pointOf(at[2])};
     }
     Vec3 normal(std::uint32_t face) const noexcept
     {
@@ -92,13 +101,91 @@ public:
     }
     std::uint32_t across(std::uint32_t corner) const noexcept;
     FanCorners fan(std::uint32_t vertex) const noexcept;
-    /// `corners` is fan(vertex).
-    VertexRing ring(std::uint32_t vertex, const FanCorners& corners) const noexcept;
+    /// `corners` is fan(vertex), `point` is its position.
+    VertexRing
+    ring(std::uint32_t vertex, const ScenePoint& point, const FanCorners& corners) const noexcept;
     bool isAtBorder(std::uint32_t vertex) const noexcept
     {
         return across(previousCorner(fan(vertex).front())) == kNone;
     }
-    std::uint32_t vertexAt(std::uint32_t corner) const noexcept;
+    std::uint32_t vertexAt(std::uint32_t corner) const noexcept
+    {
+        return vertexOf(samplesOf(corner / 3)[corner % 3]);
+    }
+    /// The vertices of the edge opposite a corner, from the next corner to the previous one.
+    std::array<std::uint32_t, 2> edgeEnds(std::uint32_t corner) const noexcept
+    {
+        const std::array<BodySample, 3> at = samplesOf(corner / 3);
+        const std::uint32_t number = corner % 3;
+        return {vertexOf(at[number == 2 ? 0 : number + 1]),
+                vertexOf(at[number == 0 ? 2 : number - 1])};
+    }
+    /// The lesser of the corners opposite the edge between two vertices of a face.
+    std::uint32_t cornerAtEdge(std::uint32_t a, std::uint32_t b) const noexcept;
+
+    // Faces by their samples: over the edges of cells that do not lie across the seam, a walk finds
+    // the next vertex by adding, without a division by the number of columns.
+
+    /// The samples of a face's corners.
+    std::array<BodySample, 3> samplesOf(std::uint32_t face) const noexcept
+    {
+        const std::uint32_t cell = face / 2;
+        const std::uint32_t row = cell / cell_columns_;
+        if (row >= rows_ - 1) {
+            return samplesOfCap(face);
+        }
+        const std::uint32_t column = cell - row * cell_columns_;
+        const std::uint32_t next = nextColumn(column);
+        const bool is_upper = face % 2 == 1;
+        const BodySample far{next, row + 1};
+        const BodySample third = is_upper ? BodySample{next, row} : BodySample{column, row + 1};
+        const bool is_far_second = is_upper != is_mirrored_;
+        return {{{column, row}, is_far_second ? far : third, is_far_second ? third : far}};
+    }
+    std::uint32_t vertexOf(const BodySample& sample) const noexcept
+    {
+        return sample.row * columns_ + sample.column;
+    }
+    ScenePoint pointOf(const BodySample& sample) const noexcept
+    {
+        return sampleAt(sample.column, sample.row);
+    }
+    /// The samples of a face if step() finds its neighbors from them; otherwise three for which it
+    /// finds none: those of a pole's triangles, and of cells across the seam.
+    std::array<BodySample, 3> stepsFrom(std::uint32_t face) const noexcept
+    {
+        constexpr BodySample kNowhere{std::uint32_t{1} << 30U, 0};
+        const std::array<BodySample, 3> at = samplesOf(face);
+        const bool is_plain =
+            face < 2 * cell_columns_ * (rows_ - 1) && at[0].column + 1 != columns_;
+        return is_plain ? at : std::array{kNowhere, kNowhere, kNowhere};
+    }
+    /// From a face's corner over the edge between the two others: the far corner of the next face,
+    /// in the same cell or in the one beside it. Not isSample() if that face must be found by
+    /// across().
+    static BodySample
+    step(const BodySample& from, const BodySample& a, const BodySample& b) noexcept
+    {
+        return {a.column + b.column - from.column, a.row + b.row - from.row};
+    }
+    bool isSample(const BodySample& sample) const noexcept
+    {
+        return sample.column < columns_ && sample.row < rows_;
+    }
+    /// The corner at the first of a face's samples, which are in the order of its corners and from
+    /// stepsFrom() or step().
+    std::uint32_t cornerOf(const std::array<BodySample, 3>& at) const noexcept
+    {
+        const std::uint32_t column = std::min({at[0].column, at[1].column, at[2].column});
+        const std::uint32_t row = std::min({at[0].row, at[1].row, at[2].row});
+        const bool is_upper = at[0].row + at[1].row + at[2].row == 3 * row + 1;
+        const bool is_right = at[0].column > column;
+        const bool is_below = at[0].row > row;
+        return cellCorner(column, row, is_upper,
+                          is_right != is_below ? kThird
+                          : is_right           ? kFar
+                                               : kFirst);
+    }
 
     static std::uint32_t faceOf(std::uint32_t corner) noexcept { return corner / 3; }
     static std::uint32_t nextCorner(std::uint32_t corner) noexcept
@@ -113,16 +200,21 @@ public:
     /// Where a vertical path down to `point` begins above all of the map.
     ScenePoint highAbove(const ScenePoint& point) const noexcept;
 
-    /// TriangleTree's queries: its items are blocks of cells.
+    /// TriangleTree's queries: its items are blocks of cells. In place of alongSegment(),
+    /// pointsAlong() calls visit(face, points, t_max).
     class Tree {
     public:
         const ScenePoint& middle() const noexcept { return mesh_.tree_.middle(); }
         template <typename F>
         void
-        alongSegment(const Vec3& from, const Vec3& along, double slack, F&& visit) const noexcept
+        pointsAlong(const Vec3& from, const Vec3& along, double slack, F&& visit) const noexcept
         {
+            const Beam beam(mesh_.tree_, from, along, slack);
             mesh_.tree_.alongSegment(from, along, slack, [&](std::uint32_t block, double& t_max) {
-                mesh_.eachFace(block, [&](std::uint32_t face) { visit(face, t_max); });
+                mesh_.eachFaceAlong(beam, block,
+                                    [&](std::uint32_t face, const std::array<ScenePoint, 3>& at) {
+                                        visit(face, at, t_max);
+                                    });
             });
         }
         template <typename F>
@@ -211,6 +303,14 @@ private:
         return caps_[1].exists && face >= caps_[1].first_face ? caps_[1] : caps_[0];
     }
     std::array<std::uint32_t, 3> capColumns(std::uint32_t triangle) const noexcept;
+    std::array<BodySample, 3> samplesOfCap(std::uint32_t face) const noexcept
+    {
+        const Cap& cap = capOf(face);
+        const auto [low, middle, high] = capColumns(face - cap.first_face);
+        return {{{low, cap.row},
+                 {cap.is_turned ? high : middle, cap.row},
+                 {cap.is_turned ? middle : high, cap.row}}};
+    }
     std::uint32_t
     capCorner(const Cap& cap, std::uint32_t triangle, std::uint32_t turned) const noexcept
     {
@@ -246,6 +346,96 @@ private:
         }
     }
     static constexpr std::uint32_t kCapFaces = 8; // of a block
+
+    /// A straight line, as points are seen along it: sheared along its longest axis, it is the
+    /// origin.
+    class Beam {
+    public:
+        Beam(const TriangleTree& tree, const Vec3& from, const Vec3& along, double slack) noexcept
+            : start_(tree.middle() + from)
+        {
+            const double x = std::abs(along.x);
+            const double y = std::abs(along.y);
+            const double z = std::abs(along.z);
+            axis_ = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+            const Vec3 turned = turn(along);
+            across_ = turned.x / turned.z;
+            down_ = turned.y / turned.z;
+            // Far more than the rounding of points, and far less than a cell.
+            constexpr double kRounding = 256.0 * std::numeric_limits<double>::epsilon();
+            margin_m_ = 2.0 * slack + kRounding * (tree.reach() + length(from));
+        }
+        /// Two coordinates across the line.
+        std::array<double, 2> seen(const ScenePoint& point) const noexcept
+        {
+            const Vec3 p = turn(point - start_);
+            return {p.x - across_ * p.z, p.y - down_ * p.z};
+        }
+        /// Whether the line may hit what has these bounds.
+        bool meets(double low, double high) const noexcept
+        {
+            return low <= margin_m_ && high >= -margin_m_;
+        }
+
+    private:
+        Vec3 turn(const Vec3& v) const noexcept
+        {
+            return axis_ == 2 ? v : axis_ == 0 ? Vec3{v.y, v.z, v.x} : Vec3{v.z, v.x, v.y};
+        }
+
+        ScenePoint start_;
+        int axis_;
+        double across_;
+        double down_;
+        double margin_m_;
+    };
+
+    // The faces of a block that the line may hit: each of its points is computed once, and cells
+    // beside the line are left out.
+    template <typename F>
+    void eachFaceAlong(const Beam& beam, std::uint32_t block, F&& visit) const noexcept
+    {
+        if (block >= cell_blocks_) {
+            eachFace(block, [&](std::uint32_t face) { visit(face, points(face)); });
+            return;
+        }
+        constexpr std::uint32_t kSide = kBlockCells + 1;
+        const std::uint32_t column = block % blocks_per_row_ * kBlockCells;
+        const std::uint32_t row = block / blocks_per_row_ * kBlockCells;
+        const std::uint32_t columns = std::min(kBlockCells, cell_columns_ - column);
+        const std::uint32_t rows = std::min(kBlockCells, rows_ - 1 - row);
+        std::array<ScenePoint, kSide * kSide> at;
+        std::array<std::array<double, 2>, kSide * kSide> seen;
+        for (std::uint32_t r = 0; r <= rows; ++r) {
+            for (std::uint32_t c = 0; c <= columns; ++c) {
+                const std::uint32_t there = column + c;
+                at[r * kSide + c] = sampleAt(there == columns_ ? 0 : there, row + r);
+                seen[r * kSide + c] = beam.seen(at[r * kSide + c]);
+            }
+        }
+        for (std::uint32_t r = 0; r < rows; ++r) {
+            for (std::uint32_t c = 0; c < columns; ++c) {
+                const std::uint32_t first = r * kSide + c;
+                const std::uint32_t far = first + kSide + 1;
+                const auto meets = [&](std::size_t i) {
+                    const auto [low, high] = std::minmax(
+                        {seen[first][i], seen[first + 1][i], seen[first + kSide][i], seen[far][i]});
+                    return beam.meets(low, high);
+                };
+                if (!meets(0) || !meets(1)) {
+                    continue;
+                }
+                const std::uint32_t lower = 2 * ((row + r) * cell_columns_ + column + c);
+                const auto offer = [&](std::uint32_t face, std::uint32_t third,
+                                       bool is_far_second) {
+                    visit(face, std::array{at[first], at[is_far_second ? far : third],
+                                           at[is_far_second ? third : far]});
+                };
+                offer(lower, first + kSide, is_mirrored_);
+                offer(lower + 1, first + 1, !is_mirrored_);
+            }
+        }
+    }
 
     Status buildTree(JobMonitor& monitor);
 

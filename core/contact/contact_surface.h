@@ -105,6 +105,7 @@ struct SurfaceLegs {
 ///   point(c)           the coordinates of a position on the surface
 ///   toGoal(v, g)       from a vertex to the goal
 ///   between(a, b)      from one vertex to another of the same face
+///   toGoal(t, i, g), between(t, i, j)  the same from corner i of a facet
 ///   corners(f)         three vertices, counter-clockwise seen from free space
 ///   facet(f, i)        the face for walking, its corner i (0 to 2) first
 ///   rotated(t, i)      the same facet, its corner i first
@@ -182,6 +183,14 @@ concept ContactSurface = requires(const S& s,
     noexcept->std::same_as<Vec3>;
     {
         s.between(v, v)
+    }
+    noexcept->std::same_as<Vec3>;
+    {
+        s.toGoal(facet, std::size_t{0}, g)
+    }
+    noexcept->std::same_as<Vec3>;
+    {
+        s.between(facet, std::size_t{0}, std::size_t{0})
     }
     noexcept->std::same_as<Vec3>;
     {

@@ -270,7 +270,7 @@ private:
     {
         constexpr int kRise = 3;
         if (!std::exchange(is_known_, true)) {
-            left() = surface_.facet(contact_.face, 0);
+            remake(left(), [&] { return surface_.facet(contact_.face, 0); });
         }
         const SurfaceFoot last = left().foot(end);
         if (last.above <= 0.0 && last.isInside()) {
@@ -329,14 +329,14 @@ private:
             left_corner_ = kCorner;
             has_right_ = has_beyond;
             if (has_beyond) {
-                right() = surface_.beyond(left(), kCorner);
+                remake(right(), [&] { return surface_.beyond(left(), kCorner); });
             }
             contact_.feature = ContactFeature::Edge;
             return alongEdge(last, end);
         }
         if (bend == 0 && !is_stuck) {
             at_ = share;
-            right() = surface_.beyond(left(), kCorner);
+            remake(right(), [&] { return surface_.beyond(left(), kCorner); });
             left_at_ = 1 - left_at_;
             return false;
         }
@@ -349,7 +349,7 @@ private:
         const double at_k = weight_of(kK);
         const double sum = weight_of(kJ) + at_k;
         const double to_k = sum > 0.0 ? at_k / sum : 0.5;
-        const Vec3 edge = surface_.between(left().vertices[kJ], left().vertices[kK]);
+        const Vec3 edge = surface_.between(left(), kJ, kK);
         if (is_stuck || !has_beyond) {
             restOnEdge(left().vertices[kJ], left().vertices[kK], to_k);
             unstick(share, edge, end);
@@ -385,11 +385,13 @@ private:
         constexpr int kToRight = 1;
         constexpr int kToFrom = 2;
         constexpr int kToTo = 3;
-        const Vertex from = left().vertices[(left_corner_ + 1) % 3];
-        const Vertex to = left().vertices[(left_corner_ + 2) % 3];
-        const Vec3 edge = surface_.between(from, to);
+        const std::size_t from_corner = (left_corner_ + 1) % 3;
+        const std::size_t to_corner = (left_corner_ + 2) % 3;
+        const Vertex from = left().vertices[from_corner];
+        const Vertex to = left().vertices[to_corner];
+        const Vec3 edge = surface_.between(left(), from_corner, to_corner);
         const double length_squared = dot(edge, edge);
-        const double last_along = dot(surface_.toGoal(from, end), edge);
+        const double last_along = dot(surface_.toGoal(left(), from_corner, end), edge);
         const SurfaceFoot last_right = has_right_ ? right().foot(end) : SurfaceFoot{};
         const bool is_into_left = Steps::isInward(last_left.weights[left_corner_], left(), end);
         const bool is_into_right =
@@ -401,7 +403,8 @@ private:
                     // The goal has passed through the edge itself. The proxy leaves the surface
                     // where the goal's path is nearest to the edge.
                     locateGoal(end);
-                    const double at = dot(surface_.toGoal(from, goal_), edge) / length_squared;
+                    const double at =
+                        dot(surface_.toGoal(left(), from_corner, goal_), edge) / length_squared;
                     restOnEdge(from, to, std::clamp(at, 0.0, 1.0));
                     return leave(*over, end);
                 }
@@ -409,7 +412,7 @@ private:
             goal_ = end;
             return settleOnEdge();
         }
-        const double first_along = dot(surface_.toGoal(from, begin_), edge);
+        const double first_along = dot(surface_.toGoal(left(), from_corner, begin_), edge);
         Event event;
         if (is_into_left) {
             event.consider(left().foot(begin_).weights[left_corner_],

@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <new>
+#include <type_traits>
 
 namespace marsview {
 
@@ -16,6 +18,15 @@ inline constexpr double kEdgeShareMin = 1e-12;
 /// An edge leads closer to the goal from a vertex if the cosine between its direction and the
 /// goal's is more than this.
 inline constexpr double kEdgeCosineMin = 1e-13;
+
+/// `place` becomes make(), which is built there. Copying a large facet that has just been written,
+/// two numbers at a time, waits for each of them.
+template <typename T, typename F>
+void remake(T& place, F&& make) noexcept
+{
+    static_assert(std::is_trivially_destructible_v<T>);
+    ::new (static_cast<void*>(&place)) T(make());
+}
 
 /// Free functions over one kind of surface. Real-time safe.
 template <ContactSurface S>

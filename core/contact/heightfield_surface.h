@@ -197,6 +197,19 @@ public:
         return offset(static_cast<double>(to.column - from.column),
                       static_cast<double>(to.row - from.row), heightOf(to) - heightOf(from));
     }
+    Vec3 toGoal(const Facet& from, std::size_t i, const Goal& goal) const noexcept
+    {
+        const auto [column, row] = from.vertices[i];
+        return offset(goal.grid.column - static_cast<double>(column),
+                      goal.grid.row - static_cast<double>(row), goal.scene.z - from.heights[i]);
+    }
+    Vec3 between(const Facet& facet, std::size_t from, std::size_t to) const noexcept
+    {
+        const Vertex& a = facet.vertices[from];
+        const Vertex& b = facet.vertices[to];
+        return offset(static_cast<double>(b.column - a.column), static_cast<double>(b.row - a.row),
+                      facet.heights[to] - facet.heights[from]);
+    }
     std::array<Vertex, 3> corners(Face face) const noexcept
     {
         const Vertex upper_left{face.column, face.row};

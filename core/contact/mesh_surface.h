@@ -41,17 +41,29 @@ struct MeshGoal {
 };
 template <typename Mesh>
 using MeshCorners = decltype(std::declval<const Mesh&>().fan(0));
-/// A mesh with few edges at a vertex, which computes the ends of all of them at once.
+/// A mesh with few edges at a vertex, which computes all of them at once.
 template <typename Mesh>
 concept MeshWithRings = requires(const Mesh& mesh, const MeshCorners<Mesh>& corners)
 {
-    mesh.ring(0, corners);
+    mesh.ring(0, ScenePoint{}, corners);
 };
 template <typename Mesh>
 struct MeshRing {};
 template <MeshWithRings Mesh>
 struct MeshRing<Mesh> {
-    decltype(std::declval<const Mesh&>().ring(0, MeshCorners<Mesh>())) ends;
+    decltype(std::declval<const Mesh&>().ring(0, ScenePoint{}, MeshCorners<Mesh>())) edges;
+};
+/// A mesh of samples, on which a walk finds most vertices by adding (BodyMesh).
+template <typename Mesh>
+concept MeshOfSamples = requires(const Mesh& mesh)
+{
+    mesh.stepsFrom(0);
+};
+template <typename Mesh>
+struct MeshSteps {};
+template <MeshOfSamples Mesh>
+struct MeshSteps<Mesh> {
+    decltype(std::declval<const Mesh&>().stepsFrom(0)) at; // of the corners, in their order
 };
 template <typename Mesh>
 struct MeshFan {
@@ -63,10 +75,12 @@ struct MeshFan {
 
 /// The face that a walk is on. Weights are dot products with `inward`, counted from a corner on
 /// their own edge, so that they are exact where the goal is near it.
+template <typename Mesh>
 struct MeshFacet {
     std::array<MeshVertex, 3> vertices; // counter-clockwise seen from free space
     double scale;                       // |normal|²
-    std::uint32_t corner;               // of the mesh, the first
+    std::uint32_t corner;               // of the mesh, the first; kNone: found from `steps`
+    [[no_unique_address]] MeshSteps<Mesh> steps;
     std::array<ScenePoint, 3> points;
     Vec3 normal;
     std::array<Vec3, 3> inward; // from the edge opposite corner i to it, times |normal|²
@@ -119,7 +133,7 @@ public:
     using Face = MeshSide;
     using Goal = MeshGoal;
     using Fan = MeshFan<Mesh>;
-    using Facet = MeshFacet;
+    using Facet = MeshFacet<Mesh>;
     using EdgeFacets = SurfaceEdgeFacets<BasicMeshSurface>;
     using Contact = SurfaceContact<BasicMeshSurface>;
     using Cast = SurfaceCast<BasicMeshSurface>;
@@ -160,6 +174,14 @@ public:
     {
         return mesh_->vertex(to.index) - mesh_->vertex(from.index);
     }
+    Vec3 toGoal(const Facet& from, std::size_t i, const Goal& goal) const noexcept
+    {
+        return goal.from(from.points[i]);
+    }
+    Vec3 between(const Facet& facet, std::size_t from, std::size_t to) const noexcept
+    {
+        return facet.points[to] - facet.points[from];
+    }
     std::array<Vertex, 3> corners(Face face) const noexcept
     {
         const MeshFace f = mesh_->face(face.face);
@@ -173,34 +195,50 @@ public:
     {
         const std::size_t second = (first + 1) % 3;
         const std::size_t third = (first + 2) % 3;
-        return facetOf(cornerOf(facet, first),
+        return facetOf(turnedCorner(facet, first),
                        {facet.vertices[first], facet.vertices[second], facet.vertices[third]},
-                       {facet.points[first], facet.points[second], facet.points[third]});
+                       {facet.points[first], facet.points[second], facet.points[third]},
+                       turnedSteps(facet, {first, second, third}));
     }
-    Face faceOf(const Facet& facet) const noexcept { return {facet.corner / 3}; }
+    Face faceOf(const Facet& facet) const noexcept { return {Mesh::faceOf(cornerOf(facet, 0))}; }
     EdgeFacets edgeFacets(Edge edge) const noexcept
     {
         EdgeFacets facets{facetAt(edge.corner), {}, false};
-        const std::uint32_t beyond = mesh_->across(edge.corner);
-        if (beyond != Mesh::kNone) {
-            facets.right = facetBeyond(facets.left, 0, beyond);
-            facets.has_right = true;
+        facets.has_right = hasBeyond(facets.left, 0);
+        if (facets.has_right) {
+            facets.right = beyond(facets.left, 0);
         }
         return facets;
     }
     bool hasBeyond(const Facet& facet, std::size_t opposite) const noexcept
     {
+        if constexpr (MeshOfSamples<Mesh>) {
+            if (mesh_->isSample(stepOver(facet, opposite))) {
+                return true;
+            }
+        }
         return mesh_->across(cornerOf(facet, opposite)) != Mesh::kNone;
     }
     Facet beyond(const Facet& facet, std::size_t opposite) const noexcept
     {
-        return facetBeyond(facet, opposite, mesh_->across(cornerOf(facet, opposite)));
+        const std::size_t second = (opposite + 2) % 3;
+        const std::size_t third = (opposite + 1) % 3;
+        if constexpr (MeshOfSamples<Mesh>) {
+            const auto far = stepOver(facet, opposite);
+            if (mesh_->isSample(far)) {
+                return facetOf(
+                    Mesh::kNone,
+                    {Vertex{mesh_->vertexOf(far)}, facet.vertices[second], facet.vertices[third]},
+                    {mesh_->pointOf(far), facet.points[second], facet.points[third]},
+                    {{far, facet.steps.at[second], facet.steps.at[third]}});
+            }
+        }
+        return facetAt(mesh_->across(cornerOf(facet, opposite)));
     }
     int bend(const Facet& facet, std::size_t opposite) const noexcept
     {
         constexpr double kFlat = 16.0 * std::numeric_limits<double>::epsilon();
-        const std::uint32_t far = mesh_->across(cornerOf(facet, opposite));
-        const Vec3 to_far = mesh_->vertex(mesh_->vertexAt(far)) - facet.points[(opposite + 1) % 3];
+        const Vec3 to_far = pointBeyond(facet, opposite) - facet.points[(opposite + 1) % 3];
         const double above = dot(facet.normal, to_far);
         return above * above <= kFlat * kFlat * facet.scale * dot(to_far, to_far) ? 0
                : above > 0.0                                                      ? 1
@@ -209,6 +247,10 @@ public:
 
     std::array<Vertex, 2> ends(Edge edge) const noexcept
     {
+        if constexpr (MeshOfSamples<Mesh>) {
+            const auto [from, to] = mesh_->edgeEnds(edge.corner);
+            return {Vertex{from}, Vertex{to}};
+        }
         return {Vertex{mesh_->vertexAt(Mesh::nextCorner(edge.corner))},
                 Vertex{mesh_->vertexAt(Mesh::previousCorner(edge.corner))}};
     }
@@ -238,17 +280,19 @@ public:
 
     Fan fan(Vertex v) const noexcept
     {
-        Fan fan{v, mesh_->vertex(v.index), mesh_->fan(v.index), {}};
+        const ScenePoint point = mesh_->vertex(v.index);
+        const auto corners = mesh_->fan(v.index);
         if constexpr (MeshWithRings<Mesh>) {
-            fan.ring.ends = mesh_->ring(v.index, fan.corners);
+            return {v, point, corners, {mesh_->ring(v.index, point, corners)}};
+        } else {
+            return {v, point, corners, {}};
         }
-        return fan;
     }
     template <typename F>
     void eachSpoke(const Fan& fan, F&& function) const noexcept
     {
         if constexpr (MeshWithRings<Mesh>) {
-            for (std::size_t i = 0; i < fan.ring.ends.count; ++i) {
+            for (std::size_t i = 0; i < fan.ring.edges.count; ++i) {
                 function(spokeAt(fan, i));
             }
             return;
@@ -267,7 +311,7 @@ public:
         if constexpr (MeshWithRings<Mesh>) {
             std::size_t i = 0;
             for (const std::uint32_t corner : fan.corners) {
-                const std::size_t next = i + 1 < fan.ring.ends.count ? i + 1 : 0;
+                const std::size_t next = i + 1 < fan.ring.edges.count ? i + 1 : 0;
                 function(Face{Mesh::faceOf(corner)}, spokeAt(fan, i), spokeAt(fan, next));
                 i = next;
             }
@@ -300,34 +344,70 @@ public:
     std::uint32_t stepsAlong(double /*way*/) const noexcept { return steps_max_; }
 
 private:
-    static std::uint32_t cornerOf(const Facet& facet, std::size_t i) noexcept
+    static std::uint32_t turnedCorner(const Facet& facet, std::size_t i) noexcept
     {
-        return i == 0   ? facet.corner
-               : i == 1 ? Mesh::nextCorner(facet.corner)
-                        : Mesh::previousCorner(facet.corner);
+        return facet.corner == Mesh::kNone ? Mesh::kNone
+               : i == 0                    ? facet.corner
+               : i == 1                    ? Mesh::nextCorner(facet.corner)
+                                           : Mesh::previousCorner(facet.corner);
     }
-    // The face of corner `far`, opposite an edge of another facet.
-    Facet facetBeyond(const Facet& facet, std::size_t opposite, std::uint32_t far) const noexcept
+    static MeshSteps<Mesh>
+    turnedSteps([[maybe_unused]] const Facet& facet,
+                [[maybe_unused]] const std::array<std::size_t, 3>& order) noexcept
     {
-        const std::size_t second = (opposite + 2) % 3;
-        const std::size_t third = (opposite + 1) % 3;
-        const Vertex vertex{mesh_->vertexAt(far)};
-        return facetOf(far, {vertex, facet.vertices[second], facet.vertices[third]},
-                       {mesh_->vertex(vertex.index), facet.points[second], facet.points[third]});
+        if constexpr (MeshOfSamples<Mesh>) {
+            const auto& at = facet.steps.at;
+            return {{at[order[0]], at[order[1]], at[order[2]]}};
+        } else {
+            return {};
+        }
+    }
+    std::uint32_t cornerOf(const Facet& facet, std::size_t i) const noexcept
+    {
+        if constexpr (MeshOfSamples<Mesh>) {
+            if (facet.corner == Mesh::kNone) {
+                return mesh_->cornerOf(turnedSteps(facet, {i, (i + 1) % 3, (i + 2) % 3}).at);
+            }
+        }
+        return turnedCorner(facet, i);
+    }
+    static auto stepOver(const Facet& facet,
+                         std::size_t opposite) noexcept requires MeshOfSamples<Mesh>
+    {
+        const auto& at = facet.steps.at;
+        return Mesh::step(at[opposite], at[(opposite + 1) % 3], at[(opposite + 2) % 3]);
+    }
+    // The far corner of the face beyond an edge, if there is one.
+    ScenePoint pointBeyond(const Facet& facet, std::size_t opposite) const noexcept
+    {
+        if constexpr (MeshOfSamples<Mesh>) {
+            const auto far = stepOver(facet, opposite);
+            if (mesh_->isSample(far)) {
+                return mesh_->pointOf(far);
+            }
+        }
+        return mesh_->vertex(mesh_->vertexAt(mesh_->across(cornerOf(facet, opposite))));
     }
     Facet facetAt(std::uint32_t corner) const noexcept
     {
-        const MeshFace face = mesh_->face(Mesh::faceOf(corner));
+        const std::uint32_t face = Mesh::faceOf(corner);
         const std::uint32_t first = corner % 3;
-        const std::array<Vertex, 3> vertices{Vertex{face[first]}, Vertex{face[(first + 1) % 3]},
-                                             Vertex{face[(first + 2) % 3]}};
-        return facetOf(corner, vertices,
-                       {mesh_->vertex(vertices[0].index), mesh_->vertex(vertices[1].index),
-                        mesh_->vertex(vertices[2].index)});
+        const std::uint32_t second = (first + 1) % 3;
+        const std::uint32_t third = (first + 2) % 3;
+        const MeshFace all = mesh_->face(face);
+        const auto points = mesh_->points(face);
+        MeshSteps<Mesh> steps{};
+        if constexpr (MeshOfSamples<Mesh>) {
+            const auto at = mesh_->stepsFrom(face);
+            steps = {{at[first], at[second], at[third]}};
+        }
+        return facetOf(corner, {Vertex{all[first]}, Vertex{all[second]}, Vertex{all[third]}},
+                       {points[first], points[second], points[third]}, steps);
     }
     static Facet facetOf(std::uint32_t corner,
                          const std::array<Vertex, 3>& vertices,
-                         const std::array<ScenePoint, 3>& points) noexcept
+                         const std::array<ScenePoint, 3>& points,
+                         const MeshSteps<Mesh>& steps) noexcept
     {
         const Vec3 a = points[1] - points[0];
         const Vec3 b = points[2] - points[0];
@@ -335,6 +415,7 @@ private:
         return {.vertices = vertices,
                 .scale = dot(normal, normal),
                 .corner = corner,
+                .steps = steps,
                 .points = points,
                 .normal = normal,
                 .inward = {cross(normal, b - a), cross(b, normal), cross(normal, a)}};
@@ -355,7 +436,15 @@ private:
     }
     static Spoke spokeAt(const Fan& fan, std::size_t i) noexcept requires MeshWithRings<Mesh>
     {
-        return {{fan.ring.ends.vertices[i]}, fan.ring.ends.points[i] - fan.point};
+        return {{fan.ring.edges.vertices[i]}, fan.ring.edges.along[i]};
+    }
+    bool isAtBorder(const Fan& fan) const noexcept
+    {
+        if constexpr (MeshWithRings<Mesh>) {
+            return fan.ring.edges.count > fan.corners.size();
+        } else {
+            return mesh_->across(Mesh::previousCorner(fan.corners.front())) == Mesh::kNone;
+        }
     }
     bool isValley(std::uint32_t corner) const noexcept;
     std::optional<Face> wayOutOfMixed(const Fan& fan, const Goal& goal) const noexcept;

@@ -83,6 +83,9 @@ ScenePoint BasicMeshSurface<Mesh>::point(const Contact& contact) const noexcept
 template <typename Mesh>
 auto BasicMeshSurface<Mesh>::edgeBetween(Vertex a, Vertex b) const noexcept -> Edge
 {
+    if constexpr (MeshOfSamples<Mesh>) {
+        return {mesh_->cornerAtEdge(a.index, b.index)};
+    }
     for (const std::uint32_t corner : mesh_->fan(a.index)) {
         const std::uint32_t next = Mesh::nextCorner(corner);
         const std::uint32_t previous = Mesh::previousCorner(corner);
@@ -126,9 +129,7 @@ auto BasicMeshSurface<Mesh>::wayOut(const Fan& fan, const Goal& goal) const noex
     if (is_over_all) {
         return Face{Mesh::faceOf(fan.corners.front())};
     }
-    const bool is_at_border =
-        mesh_->across(Mesh::previousCorner(fan.corners.front())) == Mesh::kNone;
-    if ((!is_over_any && !is_at_border) || goal_squared == 0.0) {
+    if ((!is_over_any && !isAtBorder(fan)) || goal_squared == 0.0) {
         return std::nullopt;
     }
     return wayOutOfMixed(fan, goal);
@@ -174,8 +175,7 @@ auto BasicMeshSurface<Mesh>::wayOutOfMixed(const Fan& fan, const Goal& goal) con
         return dot(spoke, to_goal) > 0.0 ? length(cross(spoke, to_goal)) / length(spoke)
                                          : kInfinity;
     };
-    const bool is_at_border =
-        mesh_->across(Mesh::previousCorner(fan.corners.front())) == Mesh::kNone;
+    const bool is_at_border = isAtBorder(fan);
     Vec3 pseudonormal{};
     for (const std::uint32_t corner : fan.corners) {
         const Face face{Mesh::faceOf(corner)};

@@ -287,12 +287,17 @@ private:
     // From facet to facet, each entered over the edge opposite its first corner, as long as the
     // next one leads closer. The foot is on the inner side of that edge.
     Step cross(Contact& contact,
-               Facet facet,
+               const Facet& first,
                double share, // of the way from its second corner to its third
                SurfaceFoot foot,
                const Goal& goal) noexcept
     {
+        // Small facets stay in registers, large ones take turns in two places.
+        constexpr bool kIsLarge = sizeof(Facet) > 192;
+        std::array<Facet, kIsLarge ? 2 : 1> facets{first};
+        std::size_t at = 0;
         while (true) {
+            const Facet& facet = facets[kIsLarge ? at : 0];
             ++counters_.faces;
             if (foot.weights[1] >= 0.0 && foot.weights[2] >= 0.0) {
                 return settle(contact, facet, foot, goal);
@@ -308,11 +313,21 @@ private:
                 exit.is_to_third ? surface_.hasBeyond(facet, 1) : surface_.hasBeyond(facet, 2);
             if (has_next && steps_ > 1) {
                 --steps_;
-                facet = exit.is_to_third ? surface_.beyond(facet, 1) : surface_.beyond(facet, 2);
-                foot = facet.foot(goal);
+                if constexpr (kIsLarge) {
+                    remake(facets[1 - at], [&] {
+                        return exit.is_to_third ? surface_.beyond(facet, 1)
+                                                : surface_.beyond(facet, 2);
+                    });
+                    at = 1 - at;
+                } else {
+                    facets[0] =
+                        exit.is_to_third ? surface_.beyond(facet, 1) : surface_.beyond(facet, 2);
+                }
+                const Facet& next = facets[kIsLarge ? at : 0];
+                foot = next.foot(goal);
                 // The next facet's second corner is the one ahead, or the one to the side. Above
                 // its plane, over a sharp ridge, the proxy may leave the surface.
-                if (foot.above <= 0.0 && Steps::isInward(foot.weights[0], facet, goal)) {
+                if (foot.above <= 0.0 && Steps::isInward(foot.weights[0], next, goal)) {
                     share = exit.is_to_third ? 1.0 - exit.share : exit.share;
                     continue;
                 }

@@ -56,11 +56,20 @@ public:
             return {};
         }
         const auto& tree = mesh_.tree();
-        tree.alongSegment((start_.base - tree.middle()) + start_.offset, along_,
-                          4.0 * kOnFace * start_.size_m, [this](std::uint32_t face, double& t_max) {
-                              ++result_.faces;
-                              look(face, t_max);
-                          });
+        const Vec3 from = (start_.base - tree.middle()) + start_.offset;
+        const double slack = 4.0 * kOnFace * start_.size_m;
+        using Points = std::array<ScenePoint, 3>;
+        const auto look_at = [this](std::uint32_t face, const Points& points, double& t_max) {
+            ++result_.faces;
+            look(face, points, t_max);
+        };
+        if constexpr (requires { tree.pointsAlong(from, along_, slack, look_at); }) {
+            tree.pointsAlong(from, along_, slack, look_at);
+        } else {
+            tree.alongSegment(from, along_, slack, [&](std::uint32_t face, double& t_max) {
+                look_at(face, mesh_.points(face), t_max);
+            });
+        }
         return result_;
     }
 
@@ -90,22 +99,25 @@ private:
         return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
     }
 
-    bool isSkipped(std::uint32_t index, const MeshFace& face) const noexcept
+    bool isSkipped(std::uint32_t index) const noexcept
     {
-        return index == start_.skipped_faces[0] || index == start_.skipped_faces[1] ||
-               face[0] == start_.skipped_vertex || face[1] == start_.skipped_vertex ||
+        if (index == start_.skipped_faces[0] || index == start_.skipped_faces[1]) {
+            return true;
+        }
+        if (start_.skipped_vertex == Mesh::kNone) {
+            return false;
+        }
+        const MeshFace face = mesh_.face(index);
+        return face[0] == start_.skipped_vertex || face[1] == start_.skipped_vertex ||
                face[2] == start_.skipped_vertex;
     }
 
-    void look(std::uint32_t index, double& t_max) noexcept
+    void look(std::uint32_t index, const std::array<ScenePoint, 3>& points, double& t_max) noexcept
     {
-        const MeshFace face = mesh_.face(index);
-        if (isSkipped(index, face)) {
+        if (isSkipped(index)) {
             return;
         }
-        const ScenePoint p0 = mesh_.vertex(face[0]);
-        const ScenePoint p1 = mesh_.vertex(face[1]);
-        const ScenePoint p2 = mesh_.vertex(face[2]);
+        const auto& [p0, p1, p2] = points;
         const Vec3 a = p1 - p0;
         const Vec3 b = p2 - p0;
         const Vec3 normal = cross(a, b);
@@ -129,7 +141,7 @@ private:
         if (above < 0.0 && !may_be_near) {
             return; // begins behind
         }
-        if (sideOf(mesh_, index, goal_) > 0) {
+        if (sideOfPlane(p0, p1, p2, goal_.point, goal_.rest) > 0) {
             return; // ends in front
         }
         const Vec3 v1 = (p1 - start_.base) - start_.offset;
@@ -243,10 +255,10 @@ MeshPlace nearestPlace(const Mesh& mesh, const ScenePoint& point) noexcept
 {
     MeshPlace nearest;
     mesh.tree().nearestFirst(point, [&](std::uint32_t index, double& limit) {
-        const MeshFace face = mesh.face(index);
-        const Vec3 a = mesh.vertex(face[0]) - point;
-        const Vec3 b = mesh.vertex(face[1]) - point;
-        const Vec3 c = mesh.vertex(face[2]) - point;
+        const auto [p0, p1, p2] = mesh.points(index);
+        const Vec3 a = p0 - point;
+        const Vec3 b = p1 - point;
+        const Vec3 c = p2 - point;
         const std::array<double, 3> weights = nearestWeights(a, b, c);
         const Vec3 rest = a * weights[0] + b * weights[1] + c * weights[2];
         const double squared = dot(rest, rest);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -37,6 +38,35 @@ TEST_P(BodyMeshOf, ItsTrianglesHaveTheNeighborsThatAListOfThemHas)
         turned.insert(turned.end(), fan.begin(), begin);
         ASSERT_TRUE(std::equal(turned.begin(), turned.end(), expected.begin())) << vertex;
     }
+}
+
+// What walks find by adding columns and rows is what the adjacency says.
+TEST_P(BodyMeshOf, StepsOverEdgesLeadToTheFaceBeyond)
+{
+    const auto mesh = test::bodyMesh(GetParam(), 1.0);
+    std::size_t steps = 0;
+    for (std::uint32_t corner = 0; corner < 3 * mesh->faceCount(); ++corner) {
+        const std::uint32_t next = BodyMesh::nextCorner(corner);
+        const std::uint32_t previous = BodyMesh::previousCorner(corner);
+        const std::array ends{mesh->vertexAt(next), mesh->vertexAt(previous)};
+        const std::uint32_t beyond = mesh->across(corner);
+        ASSERT_EQ(mesh->edgeEnds(corner), ends);
+        ASSERT_EQ(mesh->cornerAtEdge(ends[0], ends[1]), std::min(corner, beyond));
+        ASSERT_EQ(mesh->cornerAtEdge(ends[1], ends[0]), std::min(corner, beyond));
+
+        const auto at = mesh->stepsFrom(corner / 3);
+        const BodySample far = BodyMesh::step(at[corner % 3], at[next % 3], at[previous % 3]);
+        if (!mesh->isSample(far)) {
+            continue;
+        }
+        ++steps;
+        ASSERT_NE(beyond, BodyMesh::kNone);
+        ASSERT_EQ(mesh->vertexOf(far), mesh->vertexAt(beyond));
+        ASSERT_EQ(mesh->cornerOf({far, at[previous % 3], at[next % 3]}), beyond);
+        ASSERT_EQ(mesh->cornerOf({at[corner % 3], at[next % 3], at[previous % 3]}), corner);
+    }
+    // Most edges are between cells away from the seam.
+    EXPECT_GT(steps, mesh->faceCount() / 2);
 }
 
 // A map around the body with both poles closed encloses the body: the divergence theorem gives its

@@ -85,6 +85,37 @@ TEST_P(BodyContact, ItsProxiesAreThoseOnAListOfTheSameTriangles)
     }
 }
 
+// Casts leave out cells beside the path; those on the list look at all faces in its boxes.
+TEST(BodySurface, CastsHitWhatCastsOnAListOfTheSameTrianglesHit)
+{
+    for (const test::BodyMap& map : test::bodyMaps()) {
+        const auto mesh = test::bodyMesh(map, 5.0);
+        const auto listed = test::listedMesh(*mesh);
+        const BodySurface here(mesh);
+        const MeshSurface there(listed);
+        test::Random random(11);
+        int hits = 0;
+        constexpr int kCasts = 400;
+        for (int i = 0; i < kCasts; ++i) {
+            const auto vertex = [&] {
+                return static_cast<std::uint32_t>(random.below(mesh->vertexCount()));
+            };
+            const ScenePoint from = mesh->highAbove(mesh->vertex(vertex()));
+            // Into the ground: mostly under another vertex, sometimes exactly at it.
+            const ScenePoint target = mesh->vertex(vertex());
+            const ScenePoint to = i % 4 == 0 ? target : target * random.uniform(0.9, 1.0);
+            const auto a = here.castFree({from, {}}, {to, {}});
+            const auto b = there.castFree({from, {}}, {to, {}});
+            ASSERT_EQ(a.contact.has_value(), b.contact.has_value()) << map.name;
+            if (a.contact) {
+                ++hits;
+                ASSERT_EQ(here.point(*a.contact), there.point(*b.contact)) << map.name;
+            }
+        }
+        EXPECT_GT(hits, kCasts / 2) << map.name;
+    }
+}
+
 std::vector<Case> cases()
 {
     std::vector<Case> all;
