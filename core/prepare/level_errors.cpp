@@ -11,6 +11,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -18,8 +19,40 @@ namespace marsview {
 namespace {
 
 constexpr std::size_t kBlock = RawRanges::kBlock;
+constexpr std::size_t kSparseStep = std::size_t{1} << DetailMeasure::kSparseLevel;
+static_assert(std::size_t{1} << (kTallLevel - 1) == kTileSide);
 
 } // namespace
+
+std::vector<SparseRow> sparseRowsFor(const TileLayout& layout, const TileRowRange& rows)
+{
+    constexpr std::size_t kTallStep = std::size_t{1} << (kTallLevel - DetailMeasure::kSparseLevel);
+    const std::size_t last_row = layout.rows - 1;
+    const std::size_t tile_rows = layout.tileRows(TileKind::Samples, 0);
+    const std::size_t first = std::min(rows.first, tile_rows) * kTileSide;
+    const std::size_t end = std::min(std::min(rows.end, tile_rows) * kTileSide, last_row);
+    std::map<std::size_t, std::size_t> steps; // by row of samples
+    for (std::size_t step = std::size_t{1} << kTallLevel; first <= last_row; step *= 2) {
+        for (const std::size_t row :
+             {first / step * step, std::min((end + step - 1) / step * step, last_row)}) {
+            steps[row] = kTallStep;
+        }
+        if (step >= layout.rows) {
+            break;
+        }
+    }
+    for (std::size_t row = first; row <= end && first <= last_row; row += kSparseStep) {
+        steps[row] = 1;
+    }
+    if (first <= last_row && end == last_row) {
+        steps[last_row] = 1;
+    }
+    std::vector<SparseRow> needed;
+    for (const auto& [row, step] : steps) {
+        needed.push_back({(row + kSparseStep - 1) / kSparseStep, step});
+    }
+    return needed;
+}
 
 std::vector<std::uint64_t> TileParts::index() const
 {
@@ -61,14 +94,14 @@ public:
          const ElevationScale& scale,
          const LevelSurvey& survey,
          LevelFileWriter* writer,
-         JobMonitor& monitor)
+         JobMonitor& monitor,
+         const TileRowRange& rows)
         : source_(source)
         , scale_(scale)
         , layout_(source.layout())
         , survey_(survey)
         , ordered_(writer)
         , monitor_(monitor)
-        , means_(BlockMeans::from(survey.blocks, survey.kept))
         , range_(heightRange(survey.statistics, scale))
         , has_voids_(survey.statistics.void_count > 0)
         , has_coarse_fills_(has_voids_ && layout_.topLevel() >= LevelFile::kFirstLevel)
@@ -76,13 +109,22 @@ public:
         , tile_rows_(layout_.tileRows(TileKind::Samples, 0))
         , coarse_fills_(layout_, SampleType::Float32, LevelFile::kFirstLevel, layout_.topLevel())
     {
+        rows_.first = std::min(rows.first, tile_rows_);
+        rows_.end = std::min(rows.end, tile_rows_);
         const HeightRange range = heightRange(survey.statistics, scale).value_or(HeightRange{});
         base_m_ = (range.minimum_m + range.maximum_m) / 2.0;
         if (has_voids_) {
+            means_ = BlockMeans::from(survey.blocks, survey.kept);
             constexpr float kInfinity = std::numeric_limits<float>::infinity();
-            for (std::size_t i = 0; i < survey.ranges.columns() * survey.ranges.rows(); ++i) {
-                fills_m_.push_back(kInfinity);
-                fills_m_.push_back(-kInfinity);
+            const std::size_t columns = survey.ranges.columns();
+            fills_m_.resize(2 * columns * survey.ranges.rows());
+            const std::size_t end =
+                2 * columns * std::min(rows_.end * kTileRanges, survey.ranges.rows());
+            for (std::size_t i =
+                     2 * columns * std::min(rows_.first * kTileRanges, survey.ranges.rows());
+                 i < end; i += 2) {
+                fills_m_[i] = kInfinity;
+                fills_m_[i + 1] = -kInfinity;
             }
         }
     }
@@ -93,7 +135,9 @@ public:
         if (!sparse) {
             return std::move(sparse).error();
         }
-        measure_.emplace(layout_.columns, layout_.rows, std::move(sparse).value());
+        measure_.emplace(
+            layout_.columns, layout_.rows, std::move(sparse).value(),
+            SampleRows{rows_.first * kTileSide, std::min(rows_.end * kTileSide, layout_.rows)});
         return Done{};
     }
 
@@ -133,7 +177,7 @@ public:
     {
         std::optional<BlockRows> filled;
         if (has_voids_ && (rowHasVoids(tile_row) || rowHasVoids(tile_row + 1))) {
-            auto rows = filledRows(survey_.fine_means, means_, tile_row);
+            auto rows = filledRows(survey_.fine_means, *means_, tile_row);
             if (!rows) {
                 return std::move(rows).error();
             }
@@ -230,17 +274,17 @@ private:
     }
 
     // The drawn heights of the sparse level: those that are void need the means around.
-    Result<std::vector<float>> sparseHeights()
+    Result<LargeVector<float>> sparseHeights()
     {
-        constexpr std::size_t kStep = std::size_t{1} << DetailMeasure::kSparseLevel;
         const SampleGrid& samples = *survey_.sparse;
-        std::vector<float> heights(samples.columns() * samples.rows());
+        LargeVector<float> heights(samples.columns() * samples.rows());
         std::optional<BlockRows> filled;
         std::size_t filled_tile_row = 0;
-        for (std::size_t row = 0; row < samples.rows(); ++row) {
-            const std::size_t map_row = std::min(row * kStep, layout_.rows - 1);
+        for (const auto& [row, step] : sparseRowsFor(layout_, rows_)) {
+            const std::size_t map_row = std::min(row * kSparseStep, layout_.rows - 1);
             const std::size_t tile_row = map_row / kTileSide;
-            for (std::size_t column = 0; column < samples.columns(); ++column) {
+            for (std::size_t next = 0; next < samples.columns() - 1 + step; next += step) {
+                const std::size_t column = std::min(next, samples.columns() - 1);
                 float& height = heights[row * samples.columns() + column];
                 if (!samples.isVoid(column, row)) {
                     height = static_cast<float>(scale_.height(samples.raw(column, row)) - base_m_);
@@ -250,14 +294,14 @@ private:
                     if (monitor_.isCanceled()) {
                         return Error{ErrorCode::Canceled, "canceled"};
                     }
-                    auto rows = filledRows(survey_.fine_means, means_, tile_row);
+                    auto rows = filledRows(survey_.fine_means, *means_, tile_row);
                     if (!rows) {
                         return std::move(rows).error();
                     }
                     filled = std::move(rows).value();
                     filled_tile_row = tile_row;
                 }
-                const std::size_t map_column = std::min(column * kStep, layout_.columns - 1);
+                const std::size_t map_column = std::min(column * kSparseStep, layout_.columns - 1);
                 height = overBase(filledAt(*filled, map_column, map_row));
             }
         }
@@ -450,16 +494,17 @@ private:
     const LevelSurvey& survey_;
     OrderedTiles ordered_;
     JobMonitor& monitor_;
-    BlockMeans means_;
+    std::optional<BlockMeans> means_; // if there are voids
     FillRange range_;
     bool has_voids_;
     bool has_coarse_fills_;
     std::size_t tile_columns_;
     std::size_t tile_rows_;
+    TileRowRange rows_; // that are measured
     double base_m_ = 0.0;
     std::optional<DetailMeasure> measure_;
     // Smallest and largest fill of each block of RawRanges; a row of tiles has its own blocks.
-    std::vector<float> fills_m_;
+    LargeVector<float> fills_m_;
     NestedLevels coarse_fills_;
     TileParts tile_fills_;
     TileParts coarse_fill_parts_;
@@ -470,8 +515,9 @@ LevelErrorPass::LevelErrorPass(const TileSource& source,
                                const ElevationScale& scale,
                                const LevelSurvey& survey,
                                LevelFileWriter* writer,
-                               JobMonitor& monitor)
-    : impl_(std::make_unique<Impl>(source, scale, survey, writer, monitor))
+                               JobMonitor& monitor,
+                               const TileRowRange& rows)
+    : impl_(std::make_unique<Impl>(source, scale, survey, writer, monitor, rows))
 {}
 
 LevelErrorPass::~LevelErrorPass() = default;

@@ -2,12 +2,14 @@
 #pragma once
 
 #include "core/base/job_monitor.h"
+#include "core/base/large_vector.h"
 #include "core/base/result.h"
 #include "core/prepare/checkpoint_file.h"
 #include "core/prepare/level_file_writer.h"
 #include "core/prepare/level_survey.h"
 #include "core/prepare/nested_levels.h"
 #include "core/prepare/ordered_tiles.h"
+#include "core/prepare/tile_counts.h"
 #include "core/terrain/detail_errors.h"
 #include "core/tiles/tile_source.h"
 
@@ -41,18 +43,35 @@ private:
 /// The results of the second pass.
 struct LevelErrors {
     DetailErrors errors;
-    std::vector<float> fills_m; // the plane "fills"
+    LargeVector<float> fills_m; // the plane "fills"
 };
+
+/// A row of LevelSurvey::sparse, and the distance of the columns that are needed of it; its last
+/// column is always one of them.
+struct SparseRow {
+    std::size_t row = 0;
+    std::size_t column_step = 1;
+};
+
+/// The levels from this one on have cells that are taller than a tile.
+inline constexpr std::size_t kTallLevel = 9;
+
+/// What the second pass over some rows of tiles needs of LevelSurvey::sparse, in ascending order:
+/// the samples in these rows and on their lower side, and the vertices of kTallLevel in the cells
+/// that reach farther.
+std::vector<SparseRow> sparseRowsFor(const TileLayout& layout, const TileRowRange& rows);
 
 /// The second pass. Any threads may process rows; everything else is for one thread.
 class LevelErrorPass {
 public:
-    /// With a null `writer`, fills are not stored.
+    /// With a null `writer`, fills are not stored. Only `rows` will be measured; the survey then
+    /// has these rows, the first one after them, and sparseRowsFor() them.
     LevelErrorPass(const TileSource& source,
                    const ElevationScale& scale,
                    const LevelSurvey& survey,
                    LevelFileWriter* writer,
-                   JobMonitor& monitor);
+                   JobMonitor& monitor,
+                   const TileRowRange& rows = {});
     ~LevelErrorPass();
     LevelErrorPass(const LevelErrorPass&) = delete;
     LevelErrorPass& operator=(const LevelErrorPass&) = delete;
@@ -76,7 +95,7 @@ public:
     /// is being processed.
     struct State {
         DetailErrors::NodeErrors& errors;
-        std::vector<float>& fills_m; // as in LevelErrors
+        LargeVector<float>& fills_m; // as in LevelErrors
         NestedLevels& coarse_fills;  // bands that are not complete
         TileParts& tile_fill_parts;
         TileParts& coarse_fill_parts;

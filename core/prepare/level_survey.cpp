@@ -31,16 +31,14 @@ public:
         , tile_columns_(layout_.tileColumns(TileKind::Samples, 0))
         , tile_rows_(layout_.tileRows(TileKind::Samples, 0))
         , top_level_(layout_.topLevel())
-        , nested_(layout_,
-                  layout_.type,
-                  top_level_ >= LevelFile::kFirstLevel ? LevelFile::kFirstLevel
-                                                       : DetailMeasure::kSparseLevel,
-                  std::max(top_level_, DetailMeasure::kSparseLevel))
+        , nested_(layout_, layout_.type, LevelFile::kFirstLevel, top_level_)
     {
         found_.kept = surveyedBlocks(layout_, options_.mean_blocks_max);
-        found_.ranges = RawRanges(layout_.type, layout_.columns, layout_.rows);
-        found_.blocks =
-            emptyBlocks(found_.kept, layout_.has_voids ? BlockShares::Kept : BlockShares::None);
+        found_.ranges = RawRanges::toBeFilled(layout_.type, layout_.columns, layout_.rows);
+        const auto [first, end] = rangeRows();
+        found_.ranges.clear(first, end);
+        found_.blocks = blocksToBeFilled(found_.kept,
+                                         layout_.has_voids ? BlockShares::Kept : BlockShares::None);
         found_.has_voids.resize(tile_columns_ * tile_rows_);
         found_.checksums = std::make_shared<TileChecksums>(layout_);
         found_.samples_index.resize(keptTileCount(layout_));
@@ -103,11 +101,10 @@ public:
 
     const LevelSurvey& finish()
     {
-        const SampleStatistics extremes = found_.ranges.extremes();
-        found_.statistics = {.raw_minimum = extremes.raw_minimum,
-                             .raw_maximum = extremes.raw_maximum,
-                             .void_count = void_count_,
-                             .sample_count = layout_.columns * layout_.rows};
+        const auto [first, end] = rangeRows();
+        found_.statistics.merge(found_.ranges.extremes(first, end));
+        found_.statistics.void_count = void_count_;
+        found_.statistics.sample_count = layout_.columns * layout_.rows;
         if (void_count_ == 0) {
             found_.blocks.shares.clear();
         }
@@ -180,13 +177,6 @@ public:
 
     Status keepBand(const LevelBand& band)
     {
-        if (band.level == DetailMeasure::kSparseLevel) {
-            const std::lock_guard lock(mutex_);
-            keepSparse(band);
-        }
-        if (band.level > top_level_ || band.level < LevelFile::kFirstLevel) {
-            return Done{};
-        }
         for (std::size_t first = 0; first < band.samples.columns(); first += kTileSide) {
             if (monitor_.isCanceled()) {
                 return Error{ErrorCode::Canceled, "canceled"};
@@ -212,6 +202,15 @@ private:
         return {layout_.columnsAt(TileKind::Samples, DetailMeasure::kSparseLevel),
                 layout_.rowsAt(TileKind::Samples, DetailMeasure::kSparseLevel)};
     }
+    // The rows of blocks of ranges with samples of the surveyed rows of tiles: one before them
+    // shares its last row of samples.
+    std::pair<std::size_t, std::size_t> rangeRows() const
+    {
+        const std::size_t rows = found_.ranges.rows();
+        const std::size_t first = std::min(options_.rows.first, tile_rows_) * kTileRanges;
+        const std::size_t end = std::min(options_.rows.end, tile_rows_) * kTileRanges;
+        return {std::min(first - (first > 0 ? 1 : 0), rows), std::min(end, rows)};
+    }
     std::size_t firstRowCount() const { return std::max<std::size_t>(1, tile_rows_ - 1); }
 
     Status openFineMeans(FineMeans::Content content)
@@ -219,7 +218,11 @@ private:
         if (!layout_.has_voids) {
             return Done{};
         }
-        auto fine = FineMeans::open(found_.kept, options_.means_path, content);
+        if (options_.means_path.empty()) {
+            found_.fine_means = FineMeans(found_.kept);
+            return Done{};
+        }
+        auto fine = FineMeans::open(found_.kept, options_.means_path, content, options_.rows);
         if (!fine) {
             return std::move(fine).error();
         }
@@ -252,6 +255,7 @@ private:
             if (id.row > 0) {
                 keepFirstRow(id, samples);
             }
+            keepSparse(id, samples);
         }
         measureMeans(id, samples, fine);
         for (const LevelBand& band : nested_.add(id, &samples)) {
@@ -309,17 +313,34 @@ private:
         }
     }
 
-    void keepSparse(const LevelBand& band)
+    void keepSparse(const TileId& id, const SampleGrid& samples)
     {
-        const std::size_t first_row = band.tile_row * kTileSide;
-        for (std::size_t row = 0; row < band.samples.rows(); ++row) {
-            band.samples.visit([&](auto values) {
-                std::memcpy(found_.sparse->rowData(first_row + row), values.row(row).data(),
-                            band.samples.columns() * sampleBytes(layout_.type));
+        constexpr std::size_t kStep = std::size_t{1} << DetailMeasure::kSparseLevel;
+        const auto samples_along = [](std::size_t first, std::size_t count, std::size_t all) {
+            std::vector<std::size_t> kept; // within the tile
+            for (std::size_t i = 0; i < count; ++i) {
+                if (i % kStep == 0 || first + i + 1 == all) {
+                    kept.push_back(i);
+                }
+            }
+            return kept;
+        };
+        const std::size_t first_column = id.column * kTileSide;
+        const std::size_t first_row = id.row * kTileSide;
+        SampleGrid& sparse = *found_.sparse;
+        const auto columns = samples_along(first_column, samples.columns(), layout_.columns);
+        for (const std::size_t row : samples_along(first_row, samples.rows(), layout_.rows)) {
+            const std::size_t to_row = (first_row + row + kStep - 1) / kStep;
+            samples.visit([&](auto values) {
+                using T = std::remove_cvref_t<decltype(values(0, 0))>;
+                auto* to = reinterpret_cast<T*>(sparse.rowData(to_row));
+                for (const std::size_t column : columns) {
+                    to[(first_column + column + kStep - 1) / kStep] = values(column, row);
+                }
             });
-            for (std::size_t column = 0; column < band.samples.columns(); ++column) {
-                if (band.samples.isVoid(column, row)) {
-                    found_.sparse->markVoid(column, first_row + row);
+            for (const std::size_t column : columns) {
+                if (samples.isVoid(column, row)) {
+                    sparse.markVoid((first_column + column + kStep - 1) / kStep, to_row);
                 }
             }
         }

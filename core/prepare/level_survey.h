@@ -7,6 +7,7 @@
 #include "core/prepare/level_file_writer.h"
 #include "core/prepare/nested_levels.h"
 #include "core/prepare/ordered_tiles.h"
+#include "core/prepare/tile_counts.h"
 #include "core/prepare/void_fills.h"
 #include "core/terrain/block_means.h"
 #include "core/terrain/raw_ranges.h"
@@ -22,7 +23,8 @@
 
 namespace marsview {
 
-/// The results of the first pass.
+/// The results of the first pass. If it was made over some rows only, those of the others are not
+/// set.
 struct LevelSurvey {
     SampleStatistics statistics;
     RawRanges ranges;
@@ -39,8 +41,9 @@ struct LevelSurvey {
 struct SurveyOptions {
     const TileSource* source = nullptr;
     ElevationScale scale;
-    std::string means_path; // of the temporary file of FineMeans
+    std::string means_path; // of the file of FineMeans; empty: the means of parts are added
     std::size_t mean_blocks_max = 4'000'000;
+    TileRowRange rows{}; // that are surveyed; the memory of others is not touched
 };
 
 /// The first pass. Any threads may process rows; everything else is for one thread.
@@ -68,7 +71,7 @@ public:
     /// Computes the checksums of one of them.
     Status surveyMeanRow(TileReader& reader, std::size_t row);
 
-    /// Call when all rows are done.
+    /// Call when all rows are done. The statistics include those that State::found had before.
     const LevelSurvey& finish();
 
     /// The state of the pass, to be divided between parts of a map and merged again. While no row

@@ -1,6 +1,7 @@
 // Computes a raster's overviews as means, tile by tile, in a single pass.
 #pragma once
 
+#include "core/base/large_vector.h"
 #include "core/raster/sample_grid.h"
 #include "core/tiles/tile.h"
 
@@ -103,8 +104,8 @@ private:
     std::vector<Level> levels_; // [0] is level 1
     // The blocks of level kStreamedLevels, one per tile of the raster, if coarser levels need them.
     // Sums are integers or doubles, depending on the type.
-    std::vector<std::uint64_t> sum_bits_;
-    std::vector<std::uint64_t> counts_;
+    LargeVector<std::uint64_t> sum_bits_;
+    LargeVector<std::uint64_t> counts_;
     std::size_t made_level_ = kStreamedLevels;
     std::size_t made_columns_ = 0;
     std::size_t made_rows_ = 0;

@@ -1,8 +1,8 @@
 #include "core/prepare/void_fills.h"
 
+#include "core/base/check.h"
 #include "core/base/deflate.h"
 #include "core/base/durable_file.h"
-#include "core/prepare/tile_counts.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -29,77 +29,152 @@ std::uint64_t rowChecksum(std::span<const float> heights_m)
 
 } // namespace
 
-Result<FineMeans> FineMeans::open(const BlockExtent& kept, const std::string& path, Content content)
+FineMeans::FineMeans(const BlockExtent& kept)
 {
-    FineMeans means;
     for (BlockExtent level{kept.columns, kept.rows, BlockMeans::kBlock};
          level.block_samples < kept.block_samples; level = level.coarser()) {
-        means.levels_.push_back(level);
-        means.row_checksums_.emplace_back(level.blockRows());
+        levels_.push_back(level);
     }
+}
+
+FineMeans::File FineMeans::fileOf(const std::string& path, const TileRowRange& rows) const
+{
+    File file{.path = path, .rows = {}, .checksums = {}, .open = {}};
+    for (std::size_t level = 0; level < levels_.size(); ++level) {
+        const std::size_t side = kTileBlocks >> level;
+        const std::size_t count = levels_[level].blockRows();
+        const std::size_t tile_rows = (count + side - 1) / side;
+        const std::size_t first = std::min(rows.first, tile_rows) * side;
+        const std::size_t end = std::min(rows.end, tile_rows) * side;
+        file.rows.push_back({std::min(first, count), std::min(end, count)});
+        file.checksums.emplace_back(file.rows.back().end - file.rows.back().first);
+    }
+    return file;
+}
+
+Result<FineMeans> FineMeans::open(const BlockExtent& kept,
+                                  const std::string& path,
+                                  Content content,
+                                  const TileRowRange& rows)
+{
+    FineMeans means(kept);
     if (means.levels_.empty()) {
         return means;
     }
-    means.name_ = path;
-    means.file_.reset(std::fopen(path.c_str(), content == Content::Empty ? "wb+" : "rb+"));
-    if (!means.file_) {
-        return failed(means.name_, "cannot be written");
+    auto file = std::make_unique<File>(means.fileOf(path, rows));
+    file->open.reset(std::fopen(path.c_str(), content == Content::Empty ? "wb+" : "rb+"));
+    if (!file->open) {
+        return failed(path, "cannot be written");
     }
+    means.files_.push_back(std::move(file));
     return means;
 }
 
 bool FineMeans::save(CheckpointWriter& to) const
 {
+    saveChecksums(to);
     const std::lock_guard lock(*mutex_);
-    for (const std::vector<std::uint64_t>& rows : row_checksums_) {
-        to.putArray(rows);
+    return std::all_of(files_.begin(), files_.end(),
+                       [](const auto& file) { return flushToDisk(file->open.get()); });
+}
+
+void FineMeans::saveChecksums(CheckpointWriter& to) const
+{
+    const std::lock_guard lock(*mutex_);
+    for (const auto& file : files_) {
+        for (const std::vector<std::uint64_t>& rows : file->checksums) {
+            to.putArray(rows);
+        }
     }
-    return !file_ || flushToDisk(file_.get());
+}
+
+bool FineMeans::restoreChecksums(File& file, CheckpointReader& from)
+{
+    return std::all_of(file.checksums.begin(), file.checksums.end(),
+                       [&from](std::vector<std::uint64_t>& rows) { return from.getArray(rows); });
 }
 
 bool FineMeans::restore(CheckpointReader& from)
 {
-    for (std::vector<std::uint64_t>& rows : row_checksums_) {
-        if (!from.getArray(rows)) {
+    for (const auto& file : files_) {
+        if (!restoreChecksums(*file, from)) {
             return false;
         }
-    }
-    for (std::size_t level = 0; level < levels_.size(); ++level) {
-        BlockRows row{.columns = levels_[level].blockColumns(),
-                      .level_rows = levels_[level].blockRows(),
-                      .first_row = 0,
-                      .heights_m = {}};
-        row.heights_m.resize(row.columns);
-        for (; row.first_row < row.level_rows; ++row.first_row) {
-            const std::uint64_t expected = row_checksums_[level][row.first_row];
-            if (expected != 0 && (!read(level, row) || rowChecksum(row.heights_m) != expected)) {
-                return false;
+        for (std::size_t level = 0; level < levels_.size(); ++level) {
+            BlockRows row{.columns = levels_[level].blockColumns(),
+                          .level_rows = levels_[level].blockRows(),
+                          .first_row = file->rows[level].first,
+                          .heights_m = {}};
+            row.heights_m.resize(row.columns);
+            for (const std::uint64_t checksum : file->checksums[level]) {
+                if (checksum != 0 && !read(level, row)) {
+                    return false;
+                }
+                ++row.first_row;
             }
         }
     }
     return true;
 }
 
-long FineMeans::offsetOf(std::size_t level, std::size_t row) const
+bool FineMeans::add(CheckpointReader& from, const std::string& path, const TileRowRange& rows)
+{
+    if (levels_.empty()) {
+        return true;
+    }
+    auto file = std::make_unique<File>(fileOf(path, rows));
+    const bool is_good = restoreChecksums(*file, from);
+    files_.push_back(std::move(file));
+    return is_good;
+}
+
+void FineMeans::openToRead(File& file) const
+{
+    constexpr std::size_t kOpenMax = 16;
+    if (opened_.size() == kOpenMax) {
+        opened_.front()->open.reset();
+        opened_.erase(opened_.begin());
+    }
+    file.open.reset(std::fopen(file.path.c_str(), "rb"));
+    if (file.open) {
+        opened_.push_back(&file);
+    }
+}
+
+FineMeans::File* FineMeans::fileWith(std::size_t level, std::size_t row) const
+{
+    const auto at = std::find_if(files_.begin(), files_.end(), [&](const auto& file) {
+        return row >= file->rows[level].first && row < file->rows[level].end;
+    });
+    MARSVIEW_CHECK(at != files_.end());
+    return at->get();
+}
+
+long FineMeans::offsetOf(const File& file, std::size_t level, std::size_t row) const
 {
     std::size_t blocks = 0;
     for (std::size_t i = 0; i < level; ++i) {
-        blocks += levels_[i].blockColumns() * levels_[i].blockRows();
+        blocks += levels_[i].blockColumns() * (file.rows[i].end - file.rows[i].first);
     }
-    return static_cast<long>((blocks + row * levels_[level].blockColumns()) * sizeof(float));
+    blocks += (row - file.rows[level].first) * levels_[level].blockColumns();
+    return static_cast<long>(blocks * sizeof(float));
 }
 
 Status FineMeans::write(std::size_t level, const BlockRows& rows)
 {
-    const std::lock_guard lock(*mutex_);
     const std::size_t count = rows.heights_m.size();
-    if (std::fseek(file_.get(), offsetOf(level, rows.first_row), SEEK_SET) != 0 ||
-        std::fwrite(rows.heights_m.data(), sizeof(float), count, file_.get()) != count) {
-        return failed(name_, "cannot be written");
+    if (count == 0) {
+        return Done{};
+    }
+    const std::lock_guard lock(*mutex_);
+    File& file = *fileWith(level, rows.first_row);
+    if (std::fseek(file.open.get(), offsetOf(file, level, rows.first_row), SEEK_SET) != 0 ||
+        std::fwrite(rows.heights_m.data(), sizeof(float), count, file.open.get()) != count) {
+        return failed(file.path, "cannot be written");
     }
     const std::span<const float> heights(rows.heights_m);
     for (std::size_t row = 0; row * rows.columns < count; ++row) {
-        row_checksums_[level][rows.first_row + row] =
+        file.checksums[level][rows.first_row + row - file.rows[level].first] =
             rowChecksum(heights.subspan(row * rows.columns, rows.columns));
     }
     return Done{};
@@ -108,10 +183,28 @@ Status FineMeans::write(std::size_t level, const BlockRows& rows)
 Status FineMeans::read(std::size_t level, BlockRows& rows) const
 {
     const std::lock_guard lock(*mutex_);
-    const std::size_t count = rows.heights_m.size();
-    if (std::fseek(file_.get(), offsetOf(level, rows.first_row), SEEK_SET) != 0 ||
-        std::fread(rows.heights_m.data(), sizeof(float), count, file_.get()) != count) {
-        return failed(name_, "cannot be read back");
+    const std::size_t end = rows.first_row + rows.heights_m.size() / rows.columns;
+    for (std::size_t row = rows.first_row; row < end;) {
+        File& file = *fileWith(level, row);
+        if (!file.open) {
+            openToRead(file);
+        }
+        const BlockRowRange& in_file = file.rows[level];
+        const std::size_t count = std::min(end, in_file.end) - row;
+        const std::span<float> heights =
+            std::span(rows.heights_m)
+                .subspan((row - rows.first_row) * rows.columns, count * rows.columns);
+        if (!file.open || std::fseek(file.open.get(), offsetOf(file, level, row), SEEK_SET) != 0 ||
+            std::fread(heights.data(), sizeof(float), heights.size(), file.open.get()) !=
+                heights.size()) {
+            return failed(file.path, "cannot be read back");
+        }
+        for (std::size_t i = 0; i < count; ++i, ++row) {
+            if (rowChecksum(heights.subspan(i * rows.columns, rows.columns)) !=
+                file.checksums[level][row - in_file.first]) {
+                return Error{ErrorCode::Damaged, file.path + ": is damaged"};
+            }
+        }
     }
     return Done{};
 }

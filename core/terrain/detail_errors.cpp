@@ -21,12 +21,12 @@ std::size_t nodeCount(std::size_t samples, std::size_t level)
 }
 
 // The drawn heights of the vertices of a level.
-std::vector<float> drawnVertices(const DrawnSurface& surface, std::size_t level)
+LargeVector<float> drawnVertices(const DrawnSurface& surface, std::size_t level)
 {
     const std::size_t step = std::size_t{1} << level;
     const std::size_t last_column = surface.heightfield().columns() - 1;
     const std::size_t last_row = surface.heightfield().rows() - 1;
-    std::vector<float> heights;
+    LargeVector<float> heights;
     for (std::size_t row = 0; row < last_row + step; row += step) {
         for (std::size_t column = 0; column < last_column + step; column += step) {
             heights.push_back(

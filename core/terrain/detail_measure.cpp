@@ -237,15 +237,29 @@ void DetailMeasure::Worker::measure(const DetailPart& part)
     }
 }
 
-DetailMeasure::DetailMeasure(std::size_t columns, std::size_t rows, std::vector<float> sparse)
+DetailMeasure::DetailMeasure(std::size_t columns,
+                             std::size_t rows,
+                             LargeVector<float> sparse,
+                             const SampleRows& measured)
     : columns_(columns)
     , rows_(rows)
     , sparse_(std::move(sparse))
     , sparse_columns_((columns - 1 + kSparseStep - 1) / kSparseStep + 1)
-    , errors_(DetailErrors::noErrors(columns, rows))
+    , errors_(DetailErrors::errorsToBeFilled(columns, rows))
 {
     MARSVIEW_CHECK(sparse_.size() ==
                    sparse_columns_ * ((rows - 1 + kSparseStep - 1) / kSparseStep + 1));
+    for (std::size_t level = 1; level < errors_.size(); ++level) {
+        DetailErrors::NodeLevel& nodes = errors_[level];
+        const std::size_t end_row = std::min(measured.end, rows);
+        if (measured.first >= end_row) {
+            continue;
+        }
+        const std::size_t end = std::min(((end_row - 1) / kNodeCells >> level) + 1, nodes.rows);
+        const std::size_t first = std::min((measured.first / kNodeCells) >> level, end);
+        std::fill(nodes.errors_m.begin() + static_cast<std::ptrdiff_t>(first * nodes.columns),
+                  nodes.errors_m.begin() + static_cast<std::ptrdiff_t>(end * nodes.columns), 0.0F);
+    }
 }
 
 void DetailMeasure::include(std::size_t node_row,

@@ -1,9 +1,11 @@
 // Measures the error of drawing with fewer samples, in parts.
 #pragma once
 
+#include "core/base/large_vector.h"
 #include "core/terrain/detail_errors.h"
 
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -21,6 +23,12 @@ struct DetailPart {
     const float* drawn = nullptr;   // the same without gaps; null: no gaps
 };
 
+/// Rows of samples [first, end), from the first one of a node on; by default, all of a map.
+struct SampleRows {
+    std::size_t first = 0;
+    std::size_t end = std::numeric_limits<std::size_t>::max();
+};
+
 /// Collects the errors of a map, whose parts arrive in any order and from any thread. The result
 /// does not depend on the division into parts.
 class DetailMeasure {
@@ -30,8 +38,12 @@ public:
     static constexpr std::size_t kSparseLevel = 6;
 
     /// A map of columns × rows samples. `sparse` has the drawn heights of level kSparseLevel, over
-    /// the map's base.
-    DetailMeasure(std::size_t columns, std::size_t rows, std::vector<float> sparse);
+    /// the map's base. If parts will only be in some rows, heights that are not vertices of cells
+    /// there need not be set, and errors() are set for the nodes there.
+    DetailMeasure(std::size_t columns,
+                  std::size_t rows,
+                  LargeVector<float> sparse,
+                  const SampleRows& measured = {});
 
     /// Working memory of one measuring thread.
     class Worker {
@@ -66,7 +78,7 @@ private:
 
     std::size_t columns_;
     std::size_t rows_;
-    std::vector<float> sparse_;
+    LargeVector<float> sparse_;
     std::size_t sparse_columns_;
     DetailErrors::NodeErrors errors_;
     std::mutex mutex_; // guards errors_

@@ -161,11 +161,23 @@ void RawRanges::include(const Part& part, std::size_t column, std::size_t row)
     });
 }
 
-SampleStatistics RawRanges::extremes() const
+void RawRanges::clear(std::size_t first, std::size_t end)
+{
+    visit([&](auto blocks) {
+        using R = std::remove_cvref_t<decltype(blocks(0, 0))>;
+        for (std::size_t row = first; row < end; ++row) {
+            for (R& range : blocks.row(row)) {
+                range = R{};
+            }
+        }
+    });
+}
+
+SampleStatistics RawRanges::extremes(std::size_t first, std::size_t end) const
 {
     return visit([&](auto blocks) {
         std::remove_cvref_t<decltype(blocks(0, 0))> all{};
-        for (std::size_t row = 0; row < blocks.rows(); ++row) {
+        for (std::size_t row = first; row < end; ++row) {
             for (const auto& range : blocks.row(row)) {
                 all.include(range);
             }

@@ -42,7 +42,7 @@ public:
     RawRanges() = default;
     /// For a map of that many samples; every block is empty.
     RawRanges(SampleType type, std::size_t sample_columns, std::size_t sample_rows);
-    /// As above, but uninitialized, to be filled through bytes().
+    /// As above, but uninitialized, to be filled through bytes() or clear().
     static RawRanges
     toBeFilled(SampleType type, std::size_t sample_columns, std::size_t sample_rows);
 
@@ -93,8 +93,12 @@ public:
     std::span<std::byte> bytes() noexcept { return {ranges_.data(), ranges_.size()}; }
     std::span<const std::byte> bytes() const noexcept { return {ranges_.data(), ranges_.size()}; }
 
-    /// Over all blocks; the counts stay 0.
-    SampleStatistics extremes() const;
+    /// Makes the blocks of rows [first, end) empty.
+    void clear(std::size_t first, std::size_t end);
+    /// Over the blocks of rows [first, end); the counts stay 0.
+    SampleStatistics extremes(std::size_t first, std::size_t end) const;
+    /// Over all blocks.
+    SampleStatistics extremes() const { return extremes(0, rows_); }
 
 private:
     SampleType type_ = SampleType::Int16;

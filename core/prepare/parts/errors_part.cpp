@@ -28,7 +28,7 @@ nodeRows(const PartRows& part, std::size_t level, std::size_t rows)
 
 // The part of LevelErrors::fills_m; a row of tiles has its own blocks.
 std::span<float>
-fillsOf(std::vector<float>& fills_m, const TileLayout& layout, const PartRows& part)
+fillsOf(LargeVector<float>& fills_m, const TileLayout& layout, const PartRows& part)
 {
     if (fills_m.empty()) {
         return {};

@@ -50,7 +50,6 @@ public:
         , report_(report)
         , monitor_(monitor)
         , shared_path_((fs::path(map.folder) / "shared.tif").string())
-        , means_path_((fs::path(map.folder) / "shared.means").string())
         , is_remote_(remoteNameFor(job.path).has_value())
         , level_path_(is_remote_ ? (fs::path(map.folder) / "joined.marsview").string()
                                  : LevelFile::pathFor(job.path))
@@ -79,15 +78,14 @@ public:
             done = writeLevels();
         }
         removePartFile(shared_path_);
-        removePartFile(means_path_);
         return done;
     }
 
     void removeParts() const
     {
         for (std::size_t part = 1; part <= map_.parts; ++part) {
-            for (const char* ending :
-                 {kPartRaster, kPartLevels, kPartSurvey, kPartFills, kPartErrors}) {
+            for (const char* ending : {kPartRaster, kPartLevels, kPartSurvey, kPartMeans,
+                                       kPartBorder, kPartFills, kPartErrors}) {
                 removePartFile(map_.file(part, ending));
             }
         }
@@ -133,7 +131,7 @@ private:
         level_writer_ = std::move(writer).value();
         survey_.emplace(SurveyOptions{.source = source_.get(),
                                       .scale = map_.scale,
-                                      .means_path = means_path_,
+                                      .means_path = {},
                                       .mean_blocks_max = map_.mean_blocks_max},
                         level_writer_.get(), monitor_);
         if (Status begun = survey_->begin(); !begun) {
@@ -194,7 +192,8 @@ private:
         if (!levels) {
             return levels.error();
         }
-        Status merged = mergeSurvey(*state, *survey_, source_->layout(), rows, &*levels);
+        Status merged = mergeSurvey(*state, *survey_, source_->layout(), rows, &*levels,
+                                    map_.file(part, kPartMeans));
         return merged ? merged : Status(ofPart(part, kPartSurvey, merged.error()));
     }
 
@@ -425,7 +424,6 @@ private:
     JoinReport& report_;
     JobMonitor& monitor_;
     std::string shared_path_; // a tiled GeoTIFF with the tiles that parts share
-    std::string means_path_;
     bool is_remote_;
     std::string level_path_; // on a disk
     OverviewBuilder overviews_;

@@ -1,5 +1,6 @@
 #include "core/prepare/parts/merged_survey.h"
 
+#include "core/prepare/parts/part_border.h"
 #include "core/prepare/parts/survey_part.h"
 
 #include <fmt/format.h>
@@ -7,27 +8,43 @@
 
 namespace marsview {
 
-Status mergeSurveys(const PartedMap& map, const TileLayout& layout, LevelSurveyPass& pass)
+Status restoreSurvey(const PartedMap& map,
+                     std::size_t part,
+                     const TileLayout& layout,
+                     LevelSurveyPass& pass)
 {
     if (Status begun = pass.begin(); !begun) {
         return begun;
     }
-    for (std::size_t part = 1; part <= map.parts; ++part) {
-        Result<CheckpointReader> state = openPartState(map, part, kPartSurvey);
+    const auto merge = [&](std::size_t from, const char* ending, auto&& add) -> Status {
+        Result<CheckpointReader> state = openPartState(map, from, ending);
         if (!state) {
             return std::move(state).error();
         }
+        Status merged = add(*state);
+        return merged
+                   ? merged
+                   : Status(Error{merged.error().code, fmt::format("{}: {}; prepare part {} again",
+                                                                   map.file(from, ending),
+                                                                   merged.error().message, from)});
+    };
+    const PartRows rows = map.rowsOf(part);
+    Status done = merge(part, kPartSurvey, [&](CheckpointReader& state) -> Status {
         PartTiles tiles(map);
-        Status merged = tiles.restore(*state)
-                            ? mergeSurvey(*state, pass, layout, map.rowsOf(part), nullptr)
-                            : Status(Error{ErrorCode::Damaged, "is damaged"});
-        if (!merged) {
-            return Error{merged.error().code,
-                         fmt::format("{}: {}; prepare part {} again", map.file(part, kPartSurvey),
-                                     merged.error().message, part)};
+        return tiles.restore(state)
+                   ? mergeSurvey(state, pass, layout, rows, nullptr, map.file(part, kPartMeans))
+                   : Status(Error{ErrorCode::Damaged, "is damaged"});
+    });
+    for (std::size_t other = 1; done && other <= map.parts; ++other) {
+        if (other == part) {
+            continue;
         }
+        done = merge(other, kPartBorder, [&](CheckpointReader& state) {
+            return mergeBorder(state, pass, layout, map.rowsOf(other), rows,
+                               map.file(other, kPartMeans));
+        });
     }
-    return Done{};
+    return done;
 }
 
 std::size_t meanRowNumber(const TileLayout& layout, std::size_t level, std::size_t row)

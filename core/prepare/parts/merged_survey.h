@@ -1,4 +1,4 @@
-// The first pass over a map, from its parts.
+// What a first pass over a map in parts found, for a second pass.
 #pragma once
 
 #include "core/base/job_monitor.h"
@@ -14,8 +14,12 @@
 
 namespace marsview {
 
-/// Begins `pass` and merges the surveys of all parts without their tiles of nested levels.
-Status mergeSurveys(const PartedMap& map, const TileLayout& layout, LevelSurveyPass& pass);
+/// Begins `pass`, over the rows of a part, and adds the part's survey, without its tiles of nested
+/// levels, and what the second pass over it needs of the other parts.
+Status restoreSurvey(const PartedMap& map,
+                     std::size_t part,
+                     const TileLayout& layout,
+                     LevelSurveyPass& pass);
 
 /// The number of a row of tiles of means, as in LevelSurveyPass::surveyMeanRow().
 std::size_t meanRowNumber(const TileLayout& layout, std::size_t level, std::size_t row);

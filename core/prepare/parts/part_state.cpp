@@ -14,7 +14,7 @@ namespace marsview {
 namespace {
 
 // To be increased with every change of the files.
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;
 
 } // namespace
 
@@ -91,6 +91,7 @@ void PartTiles::save(CheckpointWriter& to) const
 {
     to.put(raster_bytes);
     to.put(levels_bytes);
+    to.put(means_bytes);
     to.putArray(checksums);
     edges.save(to);
     to.putArray(sums);
@@ -99,8 +100,18 @@ void PartTiles::save(CheckpointWriter& to) const
 
 bool PartTiles::restore(CheckpointReader& from)
 {
-    return from.get(raster_bytes) && from.get(levels_bytes) && from.getAny(checksums) &&
-           edges.restore(from) && from.getAny(sums) && from.getAny(counts);
+    return from.get(raster_bytes) && from.get(levels_bytes) && from.get(means_bytes) &&
+           from.getAny(checksums) && edges.restore(from) && from.getAny(sums) &&
+           from.getAny(counts);
+}
+
+bool PartTiles::areOnDisk(const PartedMap& map, std::size_t part) const
+{
+    std::error_code ignored;
+    return bytesOnDisk(map.file(part, kPartRaster)) == raster_bytes &&
+           bytesOnDisk(map.file(part, kPartLevels)) == levels_bytes &&
+           bytesOnDisk(map.file(part, kPartMeans)) == means_bytes &&
+           std::filesystem::exists(map.file(part, kPartBorder), ignored);
 }
 
 Result<std::shared_ptr<const GeotiffTileSource>> openPartTiles(const PartedMap& map,
@@ -131,9 +142,7 @@ std::vector<std::size_t> missingParts(const PartedMap& map)
     for (std::size_t part = 1; part <= map.parts; ++part) {
         Result<CheckpointReader> state = openPartState(map, part, kPartSurvey);
         PartTiles tiles(map);
-        if (!state || !tiles.restore(*state) ||
-            bytesOnDisk(map.file(part, kPartRaster)) != tiles.raster_bytes ||
-            bytesOnDisk(map.file(part, kPartLevels)) != tiles.levels_bytes) {
+        if (!state || !tiles.restore(*state) || !tiles.areOnDisk(map, part)) {
             missing.push_back(part);
         }
     }

@@ -47,6 +47,8 @@ Result<PartedMap> partedMap(const OpenRaster& raster,
 inline constexpr const char* kPartRaster = "tif";    // a tiled GeoTIFF with the part's tiles only
 inline constexpr const char* kPartLevels = "levels"; // tiles of its nested levels
 inline constexpr const char* kPartSurvey = "survey"; // what the first pass found
+inline constexpr const char* kPartMeans = "means";   // finest means, on large maps with voids
+inline constexpr const char* kPartBorder = "border"; // what other parts need of it
 inline constexpr const char* kPartFills = "fills";   // tiles of fills
 inline constexpr const char* kPartErrors = "errors"; // what the second pass found
 
@@ -65,6 +67,7 @@ void removePartFile(const std::string& path);
 struct PartTiles {
     std::uint64_t raster_bytes = 0;
     std::uint64_t levels_bytes = 0;
+    std::uint64_t means_bytes = 0;
     std::vector<std::uint32_t> checksums; // of encoded tiles, in the order of forEachTileRow()
     OverviewEdges edges;
     std::vector<std::uint64_t> sums; // of OverviewBuilder::sumsOf()
@@ -76,6 +79,8 @@ struct PartTiles {
     void save(CheckpointWriter& to) const;
     /// False if it cannot be read.
     bool restore(CheckpointReader& from);
+    /// Whether the part's other files have their size.
+    bool areOnDisk(const PartedMap& map, std::size_t part) const;
 };
 
 /// Calls `function(level, tile_row)` for the rows of tiles that a part completes, in the order of

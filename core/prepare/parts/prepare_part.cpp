@@ -62,9 +62,7 @@ public:
     {
         Result<CheckpointReader> state = openPartState(map_, part_, kPartSurvey);
         PartTiles tiles(map_);
-        return state && tiles.restore(*state) &&
-               bytesOnDisk(map_.file(part_, kPartRaster)) == tiles.raster_bytes &&
-               bytesOnDisk(map_.file(part_, kPartLevels)) == tiles.levels_bytes;
+        return state && tiles.restore(*state) && tiles.areOnDisk(map_, part_);
     }
 
     bool isMeasured() const
@@ -76,8 +74,9 @@ public:
 
     Status copy(PartTiles& tiles)
     {
-        removePartFile(map_.file(part_, kPartSurvey));
-        removePartFile(map_.file(part_, kPartErrors));
+        for (const char* ending : {kPartSurvey, kPartBorder, kPartMeans, kPartErrors}) {
+            removePartFile(map_.file(part_, ending));
+        }
         if (Status made =
                 writeGeoTiffSkeleton(new_raster_, map_.info, {map_.key, map_.source_path});
             !made) {
@@ -130,11 +129,11 @@ public:
         if (!writer) {
             return std::move(writer).error();
         }
-        const std::string means = map_.file(part_, "means");
         LevelSurveyPass pass({.source = source->get(),
                               .scale = map_.scale,
-                              .means_path = means,
-                              .mean_blocks_max = map_.mean_blocks_max},
+                              .means_path = map_.file(part_, kPartMeans),
+                              .mean_blocks_max = map_.mean_blocks_max,
+                              .rows = {rows_.first, rows_.end}},
                              writer->get(), monitor_);
         if (Status begun = pass.begin(); !begun) {
             return begun;
@@ -164,14 +163,17 @@ public:
         (*writer)->keep();
         tiles.levels_bytes = bytesOnDisk(levels + ".part");
         tiles.raster_bytes = bytesOnDisk(new_raster_);
+        CheckpointWriter border(map_.file(part_, kPartBorder));
+        beginPartState(border, map_);
+        if (!saveBorder(border, pass, layout, rows_) || !border.finish()) {
+            return writingState(map_.file(part_, kPartBorder));
+        }
+        tiles.means_bytes = bytesOnDisk(map_.file(part_, kPartMeans));
         CheckpointWriter to(map_.file(part_, kPartSurvey));
         beginPartState(to, map_);
         tiles.save(to);
-        Status saved = saveSurvey(to, pass, layout, rows_);
-        removePartFile(means);
-        if (saved) {
-            saved = renameTo(levels + ".part", levels);
-        }
+        saveSurvey(to, pass, layout, rows_);
+        Status saved = renameTo(levels + ".part", levels);
         if (saved) {
             saved = renameTo(new_raster_, map_.file(part_, kPartRaster));
         }
@@ -188,25 +190,17 @@ public:
             return source.error();
         }
         const TileLayout& layout = (*source)->layout();
-        const std::string means = map_.file(part_, "means");
         LevelSurveyPass survey({.source = source->get(),
                                 .scale = map_.scale,
-                                .means_path = means,
-                                .mean_blocks_max = map_.mean_blocks_max},
+                                .means_path = {},
+                                .mean_blocks_max = map_.mean_blocks_max,
+                                .rows = {rows_.first, rows_.end}},
                                nullptr, monitor_);
-        Status done = mergeSurveys(map_, layout, survey);
-        if (done) {
-            done = measureRows(**source, survey.finish());
-        }
-        removePartFile(means);
-        return done;
+        const Status restored = restoreSurvey(map_, part_, layout, survey);
+        return restored ? measureRows(**source, survey.finish()) : restored;
     }
 
-    void discard() const
-    {
-        removePartFile(new_raster_);
-        removePartFile(map_.file(part_, "means"));
-    }
+    void discard() const { removePartFile(new_raster_); }
 
 private:
     Status keepChecksums(const TileRowWriter& writer, PartTiles& tiles) const
@@ -236,7 +230,8 @@ private:
         if (!writer) {
             return std::move(writer).error();
         }
-        LevelErrorPass pass(source, map_.scale, survey, writer->get(), monitor_);
+        LevelErrorPass pass(source, map_.scale, survey, writer->get(), monitor_,
+                            {rows_.first, rows_.end});
         if (Status begun = pass.begin(); !begun) {
             return begun;
         }

@@ -1,36 +1,14 @@
 #include "core/prepare/parts/survey_part.h"
 
 #include "core/prepare/parts/stored_tiles.h"
-#include "core/prepare/tile_counts.h"
-#include "core/terrain/detail_measure.h"
+#include "core/prepare/parts/survey_rows.h"
 
-#include <cstring>
 #include <span>
 #include <utility>
 #include <vector>
 
 namespace marsview {
 namespace {
-
-// Rows [first, end) of an array with `total` rows.
-struct Rows {
-    std::size_t first = 0;
-    std::size_t end = 0;
-    std::size_t count() const { return end - first; }
-};
-
-Rows rowsOf(const PartRows& part, std::size_t per_tile_row, std::size_t total)
-{
-    return {std::min(part.first * per_tile_row, total), std::min(part.end * per_tile_row, total)};
-}
-
-// Blocks of ranges share the first row of samples of the row of tiles below.
-Rows rangeRows(const PartRows& part, const RawRanges& ranges)
-{
-    Rows rows = rowsOf(part, kTileRanges, ranges.rows());
-    rows.first = std::min(part.first * kTileRanges - (part.first > 0 ? 1 : 0), ranges.rows());
-    return rows;
-}
 
 std::size_t rangeRowBytes(const RawRanges& ranges)
 {
@@ -62,130 +40,7 @@ void forEachChecksum(const TileLayout& layout, const PartRows& part, Function&& 
     }
 }
 
-// Rows of the sparse level whose band is complete within the part; of the others, the bands that
-// are not complete have the samples.
-template <typename Function>
-void forEachSparseRow(const TileLayout& layout, const PartRows& part, Function&& function)
-{
-    constexpr std::size_t kLevel = DetailMeasure::kSparseLevel;
-    for (std::size_t row = 0; row < layout.rowsAt(TileKind::Samples, kLevel); ++row) {
-        if (part.hasSamples(layout, kLevel, row / kTileSide)) {
-            function(row);
-        }
-    }
-}
-
-// The first rows of the part's rows of tiles, by their number in LevelSurvey::first_rows.
-Rows firstRows(const PartRows& part)
-{
-    const std::size_t first = part.first > 0 ? part.first - 1 : 0;
-    return {first, part.isEmpty() ? first : std::max(first, part.end - 1)};
-}
-
-SampleGrid gridOfRows(const SampleGrid& samples, const std::vector<std::size_t>& rows)
-{
-    SampleGrid few =
-        SampleGrid::create(samples.type(), samples.columns(), std::max<std::size_t>(1, rows.size()))
-            .value();
-    std::memset(few.rowData(0), 0, samples.columns() * sampleBytes(samples.type()));
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        samples.visit([&](auto values) {
-            std::memcpy(few.rowData(i), values.row(rows[i]).data(),
-                        samples.columns() * sampleBytes(samples.type()));
-        });
-        for (std::size_t column = 0; samples.hasVoids() && column < samples.columns(); ++column) {
-            if (samples.isVoid(column, rows[i])) {
-                few.markVoid(column, i);
-            }
-        }
-    }
-    return few;
-}
-
-void putRows(const SampleGrid& few, const std::vector<std::size_t>& rows, SampleGrid& samples)
-{
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        few.visit([&](auto values) {
-            std::memcpy(samples.rowData(rows[i]), values.row(i).data(),
-                        samples.columns() * sampleBytes(samples.type()));
-        });
-        for (std::size_t column = 0; few.hasVoids() && column < samples.columns(); ++column) {
-            if (few.isVoid(column, i)) {
-                samples.markVoid(column, rows[i]);
-            }
-        }
-    }
-}
-
-std::vector<std::size_t> numbersOf(const Rows& rows)
-{
-    std::vector<std::size_t> numbers;
-    for (std::size_t row = rows.first; row < rows.end; ++row) {
-        numbers.push_back(row);
-    }
-    return numbers;
-}
-
-std::vector<std::size_t> sparseRows(const TileLayout& layout, const PartRows& part)
-{
-    std::vector<std::size_t> rows;
-    forEachSparseRow(layout, part, [&rows](std::size_t row) { rows.push_back(row); });
-    return rows;
-}
-
-template <typename Values>
-auto rowsIn(Values& values, const Rows& rows, std::size_t columns)
-{
-    return std::span(values).subspan(rows.first * columns, rows.count() * columns);
-}
-
-Rows blockRows(const LevelSurvey& found, const PartRows& part)
-{
-    return rowsOf(part, kTileSide / found.kept.block_samples, found.blocks.rows);
-}
-
-Status saveFineMeans(CheckpointWriter& to, const FineMeans& means, const PartRows& part)
-{
-    for (std::size_t level = 0; level < means.levelCount(); ++level) {
-        const BlockExtent& extent = means.extent(level);
-        const Rows rows = rowsOf(part, kTileBlocks >> level, extent.blockRows());
-        BlockRows read{.columns = extent.blockColumns(),
-                       .level_rows = extent.blockRows(),
-                       .first_row = rows.first,
-                       .heights_m = {}};
-        read.heights_m.resize(read.columns * rows.count());
-        if (rows.count() > 0) {
-            if (Status done = means.read(level, read); !done) {
-                return done;
-            }
-        }
-        to.putArray(read.heights_m);
-    }
-    return Done{};
-}
-
-Status mergeFineMeans(CheckpointReader& from, FineMeans& means, const PartRows& part)
-{
-    for (std::size_t level = 0; level < means.levelCount(); ++level) {
-        const BlockExtent& extent = means.extent(level);
-        const Rows rows = rowsOf(part, kTileBlocks >> level, extent.blockRows());
-        BlockRows read{.columns = extent.blockColumns(),
-                       .level_rows = extent.blockRows(),
-                       .first_row = rows.first,
-                       .heights_m = {}};
-        if (!from.getAny(read.heights_m) || read.heights_m.size() != read.columns * rows.count()) {
-            return notOfThisPart();
-        }
-        if (rows.count() > 0) {
-            if (Status done = means.write(level, read); !done) {
-                return done;
-            }
-        }
-    }
-    return Done{};
-}
-
-bool mergeRanges(CheckpointReader& from, RawRanges& ranges, const Rows& rows)
+bool mergeRanges(CheckpointReader& from, RawRanges& ranges, const SurveyRows& rows)
 {
     RawArray<std::byte> read(rows.count() * rangeRowBytes(ranges));
     if (!from.getArray(std::span(read.data(), read.size()))) {
@@ -205,18 +60,18 @@ bool mergeRanges(CheckpointReader& from, RawRanges& ranges, const Rows& rows)
 
 } // namespace
 
-Status saveSurvey(CheckpointWriter& to,
-                  LevelSurveyPass& pass,
-                  const TileLayout& layout,
-                  const PartRows& part)
+void saveSurvey(CheckpointWriter& to,
+                LevelSurveyPass& pass,
+                const TileLayout& layout,
+                const PartRows& part)
 {
     const LevelSurveyPass::State state = pass.state();
     const LevelSurvey& found = state.found;
-    const Rows ranges = rangeRows(part, found.ranges);
+    const SurveyRows ranges = rangeRows(part, found.ranges);
     const std::size_t range_bytes = rangeRowBytes(found.ranges);
     to.putArray(
         found.ranges.bytes().subspan(ranges.first * range_bytes, ranges.count() * range_bytes));
-    const Rows blocks = blockRows(found, part);
+    const SurveyRows blocks = blockRows(found, part);
     to.putArray(rowsIn(found.blocks.means_m, blocks, found.blocks.columns));
     if (!found.blocks.shares.empty()) {
         to.putArray(rowsIn(found.blocks.shares, blocks, found.blocks.columns));
@@ -235,20 +90,21 @@ Status saveSurvey(CheckpointWriter& to,
     });
     to.put(state.void_count.load());
     to.putGrid(gridOfRows(*found.sparse, sparseRows(layout, part)));
-    to.putGrid(gridOfRows(*found.first_rows, numbersOf(firstRows(part))));
+    to.putGrid(gridOfRows(*found.first_rows, firstRows(part)));
     state.nested.save(to);
-    return saveFineMeans(to, found.fine_means, part);
+    found.fine_means.saveChecksums(to);
 }
 
 Status mergeSurvey(CheckpointReader& from,
                    LevelSurveyPass& pass,
                    const TileLayout& layout,
                    const PartRows& part,
-                   const FileBytes* tiles)
+                   const FileBytes* tiles,
+                   const std::string& means_path)
 {
     const LevelSurveyPass::State state = pass.state();
     LevelSurvey& found = state.found;
-    const Rows blocks = blockRows(found, part);
+    const SurveyRows blocks = blockRows(found, part);
     bool is_good = mergeRanges(from, found.ranges, rangeRows(part, found.ranges)) &&
                    from.getArray(rowsIn(found.blocks.means_m, blocks, found.blocks.columns)) &&
                    (found.blocks.shares.empty() ||
@@ -284,12 +140,12 @@ Status mergeSurvey(CheckpointReader& from,
         return notOfThisPart();
     }
     state.void_count += void_count;
-    const std::vector<std::size_t> sparse = sparseRows(layout, part);
-    const std::vector<std::size_t> first_rows = numbersOf(firstRows(part));
-    const auto sparse_grid =
-        from.getGrid(layout.type, found.sparse->columns(), std::max<std::size_t>(1, sparse.size()));
+    const SurveyRows sparse = sparseRows(layout, part);
+    const SurveyRows first_rows = firstRows(part);
+    const auto sparse_grid = from.getGrid(layout.type, found.sparse->columns(),
+                                          std::max<std::size_t>(1, sparse.count()));
     const auto first_grid =
-        from.getGrid(layout.type, layout.columns, std::max<std::size_t>(1, first_rows.size()));
+        from.getGrid(layout.type, layout.columns, std::max<std::size_t>(1, first_rows.count()));
     if (!sparse_grid || !first_grid) {
         return notOfThisPart();
     }
@@ -304,8 +160,8 @@ Status mergeSurvey(CheckpointReader& from,
             return kept;
         }
     }
-    if (Status merged = mergeFineMeans(from, found.fine_means, part); !merged) {
-        return merged;
+    if (!found.fine_means.add(from, means_path, {part.first, part.end})) {
+        return notOfThisPart();
     }
     return storeAgain(std::move(stored), tiles, part, state.ordered);
 }

@@ -8,22 +8,26 @@
 #include "core/prepare/parts/part_rows.h"
 #include "core/tiles/tile.h"
 
+#include <string>
+
 namespace marsview {
 
 /// Writes what the pass found in `rows`, which it has processed together with the rows of means in
 /// them: in proportion to the rows, not to the map.
-Status saveSurvey(CheckpointWriter& to,
-                  LevelSurveyPass& pass,
-                  const TileLayout& layout,
-                  const PartRows& rows);
+void saveSurvey(CheckpointWriter& to,
+                LevelSurveyPass& pass,
+                const TileLayout& layout,
+                const PartRows& rows);
 
 /// Adds what saveSurvey() wrote. Parts are merged in the order of their rows; the result is that
 /// of one pass over all of them. The tiles stored by the part are read from `tiles` and stored
-/// again, unless it is null. Invalid if `from` is not of such a part.
+/// again, unless it is null. The part's finest means stay in their file `means_path`. Invalid if
+/// `from` is not of such a part.
 Status mergeSurvey(CheckpointReader& from,
                    LevelSurveyPass& pass,
                    const TileLayout& layout,
                    const PartRows& rows,
-                   const FileBytes* tiles);
+                   const FileBytes* tiles,
+                   const std::string& means_path);
 
 } // namespace marsview

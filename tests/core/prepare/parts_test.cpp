@@ -101,14 +101,21 @@ protected:
                          {.path = out(), .folder = partsFolder(), .parts = parts, .order = order},
                          monitor);
     }
-    Files joined(const std::string& source, std::size_t parts) const
+    // Who makes the second pass.
+    enum class Measured { ByParts, WhileJoining };
+
+    Files joined(const std::string& source,
+                 std::size_t parts,
+                 Measured measured = Measured::ByParts) const
     {
-        for (std::size_t i = 1; i <= parts; ++i) {
-            const auto report = part(source, i, parts);
+        for (std::size_t i = 0; i < (measured == Measured::ByParts ? 2 * parts : parts); ++i) {
+            const auto report = part(source, i % parts + 1, parts);
             EXPECT_TRUE(report) << report.error().message;
         }
         const auto report = join(source, parts);
         EXPECT_TRUE(report) << report.error().message;
+        EXPECT_EQ(report ? report->measured : 0,
+                  measured == Measured::ByParts ? 0 : parts - 1); // the last one has not to wait
         EXPECT_FALSE(fs::exists(partsFolder()));
         return report ? takeFiles() : Files{};
     }
@@ -202,7 +209,7 @@ TEST_F(Parts, ShareTheCoarsestOverviews)
     const std::string source = test::writeVrt(folder_, "tall", recipeOf<std::int16_t>(40, 140'000));
     const Files whole = once(source);
     expectEqual(joined(source, 7), whole, "7 parts");
-    expectEqual(joined(source, 300), whole, "300 parts");
+    expectEqual(joined(source, 300, Measured::WhileJoining), whole, "300 parts");
 }
 
 TEST_F(Parts, MayBeMadeInAnyOrderTwiceAndMeasuredBeforehand)
@@ -263,6 +270,38 @@ TEST_F(Parts, AreNamedIfTheyAreMissingDamagedOrOfAnotherSource)
     EXPECT_THAT(join(other, 5).error().message, HasSubstr("was made from another source"));
 }
 
+// Otherwise the parts of a large map would read as much as all of them have.
+TEST_F(Parts, AreMeasuredWithoutTheSurveysOfOthers)
+{
+    const std::string source = test::writeVrt(folder_, "map", recipeOf<std::int16_t>(700, 3300));
+    const Files whole = once(source);
+    for (std::size_t number = 1; number <= 5; ++number) {
+        ASSERT_TRUE(part(source, number, 5));
+    }
+    const auto survey = [this](std::size_t number) {
+        return partsFolder() + "/" + std::to_string(number) + "-of-5.survey";
+    };
+    for (std::size_t number = 1; number < 5; ++number) {
+        std::vector<std::string> others;
+        for (std::size_t other = 1; other <= 5; ++other) {
+            others.push_back(test::readFile(survey(other)));
+            if (other != number) {
+                std::ofstream(survey(other), std::ios::binary) << "unread";
+            }
+        }
+        const auto report = part(source, number, 5);
+        ASSERT_TRUE(report) << report.error().message;
+        EXPECT_TRUE(report->is_measured);
+        for (std::size_t other = 1; other <= 5; ++other) {
+            std::ofstream(survey(other), std::ios::binary) << others[other - 1];
+        }
+    }
+    const auto report = join(source, 5);
+    ASSERT_TRUE(report) << report.error().message;
+    EXPECT_EQ(report->measured, 0U);
+    expectEqual(takeFiles(), whole, "measured without the surveys of others");
+}
+
 // As on maps with voids whose finest means do not fit in memory.
 TEST_F(Parts, FillVoidsFromMeansOnTheDisk)
 {
@@ -274,7 +313,7 @@ TEST_F(Parts, FillVoidsFromMeansOnTheDisk)
     const std::string source = test::writeVrt(folder_, "map", test::recipeFor(900, holes));
     constexpr std::size_t kBlocks = 500;
     JobMonitor monitor;
-    for (const std::size_t number : {1U, 2U, 3U, 4U, 2U}) {
+    for (const std::size_t number : {1U, 2U, 3U, 4U, 2U, 3U}) {
         ASSERT_TRUE(preparePart(
             *openRaster({.path = source}),
             {.folder = partsFolder(), .part = number, .parts = 4, .mean_blocks_max = kBlocks},
