@@ -441,7 +441,7 @@ void addBenchContactCommand(CLI::App& bench, CommandAction& run)
         "Errors are measured against the ideal: the proxy that follows the goal's motion cut into\n"
         "1/128 cell, found by a slow method that shares no code with the models. With --scene "
         "body\n"
-        "the ideal is the surface walk over these pieces, and the minimum is not checked.\n"
+        "the ideal is the surface walk over these pieces.\n"
         "The hand is put down on the surface in many places, and presses 2 to 5 cells into it.\n"
         "A cell is the mean of its two sides. The mean is of a whole run without reading a clock;\n"
         "p50 to max are of single updates, each with its shortest time over all "

@@ -84,8 +84,7 @@ public:
         return std::make_unique<FlatIdeal>(surface_, piece_cells);
     }
     ScenePoint seen(const ScenePoint& goal) const override { return clampedGoal(surface_, goal); }
-    std::optional<double> steepestCosineAt(const ScenePoint& proxy,
-                                           const ScenePoint& goal) const override
+    double steepestCosineAt(const ScenePoint& proxy, const ScenePoint& goal) const override
     {
         return steepestCosine(surface_, proxy, goal);
     }
@@ -125,10 +124,9 @@ public:
                                           piece_cells * cellM());
     }
     ScenePoint seen(const ScenePoint& goal) const override { return goal; }
-    std::optional<double> steepestCosineAt(const ScenePoint& /*proxy*/,
-                                           const ScenePoint& /*goal*/) const override
+    double steepestCosineAt(const ScenePoint& proxy, const ScenePoint& goal) const override
     {
-        return std::nullopt;
+        return steepestCosine(*surface_.mesh(), georeference_, proxy, goal);
     }
 
 private:

@@ -11,7 +11,6 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <vector>
 
 namespace marsview {
@@ -64,9 +63,8 @@ public:
     virtual std::unique_ptr<IdealProxy> ideal(double piece_cells) const = 0;
     /// The goal as a model sees it.
     virtual ScenePoint seen(const ScenePoint& goal) const = 0;
-    /// See local_minimum.h; empty where it is not known.
-    virtual std::optional<double> steepestCosineAt(const ScenePoint& proxy,
-                                                   const ScenePoint& goal) const = 0;
+    /// See local_minimum.h.
+    virtual double steepestCosineAt(const ScenePoint& proxy, const ScenePoint& goal) const = 0;
 
 protected:
     BenchSurface() = default;
@@ -81,8 +79,8 @@ BenchSurfaceMaker flatBenchSurfaces(std::shared_ptr<const FilledHeightfield> ter
                                     const SceneFrame& frame);
 
 /// The map on its body, touched by the same hand: its goals have the same places on the map and the
-/// same heights above it. The ideal is the surface walk after each piece of the motion. Whether a
-/// proxy is at a minimum is not known. Errors: those of BodyMesh::build().
+/// same heights above it. The ideal is the surface walk after each piece of the motion. Errors:
+/// those of BodyMesh::build().
 BenchSurfaceMaker bodyBenchSurfaces(std::shared_ptr<const FilledHeightfield> terrain,
                                     const Georeference& georeference,
                                     JobMonitor& monitor);

@@ -238,7 +238,6 @@ private:
         std::size_t within_half = 0;
         std::size_t within_1e5 = 0;
         std::size_t minima = 0;
-        bool is_minimum_known = row.model != ContactModelKind::VirtualProxy;
         for (std::size_t i = 0; i < way.goals.size(); ++i) {
             const ScenePoint goal = surface.seen(way.goals[i]);
             if (isPlaced(i)) {
@@ -266,9 +265,7 @@ private:
             within_1e5 += off <= 1e-5 ? 1U : 0U;
             angles.push_back(angleDegrees(force, ideal_force));
             distances.push_back(std::abs(length(force) - length(ideal_force)) / cell_m_);
-            const std::optional<double> cosine = surface.steepestCosineAt(state.proxy, goal);
-            minima += cosine && *cosine <= kCosineMax ? 1U : 0U;
-            is_minimum_known = is_minimum_known && cosine;
+            minima += surface.steepestCosineAt(state.proxy, goal) <= kCosineMax ? 1U : 0U;
         }
         const double count = static_cast<double>(updatesOf(way));
         for (double* const sum :
@@ -288,7 +285,7 @@ private:
         errors.force_mean_deg = meanOf(angles);
         errors.force_p99_deg = quantile(angles, 0.99);
         errors.distance_mean = meanOf(distances);
-        if (is_minimum_known) {
+        if (row.model != ContactModelKind::VirtualProxy) {
             errors.at_minimum = static_cast<double>(minima) / count;
         }
         row.errors = errors;

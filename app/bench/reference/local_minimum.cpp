@@ -1,8 +1,12 @@
 #include "app/bench/reference/local_minimum.h"
 
+#include "core/contact/body_goal_frame.h"
+#include "core/mesh/mesh_cast.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 
 namespace marsview {
 namespace {
@@ -57,6 +61,70 @@ double steepestCosine(const HeightfieldSurface& surface,
                     }
                 }
             }
+        }
+    }
+    return steepest;
+}
+
+double steepestCosine(const BodyMesh& mesh,
+                      const Georeference& georeference,
+                      const ScenePoint& proxy,
+                      const ScenePoint& goal)
+{
+    const BodyPositions& positions = mesh.positions();
+    const BodyGoalFrame frame(positions.ellipsoid(), 1.0, Angle::degrees(0.0));
+    const TracePoint at = frame.fromScene(proxy);
+    const GeographicPoint place{.longitude = Angle::degrees(at.x),
+                                .latitude = Angle::degrees(at.y)};
+    const BodyPositions::Foot foot = footOf(positions.ellipsoid(), place);
+    const Vec3 to_goal = goal - proxy;
+    double steepest = cosine(to_goal, foot.normal);
+    const auto consider = [&](std::uint32_t face) {
+        constexpr double kOn = 1e-9; // of the face's size
+        const auto points = mesh.points(face);
+        const double size =
+            std::sqrt(std::max({dot(points[1] - points[0], points[1] - points[0]),
+                                dot(points[2] - points[1], points[2] - points[1]),
+                                dot(points[0] - points[2], points[0] - points[2])}));
+        const std::array<double, 3> weights =
+            nearestWeights(points[0] - proxy, points[1] - proxy, points[2] - proxy);
+        const Vec3 rest = (points[0] - proxy) * weights[0] + (points[1] - proxy) * weights[1] +
+                          (points[2] - proxy) * weights[2];
+        constexpr double kRounding = 1e-14; // of coordinates
+        if (length(rest) > kOn * size + kRounding * length(proxy)) {
+            return;
+        }
+        for (const ScenePoint& corner : points) {
+            const Vec3 along = corner - proxy;
+            // A corner at the proxy itself gives only rounding error instead of a direction.
+            if (length(along) > 1e-7 * size) {
+                steepest = std::max(steepest, cosine(to_goal, along));
+            }
+        }
+    };
+    // Straight edges pass less than a cell from where the grid's lines are on the ellipsoid.
+    const auto cell_columns =
+        static_cast<std::int64_t>(positions.columns()) - (positions.wraps() ? 0 : 1);
+    const auto cell_rows = static_cast<std::int64_t>(positions.rows()) - 1;
+    const auto grid = georeference.toGrid(place);
+    const auto column = static_cast<std::int64_t>(std::floor(grid ? grid->column : 0.0));
+    const auto row = static_cast<std::int64_t>(std::floor(grid ? grid->row : 0.0)) -
+                     static_cast<std::int64_t>(positions.firstRow());
+    for (std::int64_t r = std::max<std::int64_t>(row - 1, 0); r <= std::min(row + 1, cell_rows - 1);
+         ++r) {
+        for (std::int64_t c = column - 1; c <= column + 1; ++c) {
+            const std::int64_t turned = (c % cell_columns + cell_columns) % cell_columns;
+            if (positions.wraps() || turned == c) {
+                const auto face = static_cast<std::uint32_t>(2 * (r * cell_columns + turned));
+                consider(face);
+                consider(face + 1);
+            }
+        }
+    }
+    if (row <= 0 || row + 1 >= cell_rows) { // the triangles that close the poles
+        for (auto face = static_cast<std::uint32_t>(2 * cell_columns * cell_rows);
+             face < mesh.faceCount(); ++face) {
+            consider(face);
         }
     }
     return steepest;

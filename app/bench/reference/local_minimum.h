@@ -2,7 +2,9 @@
 // goal.
 #pragma once
 
+#include "core/body/body_mesh.h"
 #include "core/contact/heightfield_surface.h"
+#include "core/geo/georeference.h"
 
 namespace marsview {
 
@@ -16,6 +18,14 @@ namespace marsview {
 double steepestCosine(const HeightfieldSurface& surface,
                       const ScenePoint& proxy,
                       const ScenePoint& goal) noexcept;
+
+/// The same on a body, where up is the ellipsoid's normal at the proxy. Of `mesh` only the points
+/// of faces are used, and `georeference` is that of its map. Not for proxies at the border of a
+/// map.
+double steepestCosine(const BodyMesh& mesh,
+                      const Georeference& georeference,
+                      const ScenePoint& proxy,
+                      const ScenePoint& goal);
 
 /// The goal as a contact model sees it: clamped to the grid.
 ScenePoint clampedGoal(const HeightfieldSurface& surface, const ScenePoint& goal) noexcept;

@@ -1,3 +1,4 @@
+#include "app/bench/reference/local_minimum.h"
 #include "core/contact/body_goal_frame.h"
 #include "core/contact/contact_model.h"
 #include "tests/core/contact/body_maps.h"
@@ -82,6 +83,40 @@ TEST_P(BodyContact, ItsProxiesAreThoseOnAListOfTheSameTriangles)
         }
         EXPECT_GT(contacts, kUpdates / 4);
         EXPECT_EQ(equal, kUpdates) << "exaggeration " << exaggeration;
+    }
+}
+
+// The check of minima, which the models do not use, on maps without a border.
+TEST(BodySurface, UpdatesEndWhereNoDirectionLeadsCloser)
+{
+    constexpr double kCosineMax = 1e-6; // rounding
+    for (const test::BodyMap& map : test::bodyMaps()) {
+        const auto mesh = test::bodyMesh(map, 1.0);
+        if (!mesh->positions().closesAtFirstRow() || !mesh->positions().closesAtLastRow()) {
+            continue;
+        }
+        const Georeference georeference = test::georeferenceOf(map);
+        const auto model = makeContactModel(ContactModelKind::ContinuousWalk, BodySurface(mesh));
+        test::Random random(13);
+        Walker walker{*mesh, random, 1.0, 1.0};
+        model->update(mesh->highAbove(mesh->vertex(0)));
+        int contacts = 0;
+        int minima_of_others = 0;
+        for (int i = 0; i < 300; ++i) {
+            const ScenePoint goal = walker.next(1.0);
+            const ContactState state = model->update(goal);
+            if (!state.is_in_contact) {
+                continue;
+            }
+            ++contacts;
+            ASSERT_LE(steepestCosine(*mesh, georeference, state.proxy, goal), kCosineMax)
+                << map.name << " " << i;
+            const ScenePoint other = walker.next(1.0);
+            minima_of_others +=
+                steepestCosine(*mesh, georeference, state.proxy, other) <= kCosineMax ? 1 : 0;
+        }
+        EXPECT_GT(contacts, 100) << map.name;
+        EXPECT_LT(minima_of_others, contacts / 4) << map.name;
     }
 }
 
