@@ -13,6 +13,7 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -24,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kFormat = "MarsView project";
-constexpr std::uintmax_t kBytesMax = std::uintmax_t{64} << 20;
+constexpr std::uintmax_t kBytesMax = std::uintmax_t{1} << 30;
 constexpr std::size_t kLayersMax = 100000;
 constexpr std::size_t kDrawnMax = 1000000; // measurements, annotations
 constexpr std::size_t kViewsMax = 100000;
@@ -372,6 +373,72 @@ VectorOverlay overlayFrom(Members& members, const ProjectFolders& folders)
     return overlay;
 }
 
+// Annotations as projectText() has them: a document of a million takes gigabytes, so that each is
+// made and written alone.
+std::string annotationsText(const std::vector<ProjectAnnotation>& annotations)
+{
+    std::string text = "[";
+    for (const ProjectAnnotation& drawn : annotations) {
+        Json annotation = annotationJson(drawn.annotation);
+        if (drawn.layer) {
+            annotation["layer"] = *drawn.layer;
+        }
+        text += text.size() > 1 ? ",\n    " : "\n    ";
+        for (const char letter : annotation.dump(kIndent)) {
+            text += letter;
+            if (letter == '\n') {
+                text += "    ";
+            }
+        }
+    }
+    return text + "\n  ]";
+}
+
+// Takes the annotations out of a document while it is being parsed, for the same reason.
+class AnnotationTaker {
+public:
+    // For the parser: whether a value stays in the document.
+    bool operator()(int depth, Json::parse_event_t event, const Json& value)
+    {
+        if (event == Json::parse_event_t::key && depth == 1) {
+            is_inside_ = value == "annotations";
+        }
+        if (!is_inside_ || event != Json::parse_event_t::object_end || depth != 2) {
+            return true;
+        }
+        if (++count_ <= kDrawnMax) {
+            Members members(value, fmt::format("annotations[{}]", count_ - 1), fault_);
+            ProjectAnnotation drawn{.annotation = annotationFrom(members)};
+            members.index("layer", drawn.layer, std::numeric_limits<std::size_t>::max());
+            annotations_.push_back(std::move(drawn));
+        }
+        return false;
+    }
+
+    // Once the layers are known.
+    std::vector<ProjectAnnotation> take(std::size_t layer_count, std::string& fault)
+    {
+        for (std::size_t i = 0; i < annotations_.size() && fault_.empty(); ++i) {
+            if (annotations_[i].layer && *annotations_[i].layer >= layer_count) {
+                fault_ = fmt::format("annotations[{}].layer is not the index of a layer", i);
+            }
+        }
+        if (count_ > kDrawnMax && fault_.empty()) {
+            fault_ = "annotations is not a list of annotations";
+        }
+        if (fault.empty()) {
+            fault = fault_;
+        }
+        return std::move(annotations_);
+    }
+
+private:
+    bool is_inside_ = false;
+    std::size_t count_ = 0;
+    std::string fault_;
+    std::vector<ProjectAnnotation> annotations_;
+};
+
 constexpr std::array kKnownMembers{"format", "version",  "active", "look",         "camera",
                                    "layers", "overlays", "views",  "measurements", "annotations"};
 
@@ -451,21 +518,19 @@ Result<std::string> projectText(const Project& project, const ProjectFolders& fo
         json["measurements"] = std::move(measurements);
     }
     if (!project.annotations.empty()) {
-        Json annotations = Json::array();
-        for (const ProjectAnnotation& drawn : project.annotations) {
-            Json annotation = annotationJson(drawn.annotation);
-            if (drawn.layer) {
-                annotation["layer"] = *drawn.layer;
-            }
-            annotations.push_back(std::move(annotation));
-        }
-        json["annotations"] = std::move(annotations);
+        json["annotations"] = Json::array();
     }
     for (const auto& [key, text] : project.others) {
         json[key] = Json::parse(text, nullptr, false);
     }
     try {
-        return json.dump(kIndent) + "\n";
+        std::string text = json.dump(kIndent) + "\n";
+        if (!project.annotations.empty()) {
+            const std::string empty = "\n  \"annotations\": []"; // texts have no line breaks
+            text.replace(text.find(empty) + empty.size() - 2, 2,
+                         annotationsText(project.annotations));
+        }
+        return text;
     } catch (const Json::type_error&) {
         return Error{
             ErrorCode::Invalid,
@@ -477,7 +542,8 @@ Result<std::string> projectText(const Project& project, const ProjectFolders& fo
 Result<Project>
 projectFrom(std::string_view text, const ProjectFolders& folders, const std::string& name)
 {
-    const Json json = Json::parse(text, nullptr, false);
+    AnnotationTaker taker;
+    const Json json = Json::parse(text, std::ref(taker), false);
     const auto damaged = [&name](const std::string& why) {
         return Error{
             ErrorCode::Damaged,
@@ -536,11 +602,9 @@ projectFrom(std::string_view text, const ProjectFolders& folders, const std::str
                  });
     members.list("annotations", kDrawnMax, "a list of annotations",
                  [&](const Json& element, const std::string& place) {
-                     Members annotation(element, place, fault);
-                     ProjectAnnotation drawn{.annotation = annotationFrom(annotation)};
-                     annotation.index("layer", drawn.layer, project.layers.size());
-                     project.annotations.push_back(std::move(drawn));
+                     const Members annotation(element, place, fault); // not an object
                  });
+    project.annotations = taker.take(project.layers.size(), fault);
     members.object("look", [&](Members& look) { project.look = lookFrom(look); });
     members.object("camera", [&](Members& camera) { project.camera = cameraFrom(camera); });
     if (!fault.empty()) {
@@ -565,11 +629,12 @@ Result<Project> readProject(const fs::path& path, const fs::path& bundled)
         return Error{ErrorCode::Invalid, name + ": a folder, not a MarsView project"};
     }
     if (const auto bytes = fs::file_size(path, problem); !problem && bytes > kBytesMax) {
-        return Error{ErrorCode::TooLarge, name + ": larger than 64 MB, so not a MarsView project"};
+        return Error{ErrorCode::TooLarge, name + ": larger than 1 GB, so not a MarsView project"};
     }
     std::ifstream file(path, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
-    if (!file || file.bad()) {
+    std::string text(static_cast<std::size_t>(fs::file_size(path, problem)), '\0');
+    file.read(text.data(), static_cast<std::streamsize>(text.size()));
+    if (problem || !file) {
         return Error{ErrorCode::Unreadable,
                      fmt::format("{}: cannot be read: {}", name, std::strerror(errno))};
     }

@@ -118,7 +118,7 @@ Result<std::string> projectText(const Project& project, const ProjectFolders& fo
 Result<Project>
 projectFrom(std::string_view text, const ProjectFolders& folders, const std::string& name);
 
-/// Reads a project file of at most 64 MB. Blocks on the disk.
+/// Reads a project file of at most 1 GB. Blocks on the disk.
 Result<Project> readProject(const std::filesystem::path& path,
                             const std::filesystem::path& bundled);
 

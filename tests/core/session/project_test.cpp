@@ -300,6 +300,9 @@ TEST(Project, ThousandRandomSessionsSavedAndOpenedAreEqual)
         const Project project = randomProject(random);
         layer_count += static_cast<int>(project.layers.size());
         const auto again = projectFrom(text(project), kFolders, "a.mvproj");
+        if (i % 20 == 0) { // the layout of the document as a whole
+            EXPECT_EQ(nlohmann::ordered_json::parse(text(project)).dump(2) + "\n", text(project));
+        }
         ASSERT_TRUE(again) << again.error().message;
         ASSERT_EQ(*again, project) << text(project) << "\n" << text(*again);
         measurement_count += static_cast<int>(project.measurements.size());
