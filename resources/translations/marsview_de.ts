@@ -2150,6 +2150,10 @@
 <context>
     <name>marsview::DrawnList</name>
     <message>
+        <source>Select all</source>
+        <translation>Alles auswählen</translation>
+    </message>
+    <message>
         <source>&amp;Go There</source>
         <translation>&amp;Gehe dorthin</translation>
     </message>

@@ -245,24 +245,25 @@ TEST_F(AnnotationTest, TheTableRenamesColorsSortsFindsAndRemovesSeveral)
 {
     ASSERT_NO_FATAL_FAILURE(drawOneOfEach());
     QUndoStack& undo = window_->undoStack();
-    ASSERT_EQ(list().topLevelItemCount(), 3);
-    list().topLevelItem(0)->setText(AnnotationList::NameColumn, QStringLiteral("Zeta"));
+    ASSERT_EQ(list().rowCount(), 3);
+    list().setTextAt(0, AnnotationList::NameColumn, QStringLiteral("Zeta"));
     EXPECT_EQ(annotating().state().items[0].name, QStringLiteral("Zeta"));
     EXPECT_EQ(undo.undoText(), QStringLiteral("Rename"));
-    list().topLevelItem(1)->setText(AnnotationList::NoteColumn, QStringLiteral("a fault"));
+    list().setTextAt(1, AnnotationList::NoteColumn, QStringLiteral("a fault"));
     EXPECT_EQ(annotating().state().items[1].note, QStringLiteral("a fault"));
     list().sortByColumn(AnnotationList::NameColumn, Qt::DescendingOrder);
-    EXPECT_EQ(list().topLevelItem(0)->text(AnnotationList::NameColumn), QStringLiteral("Zeta"));
-    EXPECT_EQ(list().topLevelItem(0)->text(AnnotationList::ShapeColumn), QStringLiteral("Point"));
-    EXPECT_EQ(list().topLevelItem(0)->text(AnnotationList::BodyColumn), QStringLiteral("Mars"));
-    Q_EMIT list().itemActivated(list().topLevelItem(0), AnnotationList::NameColumn);
+    EXPECT_EQ(list().textAt(0, AnnotationList::NameColumn), QStringLiteral("Zeta"));
+    EXPECT_EQ(list().textAt(0, AnnotationList::ShapeColumn), QStringLiteral("Point"));
+    EXPECT_EQ(list().textAt(0, AnnotationList::BodyColumn), QStringLiteral("Mars"));
+    Q_EMIT list().activated(list().model()->index(0, AnnotationList::NameColumn));
     EXPECT_EQ(annotating().current()->name, QStringLiteral("Zeta"));
     ASSERT_TRUE(QTest::qWaitFor([this] { return view().isPictureComplete(); }, kTimeout));
     const auto found = annotating().labelPlace(*annotating().current());
     ASSERT_TRUE(found);
     EXPECT_LT((found->toPoint() - at(0.0, 0.0)).manhattanLength(), 20) << "in the middle";
-    list().setCurrentItem(list().topLevelItem(1));
-    list().topLevelItem(2)->setSelected(true);
+    list().selectRow(1);
+    list().selectionModel()->select(list().model()->index(2, 0),
+                                    QItemSelectionModel::Select | QItemSelectionModel::Rows);
     const std::vector<std::uint32_t> two = list().selectedIds();
     ASSERT_EQ(two.size(), 2U);
     annotating().setColors(two, Rgb8{255, 0, 0});
@@ -443,7 +444,8 @@ TEST_F(AnnotationTest, FilesOfOtherProgramsComeAndGo)
     }
     // What is selected alone.
     list().selectAll();
-    list().topLevelItem(2)->setSelected(false);
+    list().selectionModel()->select(list().model()->index(2, 0),
+                                    QItemSelectionModel::Deselect | QItemSelectionModel::Rows);
     EXPECT_EQ(exportTo(QStringLiteral("two.csv")), QString());
     EXPECT_TRUE(importFrom(QStringLiteral("two.csv")).startsWith(QStringLiteral("2 annot")));
 }

@@ -28,7 +28,6 @@
 #include <QLineEdit>
 #include <QTableWidget>
 #include <QTest>
-#include <QTreeWidget>
 #include <QUndoStack>
 
 #include <GeographicLib/Geodesic.hpp>
@@ -285,15 +284,15 @@ TEST_F(MeasureTest, TheListNamesShowsAndRemoves)
     click(at(0.05, 0.0));
     click(at(0.0, 0.08));
     ASSERT_TRUE(isMeasured());
-    ASSERT_EQ(panel().list()->topLevelItemCount(), 1);
-    panel().list()->topLevelItem(0)->setText(0, QStringLiteral("Layer of rock"));
+    ASSERT_EQ(panel().list()->rowCount(), 1);
+    panel().list()->setTextAt(0, MeasureList::NameColumn, QStringLiteral("Layer of rock"));
     EXPECT_EQ(measuring().current()->name, QStringLiteral("Layer of rock"));
     panel().copyResults();
     EXPECT_TRUE(QGuiApplication::clipboard()->text().contains(QStringLiteral("Dip\t")));
     window_->actionSet().remove_measurement->trigger();
-    EXPECT_EQ(panel().list()->topLevelItemCount(), 0);
+    EXPECT_EQ(panel().list()->rowCount(), 0);
     window_->undoStack().undo();
-    EXPECT_EQ(panel().list()->topLevelItemCount(), 1);
+    EXPECT_EQ(panel().list()->rowCount(), 1);
     EXPECT_EQ(measuring().state().items.front().name, QStringLiteral("Layer of rock"));
 }
 
@@ -493,7 +492,7 @@ TEST_F(MeasureTest, NotesAndColorsAreStepsOfUndoAndPartOfTheProject)
     measuring().finish();
     ASSERT_TRUE(isMeasured());
     const std::uint32_t id = measuring().current()->id;
-    panel().list()->topLevelItem(0)->setText(MeasureList::NoteColumn, QStringLiteral("a fault"));
+    panel().list()->setTextAt(0, MeasureList::NoteColumn, QStringLiteral("a fault"));
     measuring().setColor(id, Rgb8{255, 0, 0});
     ASSERT_TRUE(QTest::qWaitFor([this] { return view().isPictureComplete(); }, kTimeout));
     const auto is_red_at = [this](QPoint position) {
@@ -511,8 +510,7 @@ TEST_F(MeasureTest, NotesAndColorsAreStepsOfUndoAndPartOfTheProject)
     EXPECT_EQ(saved.front().color, (Rgb8{255, 0, 0}));
     measuring().open(saved, projectOrder(window_->session()));
     EXPECT_EQ(measuring().saved(), saved);
-    EXPECT_EQ(panel().list()->topLevelItem(0)->text(MeasureList::NoteColumn),
-              QStringLiteral("a fault"));
+    EXPECT_EQ(panel().list()->textAt(0, MeasureList::NoteColumn), QStringLiteral("a fault"));
 }
 
 TEST_F(MeasureTest, TheListSortsResultsByTheirSize)
@@ -526,8 +524,8 @@ TEST_F(MeasureTest, TheListSortsResultsByTheirSize)
     }
     const auto names = [this] {
         QStringList ends;
-        for (int i = 0; i < panel().list()->topLevelItemCount(); ++i) {
-            ends.append(panel().list()->topLevelItem(i)->text(MeasureList::NameColumn).last(1));
+        for (int i = 0; i < panel().list()->rowCount(); ++i) {
+            ends.append(panel().list()->textAt(i, MeasureList::NameColumn).last(1));
         }
         return ends.join(QLatin1Char(' '));
     };
@@ -535,9 +533,9 @@ TEST_F(MeasureTest, TheListSortsResultsByTheirSize)
     panel().list()->sortByColumn(MeasureList::ResultColumn, Qt::DescendingOrder);
     EXPECT_EQ(names(), QStringLiteral("2 3 1"));
     // A row stands for its measurement wherever it is.
-    panel().list()->setCurrentItem(panel().list()->topLevelItem(0));
+    panel().list()->selectRow(0);
     EXPECT_TRUE(measuring().current()->name.endsWith(QLatin1Char('2')));
-    panel().list()->topLevelItem(0)->setText(MeasureList::NameColumn, QStringLiteral("Rim 0"));
+    panel().list()->setTextAt(0, MeasureList::NameColumn, QStringLiteral("Rim 0"));
     EXPECT_EQ(measuring().current()->name, QStringLiteral("Rim 0"));
     EXPECT_EQ(names(), QStringLiteral("0 3 1"));
 }
@@ -644,7 +642,7 @@ TEST_F(MeasureTest, AProjectKeepsTheMeasurements)
     const MeasureItem& again = measuring().state().items.front();
     EXPECT_EQ(again.name, item.name);
     EXPECT_EQ(again.kind, item.kind);
-    EXPECT_EQ(again.time.toMSecsSinceEpoch(), item.time.toMSecsSinceEpoch());
+    EXPECT_EQ(again.time, item.time);
     EXPECT_TRUE(again.is_finished);
     ASSERT_EQ(again.vertices.size(), item.vertices.size());
     EXPECT_NE(measuring().layerOf(again), nullptr);

@@ -1,23 +1,10 @@
 #include "ui/controllers/annotation_controller.h"
 
 #include <algorithm>
-#include <chrono>
 #include <unordered_set>
 
 namespace marsview {
 namespace {
-
-Annotation annotationOf(const AnnotationItem& item)
-{
-    return {.shape = item.shape,
-            .name = item.name.toStdString(),
-            .note = item.note.toStdString(),
-            .color = item.color,
-            .symbol = item.symbol,
-            .body = item.body,
-            .vertices = item.vertices,
-            .time = DrawnTime(std::chrono::milliseconds(item.time.toMSecsSinceEpoch()))};
-}
 
 AnnotationItem itemOf(const Annotation& annotation)
 {
@@ -30,11 +17,23 @@ AnnotationItem itemOf(const Annotation& annotation)
     item.body = annotation.body;
     item.vertices = annotation.vertices;
     item.is_finished = true;
-    item.time = QDateTime::fromMSecsSinceEpoch(annotation.time.time_since_epoch().count());
+    item.time = annotation.time;
     return item;
 }
 
 } // namespace
+
+Annotation annotationOf(const AnnotationItem& item)
+{
+    return {.shape = item.shape,
+            .name = item.name.toStdString(),
+            .note = item.note.toStdString(),
+            .color = item.color,
+            .symbol = item.symbol,
+            .body = item.body,
+            .vertices = item.vertices,
+            .time = item.time};
+}
 
 AnnotationController::AnnotationController(TerrainView& view,
                                            QUndoStack& undo_stack,

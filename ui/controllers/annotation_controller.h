@@ -25,6 +25,9 @@ struct AnnotationItem : DrawnItem {
     bool isComplete() const { return vertices.size() >= verticesNeeded(shape); }
 };
 
+/// As files have it. Any thread.
+Annotation annotationOf(const AnnotationItem& item);
+
 using AnnotationState = DrawnState<AnnotationItem>;
 
 /// Lives in the GUI thread.

@@ -140,16 +140,15 @@ std::vector<ProjectMeasurement> MeasureController::saved() const
             continue;
         }
         const auto layer = std::find(order.begin(), order.end(), item.layer);
-        saved.push_back(
-            {.kind = item.kind,
-             .name = item.name.toStdString(),
-             .layer = layer != order.end()
-                          ? std::optional(static_cast<std::size_t>(layer - order.begin()))
-                          : std::nullopt,
-             .vertices = item.vertices,
-             .time = DrawnTime(std::chrono::milliseconds(item.time.toMSecsSinceEpoch())),
-             .note = item.note.toStdString(),
-             .color = item.color});
+        saved.push_back({.kind = item.kind,
+                         .name = item.name.toStdString(),
+                         .layer = layer != order.end() ? std::optional(static_cast<std::size_t>(
+                                                             layer - order.begin()))
+                                                       : std::nullopt,
+                         .vertices = item.vertices,
+                         .time = item.time,
+                         .note = item.note.toStdString(),
+                         .color = item.color});
     }
     return saved;
 }
@@ -175,8 +174,7 @@ std::optional<NamedMeasurement> MeasureController::named(std::uint32_t id) const
     named.measurement.kind = item->kind;
     named.measurement.name = item->name.toStdString();
     named.measurement.vertices = item->vertices;
-    named.measurement.time = std::chrono::system_clock::time_point(
-        std::chrono::milliseconds(item->time.toMSecsSinceEpoch()));
+    named.measurement.time = item->time;
     named.measurement.note = item->note.toStdString();
     named.measurement.color = item->color;
     named.measurement.result = outcome(id).result;
@@ -203,7 +201,7 @@ void MeasureController::open(const std::vector<ProjectMeasurement>& saved,
         item.vertices = measurement.vertices;
         item.note = QString::fromStdString(measurement.note);
         item.color = measurement.color;
-        item.time = QDateTime::fromMSecsSinceEpoch(measurement.time.time_since_epoch().count());
+        item.time = measurement.time;
         items.push_back(std::move(item));
     }
     replaceAll(std::move(items));
@@ -342,7 +340,7 @@ std::optional<QPointF> MeasureController::labelPlace(std::uint32_t id) const
 void MeasureController::setProfileCursor(std::optional<double> distance_m)
 {
     profile_cursor_m_ = distance_m;
-    Q_EMIT moved();
+    noteMoved();
 }
 
 std::optional<QPointF> MeasureController::profileCursorPlace() const

@@ -46,24 +46,21 @@ VectorOverlays::VectorOverlays(TerrainView& view, FileWork& work, QObject* paren
     , work_(work)
 {
     pool_.setMaxThreadCount(1);
-    draw_timer_.setSingleShot(true);
-    draw_timer_.setInterval(0);
-    connect(&draw_timer_, &QTimer::timeout, this, &VectorOverlays::drawLines);
-    const auto draw_soon = [this] { draw_timer_.start(); };
+    const auto draw_soon = [this] { draw_soon_.request(); };
     connect(&view_, &TerrainView::sightChanged, this, [this] {
         is_hasty_ = true;
-        draw_timer_.start();
+        draw_soon_.request();
     });
     connect(&view_, &TerrainView::exaggerationChanged, this, draw_soon);
     connect(&view_, &TerrainView::pictureCompleted, this, [this] { // finer ground has come
         is_hasty_ = false;
-        draw_timer_.start();
+        draw_soon_.request();
     });
     connect(&view_, &TerrainView::layersChanged, this, [this] {
         for (const VectorOverlay& overlay : overlays_) {
             place({.path = overlay.path, .crs = overlay.crs});
         }
-        draw_timer_.start();
+        draw_soon_.request();
     });
 }
 
@@ -90,7 +87,7 @@ void VectorOverlays::setSession(const Session& session)
     for (const VectorOverlay& overlay : overlays_) {
         place({.path = overlay.path, .crs = overlay.crs});
     }
-    draw_timer_.start();
+    draw_soon_.request();
 }
 
 // Reads the file, unless it is known, and finds where its features are on the map.
@@ -204,7 +201,7 @@ void VectorOverlays::take(const Request& request,
         Q_EMIT wasRead(QString::fromStdString(request.path), QString::fromStdString(request.crs),
                        notices);
     }
-    draw_timer_.start();
+    draw_soon_.request();
     Q_EMIT changed();
 }
 

@@ -7,13 +7,13 @@
 #include "core/vector/feature_index.h"
 #include "core/vector/vector_file.h"
 #include "ui/canvas/terrain_view.h"
+#include "ui/widgets/posted_call.h"
 
 #include <QElapsedTimer>
 #include <QObject>
 #include <QString>
 #include <QStringList>
 #include <QThreadPool>
-#include <QTimer>
 
 #include <cstdint>
 #include <map>
@@ -54,7 +54,7 @@ public:
     /// Around all features of a file in the scene, in meters; empty if they are not on the map.
     std::optional<PlaneBox> boxOf(const std::string& path) const;
     /// Something is being read or placed, or is about to be drawn.
-    bool isBusy() const noexcept { return running_ > 0 || draw_timer_.isActive(); }
+    bool isBusy() const noexcept { return running_ > 0 || draw_soon_.isPending(); }
 
 Q_SIGNALS:
     /// The file that open() asked for can be drawn. A notice is a sentence.
@@ -113,7 +113,7 @@ private:
     std::vector<VectorOverlay> overlays_; // of the session
     std::map<std::string, Entry> entries_;
     bool is_drawn_ = false;
-    QTimer draw_timer_;           // gathers reasons to draw the lines again
+    PostedCall draw_soon_{[this] { drawLines(); }}; // gathers reasons to draw the lines again
     bool is_hasty_ = false;       // the camera has moved since the picture was complete
     QElapsedTimer drawn_at_;      // since the lines were made last
     qint64 hasty_drawing_ns_ = 0; // for that, if it was in haste

@@ -131,7 +131,9 @@ void DotIndex::visit(std::uint32_t at, const Look& look, const See& see) const
     }
     if (node.further == 0) {
         for (std::uint32_t i = node.begin; i < node.end; ++i) {
-            see(dots_[i]);
+            if (is_removed_.empty() || !is_removed_[i]) {
+                see(dots_[i]);
+            }
         }
         return;
     }
@@ -139,9 +141,17 @@ void DotIndex::visit(std::uint32_t at, const Look& look, const See& see) const
     visit(node.further, look, see);
 }
 
+void DotIndex::remove(std::size_t place)
+{
+    is_removed_.resize(dots_.size(), false);
+    if (!is_removed_[place]) {
+        is_removed_[place] = true;
+        ++removed_;
+    }
+}
+
 void DotIndex::thinned(const DotSight& sight,
                        HandleGrid& grid,
-                       const IsValid& is_valid,
                        const std::function<void(const Dot&, QPointF)>& take) const
 {
     if (nodes_.empty()) {
@@ -154,18 +164,14 @@ void DotIndex::thinned(const DotSight& sight,
     };
     visit(0, may_have, [&](const Dot& dot) {
         const auto place = sight.at(dot.place);
-        const bool is_free = place && sight.area().contains(*place) && !grid.isTaken(*place);
-        if (is_free && is_valid(dot)) {
-            grid.take(*place);
+        if (place && sight.area().contains(*place) && grid.take(*place)) {
             take(dot, *place);
         }
     });
 }
 
-std::optional<DotIndex::Near> DotIndex::nearest(const DotSight& sight,
-                                                QPointF position,
-                                                double reach,
-                                                const IsValid& is_valid) const
+std::optional<DotIndex::Near>
+DotIndex::nearest(const DotSight& sight, QPointF position, double reach) const
 {
     std::optional<Near> found;
     if (nodes_.empty()) {
@@ -182,7 +188,7 @@ std::optional<DotIndex::Near> DotIndex::nearest(const DotSight& sight,
             return;
         }
         const double away = std::hypot(place->x() - position.x(), place->y() - position.y());
-        if (away <= reach && is_valid(dot)) {
+        if (away <= reach) {
             reach = away;
             found = Near{.dot = dot, .place = *place, .away = away};
         }

@@ -40,8 +40,8 @@ private:
     QRectF area_;
 };
 
-/// Points of the scene in a tree of boxes. Immutable; a lookup takes about as long as what it
-/// finds, whatever the number of points.
+/// Points of the scene in a tree of boxes. A lookup takes about as long as what it finds, whatever
+/// the number of points.
 class DotIndex {
 public:
     struct Dot {
@@ -50,19 +50,21 @@ public:
 
         bool operator==(const Dot&) const = default;
     };
-    /// True if a dot is still where it was.
-    using IsValid = std::function<bool(const Dot&)>;
-
     DotIndex() = default;
     explicit DotIndex(std::vector<Dot> dots);
 
     std::size_t size() const noexcept { return dots_.size(); }
+    /// In an order of its own; also those that were removed.
+    const std::vector<Dot>& dots() const noexcept { return dots_; }
+    /// Leaves out the dot that is dots()[place] from now on.
+    void remove(std::size_t place);
+    /// How many are left out.
+    std::size_t removed() const noexcept { return removed_; }
 
-    /// Calls `take` with valid dots that are in the area of the sight: one for each square of
-    /// `grid` that is free, and takes the square.
+    /// Calls `take` with dots that are in the area of the sight: one for each square of `grid` that
+    /// is free, and takes the square.
     void thinned(const DotSight& sight,
                  HandleGrid& grid,
-                 const IsValid& is_valid,
                  const std::function<void(const Dot&, QPointF)>& take) const;
 
     struct Near {
@@ -70,9 +72,8 @@ public:
         QPointF place; // on the screen
         double away = 0.0;
     };
-    /// The valid dot that is nearest to a position on the screen, at most `reach` points away.
-    std::optional<Near>
-    nearest(const DotSight& sight, QPointF position, double reach, const IsValid& is_valid) const;
+    /// The dot that is nearest to a position on the screen, at most `reach` points away.
+    std::optional<Near> nearest(const DotSight& sight, QPointF position, double reach) const;
 
 private:
     struct Node {
@@ -87,7 +88,9 @@ private:
     template <typename Look, typename See>
     void visit(std::uint32_t node, const Look& look, const See& see) const;
 
-    std::vector<Dot> dots_; // in the order of the leaves
+    std::vector<Dot> dots_;        // in the order of the leaves
+    std::vector<bool> is_removed_; // of them; empty before the first
+    std::size_t removed_ = 0;
     std::vector<Node> nodes_;
 };
 

@@ -19,11 +19,9 @@ class DrawingBase : public QObject {
 public:
     using QObject::QObject;
 
-    /// In the order in which they were begun.
-    virtual std::vector<const DrawnItem*> drawn() const = 0;
-    /// While it lives, the items of drawn() stay where they are: one that changes gets another
-    /// address.
-    virtual std::shared_ptr<const void> drawnSnapshot() const = 0;
+    /// What differs from the items that `known` is of, which becomes these. Null: there were none.
+    /// Takes as long as what has changed.
+    virtual DrawnChanges changesSince(std::shared_ptr<const void>& known) const = 0;
     /// 0: none.
     virtual std::uint32_t currentId() const = 0;
     /// Null if there is none.
@@ -41,15 +39,18 @@ public:
     virtual void show(std::uint32_t id) = 0;
 
     /// Of the items that are shown, the current one's first. Of points that lie within a few points
-    /// of the screen of each other, one.
-    virtual std::vector<DrawnHandle> handles() const = 0;
+    /// of the screen of each other, one. Valid until something changes.
+    virtual const std::vector<DrawnHandle>& handles() const = 0;
+    /// Of what handles() returns now. The same number as before if nothing that marks of the items
+    /// depend on has changed.
+    virtual std::uint64_t handlesRevision() const = 0;
 
 Q_SIGNALS:
     /// Items or the selection.
     void changed();
     /// The user has set the last point of an item.
     void placed(std::uint32_t id);
-    /// What is on the screen moved: handles and labels.
+    /// What is on the screen may have moved: handles and labels.
     void moved();
 };
 

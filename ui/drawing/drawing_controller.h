@@ -3,18 +3,19 @@
 
 #include "ui/canvas/place_tool.h"
 #include "ui/canvas/terrain_view.h"
-#include "ui/drawing/dot_index.h"
 #include "ui/drawing/draped_geometry.h"
 #include "ui/drawing/drawing_base.h"
+#include "ui/drawing/drawn_dots.h"
 #include "ui/drawing/handle_grid.h"
+#include "ui/widgets/posted_call.h"
 
 #include <QCoreApplication>
 #include <QKeyEvent>
-#include <QTimer>
 #include <QUndoCommand>
 #include <QUndoStack>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -45,24 +46,21 @@ public:
         , tool_(tool)
         , line_set_(lines)
     {
-        draw_timer_.setSingleShot(true);
-        draw_timer_.setInterval(0);
-        connect(&draw_timer_, &QTimer::timeout, this, [this] { drawLines(); });
-        const auto draw_soon = [this] { draw_timer_.start(); };
         connect(&view_, &TerrainView::sightChanged, this, [this] {
             is_moving_ = true;
-            draw_timer_.start();
+            drawSoon();
         });
-        connect(&view_, &TerrainView::exaggerationChanged, this, draw_soon);
+        connect(&view_, &TerrainView::exaggerationChanged, this, &DrawingController::drawSoon);
         connect(&view_, &TerrainView::layersChanged, this, [this] {
-            are_dots_placed_ = false;
-            draw_timer_.start();
+            forgetPlaces();
+            drawSoon();
         });
         connect(&view_, &TerrainView::pictureCompleted, this, [this] {
             is_moving_ = false;
-            // Finer ground may have come.
-            are_dots_placed_ = are_dots_placed_ && (!geometry_.map() || !isTiled());
-            draw_timer_.start();
+            if (geometry_.map() && geometry_.map()->heightfield().isTiled()) {
+                forgetPlaces(); // finer ground may have come
+            }
+            drawSoon();
         });
         view_.setPlaceTool(tool_, this);
     }
@@ -76,18 +74,23 @@ public:
         return marsview::layerOf(session_, item.layer);
     }
 
-    std::vector<const DrawnItem*> drawn() const override
+    DrawnChanges changesSince(std::shared_ptr<const void>& known) const override
     {
-        std::vector<const DrawnItem*> all;
-        all.reserve(state_.items.size());
-        for (const Item& item : state_.items) {
-            all.push_back(&item);
-        }
-        return all;
-    }
-    std::shared_ptr<const void> drawnSnapshot() const override
-    {
-        return std::make_shared<const ItemList<Item>>(state_.items);
+        DrawnChanges changes;
+        const ItemList<Item> none;
+        const auto* before = static_cast<const ItemList<Item>*>(known.get());
+        ItemList<Item>::forEachChange(before != nullptr ? *before : none, state_.items,
+                                      [&changes](const Item* was, const Item* is) {
+                                          if (was == nullptr) {
+                                              changes.added.push_back(is->id);
+                                          } else if (is == nullptr) {
+                                              changes.removed.push_back(was->id);
+                                          } else {
+                                              changes.changed.push_back(is->id);
+                                          }
+                                      });
+        known = std::make_shared<const ItemList<Item>>(state_.items);
+        return changes;
     }
     std::uint32_t currentId() const override { return state_.current; }
     void select(std::uint32_t id) override
@@ -246,64 +249,31 @@ public:
         return place && QRectF(view_.rect()).contains(*place) ? place : std::nullopt;
     }
 
-    std::vector<DrawnHandle> handles() const override
+    const std::vector<DrawnHandle>& handles() const override
     {
-        // Beyond, a picture shows no single one; while it moves, what was hidden stays so.
-        constexpr std::size_t kHiddenTestsMax = 2000;
-        std::vector<DrawnHandle> handles;
-        std::vector<ScenePoint> points;
-        const QRectF sight(view_.rect());
-        HandleGrid grid(sight, is_moving_ ? kMovingGap : kRestGap);
-        const auto add = [&](const ScenePoint& point, std::uint32_t item, std::size_t index,
-                             bool has_own) {
-            const auto place = view_.positionOfPlace(point);
-            if (place && sight.contains(*place) && (grid.take(*place) || has_own)) {
-                handles.push_back({.place = *place, .item = item, .index = index});
-                points.push_back(point);
-            }
-        };
-        const Item* selected = current();
-        if (selected != nullptr && isShown(*selected) && hasHandles(*selected)) {
-            for (std::size_t i = 0; i < selected->vertices.size(); ++i) {
-                if (const auto point = geometry_.scenePoint(selected->vertices[i])) {
-                    add(*point, selected->id, i, true); // grabbed first and drawn last
-                }
-            }
+        const HandlesOf now{.camera = view_.camera(),
+                            .size = view_.size(),
+                            .pixels_per_point = view_.devicePixelRatioF(),
+                            .exaggeration = view_.exaggeration(),
+                            .is_moving = is_moving_,
+                            .content = content_};
+        if (!(handles_of_ == now)) {
+            handles_of_ = now;
+            handles_ = listHandles();
+            ++handles_revision_;
         }
-        placeDots();
-        addDots(sight, grid, handles, points);
-        for (const std::uint32_t id : others_) {
-            const Item* item = itemOf(id);
-            if (item == nullptr || id == state_.current || !isShown(*item) || !hasHandles(*item)) {
-                continue;
-            }
-            for (std::size_t i = 0; i < item->vertices.size(); ++i) {
-                if (const auto point = geometry_.scenePoint(item->vertices[i])) {
-                    add(*point, id, i, true);
-                }
-            }
-        }
-        if (!is_moving_) {
-            hidden_.clear();
-        }
-        for (std::size_t i = 0; i < handles.size(); ++i) {
-            const auto key = std::pair(handles[i].item, handles[i].index);
-            if (is_moving_ && handles.size() > kMovingTestsMax) {
-                handles[i].is_hidden = hidden_.contains(key);
-            } else if (i < kHiddenTestsMax) {
-                handles[i].is_hidden = geometry_.isHidden(points[i]);
-                if (handles[i].is_hidden && !is_moving_) {
-                    hidden_.insert(key);
-                }
-            }
-        }
-        return handles;
+        return handles_;
+    }
+    std::uint64_t handlesRevision() const override
+    {
+        handles();
+        return handles_revision_;
     }
     /// Those that are more than a point.
     const std::vector<std::uint32_t>& lineItems() const
     {
         placeDots();
-        return others_;
+        return dots_.others();
     }
     /// Points that are placed near a vertex that `snap` finds take its position.
     void addSnap(Snap snap) { snaps_.push_back(std::move(snap)); }
@@ -322,7 +292,7 @@ public:
             reach = near->away;
             nearest = itemOf(near->dot.id)->vertices.front();
         }
-        for (const std::uint32_t id : others_) {
+        for (const std::uint32_t id : dots_.others()) {
             const Item& item = *itemOf(id);
             const bool is_drawn_now = id == state_.current && !item.is_finished;
             for (std::size_t i = 0; !is_drawn_now && isShown(item) && i < item.vertices.size();
@@ -377,7 +347,7 @@ protected:
     void setState(State state)
     {
         const State before = std::exchange(state_, std::move(state));
-        are_dots_listed_ = are_dots_listed_ && before.items == state_.items;
+        ++content_;
         stateChanged(before);
         drawLines();
         Q_EMIT changed();
@@ -415,7 +385,7 @@ protected:
             state.items.push_back(std::move(item));
         }
         grabbed_.reset();
-        are_dots_placed_ = false;
+        dots_.forgetPlaces();
         // What is known of items that have the same numbers is not true of these.
         setState({});
         setState(std::move(state));
@@ -423,10 +393,16 @@ protected:
     void noteSession(const Session& session)
     {
         session_ = session;
-        are_dots_placed_ = false;
+        forgetPlaces();
         drawSoon();
     }
-    void drawSoon() { draw_timer_.start(); }
+    void drawSoon() { draw_soon_.request(); }
+    /// Marks other than handles moved.
+    void noteMoved()
+    {
+        ++content_;
+        Q_EMIT moved();
+    }
     void finishCurrent()
     {
         if (const Item* item = current(); item != nullptr && !item->is_finished) {
@@ -492,86 +468,90 @@ private:
         State before;
     };
 
-    // An item that is a single point, and where it is in the scene without exaggeration; empty if
-    // it is not shown there.
-    struct Dot {
-        std::uint32_t item = 0;
-        DrawnVertex vertex;
-        std::optional<ScenePoint> place;
+    // What handles() depends on.
+    struct HandlesOf {
+        OrbitCamera camera;
+        QSize size;
+        double pixels_per_point = 1.0;
+        double exaggeration = 1.0;
+        bool is_moving = false;
+        std::uint64_t content = 0;
+
+        bool operator==(const HandlesOf&) const = default;
     };
     // Marks that lie closer than this are not drawn one over the other, in points.
     static constexpr double kRestGap = 6.0;
-    static constexpr double kMovingGap = 14.0;
+    static constexpr double kMovingGap = 18.0;
     static constexpr std::size_t kMovingTestsMax = 100;
 
-    bool isTiled() const { return geometry_.map()->heightfield().isTiled(); }
     // Converting positions takes longer than drawing: they are kept until items or maps change.
     void placeDots() const
     {
-        if (are_dots_listed_ && are_dots_placed_) {
-            return;
-        }
-        const std::vector<Dot> before = std::exchange(dots_, {});
-        auto known = before.begin();
-        others_.clear();
-        for (const Item& item : state_.items) {
-            if (!item.isSingle() || item.vertices.size() != 1) {
-                others_.push_back(item.id);
-                continue;
-            }
-            while (known != before.end() && known->item < item.id) {
-                ++known;
-            }
-            const bool is_known = are_dots_placed_ && known != before.end() &&
-                                  known->item == item.id && known->vertex == item.vertices.front();
-            if (is_known) {
-                dots_.push_back(*known);
-                continue;
-            }
-            unindexed_.push_back(item.id);
-            dots_.push_back({.item = item.id,
-                             .vertex = item.vertices.front(),
-                             .place = isShown(item) && hasHandles(item)
-                                          ? geometry_.levelPoint(item.vertices.front())
-                                          : std::nullopt});
-        }
-        are_dots_listed_ = true;
-        are_dots_placed_ = true;
-        // One more point is looked at beside the index, which is not made anew for it.
-        constexpr std::size_t kUnindexedMax = 1000;
-        std::sort(unindexed_.begin(), unindexed_.end());
-        unindexed_.erase(std::unique(unindexed_.begin(), unindexed_.end()), unindexed_.end());
-        if (unindexed_.size() > kUnindexedMax || dots_.size() < dot_index_.size() / 2) {
-            std::vector<DotIndex::Dot> placed;
-            placed.reserve(dots_.size());
-            for (const Dot& dot : dots_) {
-                if (dot.place) {
-                    placed.push_back({.id = dot.item, .place = *dot.place});
-                }
-            }
-            dot_index_ = DotIndex(std::move(placed));
-            unindexed_.clear();
-        }
+        dots_.follow(state_.items, [this](const Item& item) {
+            return isShown(item) && hasHandles(item) ? geometry_.levelPoint(item.vertices.front())
+                                                     : std::nullopt;
+        });
     }
-    const Dot* dotOf(std::uint32_t id) const
+    void forgetPlaces()
     {
-        const auto hit = std::lower_bound(
-            dots_.begin(), dots_.end(), id,
-            [](const Dot& dot, std::uint32_t wanted) { return dot.item < wanted; });
-        return hit != dots_.end() && hit->item == id ? &*hit : nullptr;
-    }
-    // What the index has of a dot may be of earlier items.
-    DotIndex::IsValid isDot() const
-    {
-        return [this](const DotIndex::Dot& known) {
-            const Dot* dot = dotOf(known.id);
-            return dot != nullptr && dot->place == known.place;
-        };
+        dots_.forgetPlaces();
+        ++content_;
     }
     DotSight dotSight(const QRectF& area) const
     {
         return {view_.camera(), view_.viewport(), view_.devicePixelRatioF(), view_.exaggeration(),
                 area};
+    }
+    std::vector<DrawnHandle> listHandles() const
+    {
+        // Beyond, a picture shows no single one; while it moves, what was hidden stays so.
+        constexpr std::size_t kHiddenTestsMax = 2000;
+        std::vector<DrawnHandle> handles;
+        std::vector<ScenePoint> points;
+        const QRectF sight(view_.rect());
+        HandleGrid grid(sight, is_moving_ ? kMovingGap : kRestGap);
+        const auto add = [&](const ScenePoint& point, std::uint32_t item, std::size_t index) {
+            const auto place = view_.positionOfPlace(point);
+            if (place && sight.contains(*place)) {
+                grid.take(*place);
+                handles.push_back({.place = *place, .item = item, .index = index});
+                points.push_back(point);
+            }
+        };
+        const auto add_item = [&](const Item& item) {
+            for (std::size_t i = 0; i < item.vertices.size(); ++i) {
+                if (const auto point = geometry_.scenePoint(item.vertices[i])) {
+                    add(*point, item.id, i);
+                }
+            }
+        };
+        const Item* selected = current();
+        if (selected != nullptr && isShown(*selected) && hasHandles(*selected)) {
+            add_item(*selected); // grabbed first and drawn last
+        }
+        placeDots();
+        addDots(sight, grid, handles, points);
+        for (const std::uint32_t id : dots_.others()) {
+            const Item& item = *itemOf(id);
+            if (id != state_.current && isShown(item) && hasHandles(item)) {
+                add_item(item);
+            }
+        }
+        if (!is_moving_) {
+            hidden_.clear();
+        }
+        for (std::size_t i = 0; i < handles.size(); ++i) {
+            const auto key = std::pair(handles[i].item, handles[i].index);
+            if (is_moving_ && handles.size() > kMovingTestsMax) {
+                handles[i].is_hidden = hidden_.contains(key);
+            } else if (i < kHiddenTestsMax) {
+                handles[i].is_hidden = geometry_.isHidden(points[i]);
+                if (handles[i].is_hidden && !is_moving_) {
+                    hidden_.insert(key);
+                }
+            }
+        }
+        return handles;
     }
     // Those that are single points, as far as there is room.
     void addDots(const QRectF& area,
@@ -579,21 +559,12 @@ private:
                  std::vector<DrawnHandle>& handles,
                  std::vector<ScenePoint>& points) const
     {
-        const DotSight sight = dotSight(area);
         std::vector<std::pair<DotIndex::Dot, QPointF>> found;
-        const auto take = [&](const DotIndex::Dot& dot, QPointF place) {
+        dots_.thinned(dotSight(area), grid, [&](const DotIndex::Dot& dot, QPointF place) {
             if (dot.id != state_.current) {
                 found.emplace_back(dot, place);
             }
-        };
-        for (const std::uint32_t id : unindexed_) {
-            const Dot* dot = dotOf(id);
-            const auto place = dot != nullptr && dot->place ? sight.at(*dot->place) : std::nullopt;
-            if (place && area.contains(*place) && grid.take(*place)) {
-                take({.id = id, .place = *dot->place}, *place);
-            }
-        }
-        dot_index_.thinned(sight, grid, isDot(), take);
+        });
         std::sort(found.begin(), found.end(),
                   [](const auto& a, const auto& b) { return a.first.id < b.first.id; });
         for (const auto& [dot, place] : found) {
@@ -605,24 +576,7 @@ private:
     std::optional<DotIndex::Near> dotNear(QPointF position, double reach) const
     {
         placeDots();
-        const DotSight sight = dotSight(QRectF(view_.rect()));
-        std::optional<DotIndex::Near> nearest = dot_index_.nearest(sight, position, reach, isDot());
-        for (const std::uint32_t id : unindexed_) {
-            const Dot* dot = dotOf(id);
-            if (dot == nullptr || !dot->place) {
-                continue;
-            }
-            const std::optional<QPointF> place = sight.at(*dot->place);
-            if (!place) {
-                continue;
-            }
-            const double away = distanceBetween(*place, position);
-            if (away <= (nearest ? nearest->away : reach)) {
-                nearest = DotIndex::Near{
-                    .dot = {.id = id, .place = *dot->place}, .place = *place, .away = away};
-            }
-        }
-        return nearest;
+        return dots_.nearest(dotSight(QRectF(view_.rect())), position, reach);
     }
 
     // Places ----------------------------------------------------------------------------------
@@ -725,7 +679,8 @@ private:
             Item fresh = newItem(state.next_id);
             fresh.id = state.next_id++;
             fresh.layer = place.layer;
-            fresh.time = QDateTime::currentDateTime();
+            fresh.time =
+                std::chrono::floor<std::chrono::milliseconds>(std::chrono::system_clock::now());
             item = &state.items.push_back(std::move(fresh));
             state.current = item->id;
         }
@@ -772,7 +727,7 @@ private:
             reach = near->away;
             nearest = DrawnHandle{.place = near->place, .item = near->dot.id, .index = 0};
         }
-        for (const std::uint32_t id : others_) {
+        for (const std::uint32_t id : dots_.others()) {
             if (const Item& item = *itemOf(id); isShown(item) && hasHandles(item)) {
                 look_at(item);
             }
@@ -970,10 +925,12 @@ private:
 
     void drawLines()
     {
-        draw_timer_.stop();
+        draw_soon_.cancel();
         const auto map = geometry_.map();
         geometry_.update();
-        are_dots_placed_ = are_dots_placed_ && map == geometry_.map();
+        if (map != geometry_.map()) {
+            forgetPlaces();
+        }
         legs_.clear();
         if (geometry_.isEmpty()) {
             view_.setLines({}, line_set_);
@@ -983,7 +940,7 @@ private:
         const Ground& ground = geometry_.ground();
         const auto pointed = grabbed_ ? std::nullopt : placePointed();
         placeDots();
-        for (const std::uint32_t id : others_) { // the rest has no lines
+        for (const std::uint32_t id : dots_.others()) { // the rest has no lines
             const Item& item = *itemOf(id);
             if (!isShown(item)) {
                 continue;
@@ -1032,16 +989,15 @@ private:
     std::vector<Snap> snaps_;
     std::optional<QPointF> pointer_;
     std::optional<Grabbed> grabbed_;
-    bool is_stylus_holding_ = false;               // what is grabbed
-    mutable std::vector<Dot> dots_;                // by id
-    mutable DotIndex dot_index_;                   // some of them may have moved or be gone
-    mutable std::vector<std::uint32_t> unindexed_; // those that it lacks
-    mutable std::vector<std::uint32_t> others_;    // items that are more than a dot
-    mutable bool are_dots_listed_ = false;         // both are those of the state
-    mutable bool are_dots_placed_ = false;         // dots are where the maps have them
+    bool is_stylus_holding_ = false; // what is grabbed
+    mutable DrawnDots<Item> dots_;
     mutable std::set<std::pair<std::uint32_t, std::size_t>> hidden_; // in the last picture
-    bool is_moving_ = false; // the camera has moved since the picture was complete
-    QTimer draw_timer_;      // gathers reasons to draw the lines again
+    mutable std::vector<DrawnHandle> handles_;
+    mutable std::optional<HandlesOf> handles_of_;
+    mutable std::uint64_t handles_revision_ = 0;
+    std::uint64_t content_ = 0; // grows when items or maps change
+    bool is_moving_ = false;    // the camera has moved since the picture was complete
+    PostedCall draw_soon_{[this] { drawLines(); }}; // gathers reasons to draw the lines again
 };
 
 } // namespace marsview

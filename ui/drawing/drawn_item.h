@@ -23,12 +23,18 @@ struct DrawnItem {
     LayerId layer = LayerId::None; // that it was drawn on
     std::vector<DrawnVertex> vertices;
     bool is_finished = false; // clicks begin another one
-    QDateTime time;           // at which it was begun
+    DrawnTime time{};         // at which it was begun
     QString note;
     std::optional<Rgb8> color; // empty: the usual one
 
     bool operator==(const DrawnItem&) const = default;
 };
+
+/// On the clock of the user.
+inline QDateTime localTime(DrawnTime time)
+{
+    return QDateTime::fromMSecsSinceEpoch(time.time_since_epoch().count());
+}
 
 /// What the user did; undo returns to earlier ones.
 template <typename Item>
@@ -38,6 +44,13 @@ struct DrawnState {
     std::uint32_t next_id = 1;
 
     bool operator==(const DrawnState&) const = default;
+};
+
+/// Ids of items, ascending.
+struct DrawnChanges {
+    std::vector<std::uint32_t> added;
+    std::vector<std::uint32_t> changed;
+    std::vector<std::uint32_t> removed;
 };
 
 /// A vertex of an item on the screen.

@@ -18,7 +18,14 @@ namespace marsview {
 template <typename Item>
 class ItemList {
     using Block = std::vector<Item>;
-    using Blocks = std::vector<std::shared_ptr<Block>>;
+    // With the id of its first item, so that a search reads no items.
+    struct Slot {
+        std::shared_ptr<Block> items;
+        std::uint32_t first_id = 0;
+
+        bool operator==(const Slot&) const = default;
+    };
+    using Blocks = std::vector<Slot>;
 
 public:
     class Iterator {
@@ -30,11 +37,11 @@ public:
         using reference = const Item&;
 
         Iterator() = default;
-        reference operator*() const { return (*(*blocks_)[block_])[index_]; }
+        reference operator*() const { return (*(*blocks_)[block_].items)[index_]; }
         pointer operator->() const { return &**this; }
         Iterator& operator++()
         {
-            if (++index_ == (*blocks_)[block_]->size()) {
+            if (++index_ == (*blocks_)[block_].items->size()) {
                 ++block_;
                 index_ = 0;
             }
@@ -50,7 +57,7 @@ public:
         {
             if (index_ == 0) {
                 --block_;
-                index_ = (*blocks_)[block_]->size();
+                index_ = (*blocks_)[block_].items->size();
             }
             --index_;
             return *this;
@@ -89,16 +96,16 @@ public:
     const_reverse_iterator rbegin() const { return const_reverse_iterator(end()); }
     const_reverse_iterator rend() const { return const_reverse_iterator(begin()); }
     /// Not for an empty list.
-    const Item& front() const { return blocks_.front()->front(); }
-    const Item& back() const { return blocks_.back()->back(); }
+    const Item& front() const { return blocks_.front().items->front(); }
+    const Item& back() const { return blocks_.back().items->back(); }
     /// Takes as long as there are blocks.
     const Item& operator[](std::size_t index) const
     {
         std::size_t block = 0;
-        while (index >= blocks_[block]->size()) {
-            index -= blocks_[block++]->size();
+        while (index >= blocks_[block].items->size()) {
+            index -= blocks_[block++].items->size();
         }
-        return (*blocks_[block])[index];
+        return (*blocks_[block].items)[index];
     }
 
     /// Null if there is no such item. Takes logarithmic time.
@@ -108,8 +115,9 @@ public:
         if (block == blocks_.size()) {
             return nullptr;
         }
-        const auto hit = placeIn(*blocks_[block], id);
-        return hit != blocks_[block]->end() && hit->id == id ? &*hit : nullptr;
+        const Block& items = *blocks_[block].items;
+        const auto hit = placeIn(items, id);
+        return hit != items.end() && hit->id == id ? &*hit : nullptr;
     }
     /// The same to change it; not its id. Valid until the list is changed or copied.
     Item* edit(std::uint32_t id)
@@ -125,8 +133,8 @@ public:
     /// With a greater id than all before. Returns the item as edit() does.
     Item& push_back(Item item)
     {
-        if (blocks_.empty() || blocks_.back()->size() >= kBlockItems) {
-            blocks_.push_back(std::make_shared<Block>());
+        if (blocks_.empty() || blocks_.back().items->size() >= kBlockItems) {
+            blocks_.push_back({.items = std::make_shared<Block>(), .first_id = item.id});
         }
         Block& own = unshared(blocks_.size() - 1);
         own.push_back(std::move(item));
@@ -143,60 +151,100 @@ public:
     void eraseIf(const Predicate& is_meant)
     {
         for (std::size_t block = 0; block < blocks_.size(); ++block) {
-            if (std::any_of(blocks_[block]->begin(), blocks_[block]->end(), is_meant)) {
+            const Block& items = *blocks_[block].items;
+            if (std::any_of(items.begin(), items.end(), is_meant)) {
                 Block& own = unshared(block);
                 size_ -= std::erase_if(own, is_meant);
+                blocks_[block].first_id = own.empty() ? 0 : own.front().id;
             }
         }
-        std::erase_if(blocks_, [](const auto& block) { return block->empty(); });
+        std::erase_if(blocks_, [](const Slot& slot) { return slot.items->empty(); });
     }
 
     /// Compares shared blocks at a glance.
     bool operator==(const ItemList& other) const
     {
-        if (size_ != other.size_) {
-            return false;
-        }
-        if (blocks_ == other.blocks_) {
+        return size_ == other.size_ &&
+               compare(*this, other, [](const Item*, const Item*) { return false; });
+    }
+
+    /// Calls `change(was, is)` for what differs between two lists, in the order of the ids. `was`
+    /// is null for an item that is new, `is` for one that was removed. Takes as long as the blocks
+    /// that differ, with a glance at the others.
+    template <typename Change>
+    static void forEachChange(const ItemList& before, const ItemList& after, const Change& change)
+    {
+        compare(before, after, [&change](const Item* was, const Item* is) {
+            change(was, is);
             return true;
-        }
-        if (blocks_.size() == other.blocks_.size()) {
-            const bool is_same =
-                std::equal(blocks_.begin(), blocks_.end(), other.blocks_.begin(),
-                           [](const auto& a, const auto& b) { return a == b || *a == *b; });
-            if (is_same) {
-                return true;
-            }
-        }
-        return std::equal(begin(), end(), other.begin());
+        });
     }
 
 private:
     static constexpr std::size_t kBlockItems = 256;
 
+    // Until `change` returns false; false in this case.
+    template <typename Change>
+    static bool compare(const ItemList& before, const ItemList& after, const Change& change)
+    {
+        Iterator a = before.begin();
+        Iterator b = after.begin();
+        const Iterator a_end = before.end();
+        const Iterator b_end = after.end();
+        while (!(a == a_end) || !(b == b_end)) {
+            const bool has_both = !(a == a_end) && !(b == b_end);
+            if (has_both && a.index_ == 0 && b.index_ == 0 &&
+                before.blocks_[a.block_].items == after.blocks_[b.block_].items) {
+                ++a.block_;
+                ++b.block_;
+            } else if (has_both && a->id == b->id) {
+                if (!(*a == *b) && !change(&*a, &*b)) {
+                    return false;
+                }
+                ++a;
+                ++b;
+            } else if (b == b_end || (has_both && a->id < b->id)) {
+                if (!change(&*a, nullptr)) {
+                    return false;
+                }
+                ++a;
+            } else {
+                if (!change(nullptr, &*b)) {
+                    return false;
+                }
+                ++b;
+            }
+        }
+        return true;
+    }
+
     std::size_t blockOf(std::uint32_t id) const
     {
-        const auto after =
-            std::upper_bound(blocks_.begin(), blocks_.end(), id,
-                             [](std::uint32_t wanted, const std::shared_ptr<Block>& block) {
-                                 return wanted < block->front().id;
-                             });
+        const auto after = std::upper_bound(
+            blocks_.begin(), blocks_.end(), id,
+            [](std::uint32_t wanted, const Slot& slot) { return wanted < slot.first_id; });
         return after == blocks_.begin() ? blocks_.size()
                                         : static_cast<std::size_t>(after - blocks_.begin()) - 1;
     }
     template <typename Items>
     static auto placeIn(Items& items, std::uint32_t id)
     {
+        // Without gaps, the place follows from the id.
+        const std::uint32_t first = items.front().id;
+        if (id >= first && id - first < items.size() && items[id - first].id == id) {
+            return items.begin() + static_cast<std::ptrdiff_t>(id - first);
+        }
         return std::lower_bound(
             items.begin(), items.end(), id,
             [](const Item& item, std::uint32_t wanted) { return item.id < wanted; });
     }
     Block& unshared(std::size_t block)
     {
-        if (blocks_[block].use_count() > 1) {
-            blocks_[block] = std::make_shared<Block>(*blocks_[block]);
+        std::shared_ptr<Block>& items = blocks_[block].items;
+        if (items.use_count() > 1) {
+            items = std::make_shared<Block>(*items);
         }
-        return *blocks_[block];
+        return *items;
     }
 
     Blocks blocks_;

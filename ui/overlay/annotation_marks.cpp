@@ -18,7 +18,7 @@ constexpr double kSymbolRadius = 6.0; // of a symbol
 constexpr double kSymbolRim = 1.5;
 constexpr double kHiddenSymbolOpacity = 0.35;
 constexpr std::size_t kLabelsMax = 200;
-constexpr std::size_t kLabelTriesMax = 1000; // of a picture, most of them without room
+constexpr std::size_t kLabelTriesMax = 500; // of a picture, most of them without room
 
 // With `count` corners, the first one at the top; every second one at `inner` of the radius.
 QPainterPath starPath(QPointF place, double radius, int count, double inner)
@@ -141,34 +141,41 @@ std::vector<DrawnMarks::Mark> AnnotationMarks::marks() const
     if (state.items.empty()) {
         return marks;
     }
-    std::vector<const AnnotationItem*> named;
-    if (const AnnotationItem* current = controller_.current()) {
-        named.push_back(current);
-    }
+    // What may have a label: where, if that is known.
+    struct Named {
+        std::uint32_t id = 0;
+        std::optional<QPointF> place;
+    };
+    std::vector<Named> named;
     for (auto handle = handles().rbegin(); handle != handles().rend(); ++handle) {
         const AnnotationItem& item = *controller_.itemOf(handle->item);
         marks.push_back(item.isSingle() ? symbolMark(item, *handle) : handleMark(*handle, true));
         if (item.isSingle() && item.id != state.current && !handle->is_hidden) {
-            named.push_back(&item);
+            named.push_back({.id = item.id, .place = handle->place});
         }
     }
     for (const std::uint32_t id : controller_.lineItems()) {
         if (id != state.current) {
-            named.push_back(controller_.itemOf(id));
+            named.push_back({.id = id, .place = std::nullopt});
         }
     }
     // The current one first, then those that were drawn last.
-    if (named.size() > 1) {
-        std::sort(named.begin() + (controller_.current() != nullptr ? 1 : 0), named.end(),
-                  [](const AnnotationItem* a, const AnnotationItem* b) { return a->id > b->id; });
+    std::sort(named.begin(), named.end(),
+              [](const Named& a, const Named& b) { return a.id > b.id; });
+    if (controller_.current() != nullptr) {
+        named.insert(named.begin(), {.id = state.current, .place = std::nullopt});
     }
     if (named.size() > kLabelTriesMax) {
         named.resize(kLabelTriesMax);
     }
     LabelRoom room = roomBeside(marks);
     std::size_t labels = 0;
-    for (const AnnotationItem* item : named) {
-        const auto place = labels < kLabelsMax ? controller_.labelPlace(*item) : std::nullopt;
+    for (const Named& each : named) {
+        if (labels == kLabelsMax) {
+            break;
+        }
+        const AnnotationItem* item = controller_.itemOf(each.id);
+        const auto place = each.place ? each.place : controller_.labelPlace(*item);
         if (!place || item->name.isEmpty()) {
             continue;
         }

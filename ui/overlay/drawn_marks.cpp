@@ -33,10 +33,9 @@ DrawnMarks::DrawnMarks(const DrawingBase& drawing, QWidget* view)
     setFocusPolicy(Qt::NoFocus);
     setGeometry(view->rect());
     view->installEventFilter(this);
-    connect(&drawing, &DrawingBase::moved, this, &DrawnMarks::noteChange);
+    connect(&drawing, &DrawingBase::moved, this, &DrawnMarks::noteMove);
     connect(&drawing, &DrawingBase::changed, this, &DrawnMarks::noteChange);
     if (const auto* terrain = qobject_cast<TerrainView*>(view)) {
-        connect(terrain, &TerrainView::sightChanged, this, &DrawnMarks::forget);
         connect(terrain, &TerrainView::exaggerationChanged, this, &DrawnMarks::forget);
         connect(terrain, &TerrainView::layersChanged, this, &DrawnMarks::forget);
     }
@@ -52,7 +51,6 @@ void DrawnMarks::setObstacles(const QList<QWidget*>& obstacles)
 
 void DrawnMarks::forget()
 {
-    handles_.reset();
     marks_.reset();
 }
 
@@ -63,20 +61,32 @@ void DrawnMarks::noteChange()
     Q_EMIT marksChanged();
 }
 
+// Who places something beside the marks has asked for them when the camera moved.
+void DrawnMarks::noteMove()
+{
+    const std::uint64_t revision = drawing_ ? drawing_->handlesRevision() : 0;
+    if (painted_of_ != revision) {
+        update();
+    }
+    if (!marks_ || marks_of_ != revision) {
+        Q_EMIT marksChanged();
+    }
+}
+
 const std::vector<DrawnMarks::Mark>& DrawnMarks::knownMarks() const
 {
-    if (!marks_) {
+    const std::uint64_t revision = drawing_ ? drawing_->handlesRevision() : 0;
+    if (!marks_ || marks_of_ != revision) {
         marks_ = drawing_ ? marks() : std::vector<Mark>();
+        marks_of_ = revision;
     }
     return *marks_;
 }
 
 const std::vector<DrawnHandle>& DrawnMarks::handles() const
 {
-    if (!handles_) {
-        handles_ = drawing_ ? drawing_->handles() : std::vector<DrawnHandle>();
-    }
-    return *handles_;
+    static const std::vector<DrawnHandle> none;
+    return drawing_ ? drawing_->handles() : none;
 }
 
 bool DrawnMarks::eventFilter(QObject* watched, QEvent* event)
@@ -228,6 +238,7 @@ void DrawnMarks::paintEvent(QPaintEvent* /*event*/)
     for (const Mark& mark : knownMarks()) {
         mark.draw(painter);
     }
+    painted_of_ = marks_of_;
 }
 
 std::vector<PicturePart> DrawnMarks::partsFor(const QSize& picture) const

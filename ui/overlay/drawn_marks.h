@@ -11,6 +11,7 @@
 #include <QRectF>
 #include <QWidget>
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -83,14 +84,15 @@ private:
     QRectF placeOf(const QWidget& obstacle) const;
     const std::vector<Mark>& knownMarks() const;
     void forget();
+    void noteMove();
 
     QPointer<const DrawingBase> drawing_; // null once the window is being closed
     QList<QWidget*> obstacles_;
     const DrawnMarks* neighbor_ = nullptr;
     bool gives_way_ = false;
-    // Since the last change.
-    mutable std::optional<std::vector<DrawnHandle>> handles_;
-    mutable std::optional<std::vector<Mark>> marks_;
+    mutable std::optional<std::vector<Mark>> marks_; // since the last change
+    mutable std::uint64_t marks_of_ = 0;             // DrawingBase::handlesRevision()
+    std::uint64_t painted_of_ = 0;
 };
 
 } // namespace marsview

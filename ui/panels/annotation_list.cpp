@@ -10,11 +10,6 @@
 #include <algorithm>
 
 namespace marsview {
-namespace {
-
-constexpr int kShownRole = Qt::UserRole + 1;
-
-} // namespace
 
 AnnotationList::AnnotationList(AnnotationController& controller, QWidget* parent)
     : DrawnList(controller,
@@ -26,31 +21,36 @@ AnnotationList::AnnotationList(AnnotationController& controller, QWidget* parent
 {
     setObjectName(QStringLiteral("annotations"));
     setAccessibleName(tr("Annotations"));
-    header()->setSectionResizeMode(ShapeColumn, QHeaderView::ResizeToContents);
-    header()->setSectionResizeMode(BodyColumn, QHeaderView::ResizeToContents);
+    horizontalHeader()->setSectionResizeMode(ShapeColumn, QHeaderView::ResizeToContents);
+    horizontalHeader()->setSectionResizeMode(BodyColumn, QHeaderView::ResizeToContents);
     connect(&controller_, &AnnotationController::changed, this, &AnnotationList::showItems);
     showItems();
 }
 
-void AnnotationList::fill(QTreeWidgetItem& row, const DrawnItem& drawn)
+QVariant AnnotationList::cell(const DrawnItem& drawn, int column, int role) const
 {
-    const AnnotationItem& item = *controller_.itemOf(drawn.id);
-    row.setToolTip(NameColumn, locale().toString(item.time, QLocale::ShortFormat));
-    row.setText(ShapeColumn, shapeText(item.shape));
-    // Bodies that are not in the picture are grayed.
-    row.setText(BodyColumn, bodyName(item.body.name));
-    const bool is_shown = controller_.isShown(item);
-    const QPalette::ColorGroup group = is_shown ? QPalette::Active : QPalette::Disabled;
-    for (const int column : {NameColumn, ShapeColumn, NoteColumn, BodyColumn}) {
-        row.setForeground(column, palette().brush(group, QPalette::Text));
+    const auto& item = static_cast<const AnnotationItem&>(drawn);
+    if (role == Qt::DisplayRole) {
+        return column == ShapeColumn ? shapeText(item.shape) : bodyName(item.body.name);
     }
-    row.setData(NameColumn, kShownRole, is_shown);
+    if (role == Qt::ToolTipRole && column == NameColumn) {
+        return locale().toString(localTime(item.time), QLocale::ShortFormat);
+    }
+    // Bodies that are not in the picture are grayed.
+    if (role == Qt::ForegroundRole && !controller_.isShown(item)) {
+        return palette().brush(QPalette::Disabled, QPalette::Text);
+    }
+    return {};
 }
 
-bool AnnotationList::isStale(const QTreeWidgetItem& row, const DrawnItem& drawn) const
+bool AnnotationList::isBefore(const DrawnItem& a, const DrawnItem& b, int column) const
 {
-    const AnnotationItem& item = *controller_.itemOf(drawn.id);
-    return row.data(NameColumn, kShownRole).toBool() != controller_.isShown(item);
+    const auto text = [this, column](const DrawnItem& item) {
+        return column == NameColumn   ? item.name
+               : column == NoteColumn ? item.note
+                                      : cell(item, column, Qt::DisplayRole).toString();
+    };
+    return text(a).localeAwareCompare(text(b)) < 0;
 }
 
 void AnnotationList::addActions(QMenu& menu, const std::vector<std::uint32_t>& ids)

@@ -17,8 +17,8 @@ public:
     explicit AnnotationList(AnnotationController& controller, QWidget* parent = nullptr);
 
 protected:
-    void fill(QTreeWidgetItem& row, const DrawnItem& item) override;
-    bool isStale(const QTreeWidgetItem& row, const DrawnItem& item) const override;
+    QVariant cell(const DrawnItem& item, int column, int role) const override;
+    bool isBefore(const DrawnItem& a, const DrawnItem& b, int column) const override;
     void addActions(QMenu& menu, const std::vector<std::uint32_t>& ids) override;
 
 private:

@@ -1,191 +1,171 @@
 #include "ui/panels/drawn_list.h"
 
 #include "ui/drawing/drawing_base.h"
-#include "ui/widgets/icons.h"
+#include "ui/panels/drawn_model.h"
 
+#include <QAbstractButton>
 #include <QColorDialog>
 #include <QContextMenuEvent>
 #include <QHeaderView>
-#include <QIcon>
 #include <QKeyEvent>
 #include <QMenu>
 #include <QScopedValueRollback>
 
 #include <algorithm>
 #include <unordered_set>
-#include <utility>
 
 namespace marsview {
 namespace {
 
-constexpr int kSwatchSide = 10;
-constexpr int kIdRole = Qt::UserRole;
+constexpr int kRowPadding = 6; // above and below the text, together
 
 } // namespace
 
-class DrawnList::Row final : public QTreeWidgetItem {
-public:
-    using QTreeWidgetItem::QTreeWidgetItem;
-
-    const DrawnItem* shown = nullptr; // that it was filled from
-
-    bool operator<(const QTreeWidgetItem& other) const override
-    {
-        const auto* list = static_cast<const DrawnList*>(treeWidget());
-        return list->isBefore(*this, other, list->sortColumn());
-    }
-};
-
 DrawnList::DrawnList(DrawingBase& drawing, const Columns& columns, QWidget* parent)
-    : QTreeWidget(parent)
+    : QTableView(parent)
     , drawing_(drawing)
     , columns_(columns)
+    , model_(new DrawnModel(*this))
 {
-    setRootIsDecorated(false);
-    setUniformRowHeights(true);
-    setColumnCount(static_cast<int>(columns.titles.size()));
-    setHeaderLabels(columns.titles);
+    setModel(model_);
+    setShowGrid(false);
+    setWordWrap(false);
+    setTabKeyNavigation(false);
+    setCornerButtonEnabled(false);
+    findChild<QAbstractButton*>()->setAccessibleName(tr("Select all"));
     setEditTriggers(QAbstractItemView::EditKeyPressed);
+    setSelectionBehavior(QAbstractItemView::SelectRows);
     setSelectionMode(QAbstractItemView::ExtendedSelection);
     // All columns are in sight: arrow keys choose rows and never scroll names away.
     setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-    header()->setMinimumSectionSize(40);
-    header()->setSectionResizeMode(QHeaderView::Stretch);
-    header()->setSortIndicatorClearable(true);
+    verticalHeader()->hide();
+    verticalHeader()->setSectionResizeMode(QHeaderView::Fixed);
+    verticalHeader()->setDefaultSectionSize(fontMetrics().height() + kRowPadding);
+    horizontalHeader()->setHighlightSections(false);
+    horizontalHeader()->setDefaultAlignment(Qt::AlignLeading | Qt::AlignVCenter);
+    horizontalHeader()->setMinimumSectionSize(40);
+    horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
+    horizontalHeader()->setSortIndicatorClearable(true);
     sortByColumn(-1, Qt::AscendingOrder); // as they were made
     setSortingEnabled(true);
     setMinimumWidth(260);
-    connect(this, &QTreeWidget::currentItemChanged, this, [this](QTreeWidgetItem* row) {
-        if (!is_filling_ && row != nullptr) {
-            const QScopedValueRollback notifying(is_notifying_, true);
-            drawing_.select(idOf(*row));
-        }
-    });
-    connect(this, &QTreeWidget::itemActivated, this, [this](QTreeWidgetItem* row, int column) {
-        if (column == columns_.note) {
-            editItem(row, columns_.note);
+    connect(this, &QTableView::activated, this, [this](const QModelIndex& index) {
+        if (index.column() == columns_.note) {
+            edit(index);
         } else {
-            drawing_.show(idOf(*row));
-        }
-    });
-    connect(this, &QTreeWidget::itemChanged, this, [this](QTreeWidgetItem* row, int column) {
-        if (!is_filling_) {
-            const QScopedValueRollback notifying(is_notifying_, true);
-            edit(*row, column);
+            drawing_.show(model_->idAt(index.row()));
         }
     });
 }
 
-std::uint32_t DrawnList::idOf(const QTreeWidgetItem& row)
+DrawnList::~DrawnList() = default;
+
+int DrawnList::rowCount() const
 {
-    return row.data(0, kIdRole).toUInt();
+    return model_->rowCount();
 }
 
-bool DrawnList::isBefore(const QTreeWidgetItem& a, const QTreeWidgetItem& b, int column) const
+QString DrawnList::textAt(int row, int column) const
 {
-    return a.text(column).localeAwareCompare(b.text(column)) < 0;
+    return model_->index(row, column).data().toString();
+}
+
+void DrawnList::setTextAt(int row, int column, const QString& text)
+{
+    model_->setData(model_->index(row, column), text, Qt::EditRole);
 }
 
 std::vector<std::uint32_t> DrawnList::selectedIds() const
 {
-    QModelIndexList rows = selectionModel()->selectedRows();
-    std::sort(rows.begin(), rows.end(),
-              [](const QModelIndex& a, const QModelIndex& b) { return a.row() < b.row(); });
+    std::vector<int> rows;
+    for (const QItemSelectionRange& range : selectionModel()->selection()) {
+        for (int row = range.top(); row <= range.bottom(); ++row) {
+            rows.push_back(row);
+        }
+    }
+    std::sort(rows.begin(), rows.end());
+    rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
     std::vector<std::uint32_t> ids;
-    for (const QModelIndex& row : rows) {
-        ids.push_back(row.data(kIdRole).toUInt());
+    ids.reserve(rows.size());
+    for (const int row : rows) {
+        ids.push_back(model_->idAt(row));
     }
     return ids;
 }
 
 void DrawnList::showItems()
 {
-    // While the list reports a change of its own, it still holds rows that sorting would move.
+    // While the list reports a change of its own, Qt still works with the selection.
     if (is_notifying_) {
         QMetaObject::invokeMethod(this, &DrawnList::showItems, Qt::QueuedConnection);
         return;
     }
-    const QScopedValueRollback filling(is_filling_, true);
     const std::vector<std::uint32_t> selected = selectedIds();
-    const std::vector<const DrawnItem*> items = drawing_.drawn();
-    setSortingEnabled(false); // rows stay in their places until all are filled
-    while (topLevelItemCount() > static_cast<int>(items.size())) {
-        delete takeTopLevelItem(topLevelItemCount() - 1);
+    {
+        const QScopedValueRollback following(is_following_, true);
+        model_->follow();
     }
-    QList<QTreeWidgetItem*> added;
-    for (std::size_t i = 0; i < items.size(); ++i) {
-        auto* row = static_cast<Row*>(topLevelItem(static_cast<int>(i)));
-        if (row == nullptr) {
-            row = new Row;
-            row->setFlags(row->flags() | Qt::ItemIsEditable);
-            added.append(row);
-        }
-        if (row->shown != items[i] || isStale(*row, *items[i])) {
-            row->shown = items[i];
-            fillRow(*row, *items[i]);
-        }
-    }
-    addTopLevelItems(added);
-    shown_ = drawing_.drawnSnapshot();
-    setSortingEnabled(true);
+    viewport()->update();
     restoreSelection(selected);
 }
 
 // The selection stays while it contains the current item.
 void DrawnList::restoreSelection(const std::vector<std::uint32_t>& selected)
 {
+    const QScopedValueRollback following(is_following_, true);
     const std::uint32_t current = drawing_.currentId();
-    const std::unordered_set<std::uint32_t> kept(selected.begin(), selected.end());
-    const bool is_kept = kept.contains(current);
-    QTreeWidgetItem* current_row = nullptr;
-    for (int i = 0; i < topLevelItemCount(); ++i) {
-        QTreeWidgetItem* row = topLevelItem(i);
-        const std::uint32_t id = idOf(*row);
-        current_row = id == current ? row : current_row;
-        const bool is_selected = is_kept ? kept.contains(id) : id == current;
-        if (row->isSelected() != is_selected) {
-            row->setSelected(is_selected);
+    const auto current_row = current != 0 ? model_->rowOf(current) : std::nullopt;
+    const bool is_kept = std::find(selected.begin(), selected.end(), current) != selected.end();
+    const std::vector<std::uint32_t> wanted = !current_row ? std::vector<std::uint32_t>()
+                                              : is_kept    ? selected
+                                                           : std::vector{current};
+    if (selectedIds() != wanted) {
+        const std::unordered_set<std::uint32_t> kept(wanted.begin(), wanted.end());
+        QItemSelection selection;
+        for (int row = 0; !kept.empty() && row < model_->rowCount(); ++row) {
+            if (kept.contains(model_->idAt(row))) {
+                const int first = row;
+                while (row + 1 < model_->rowCount() && kept.contains(model_->idAt(row + 1))) {
+                    ++row;
+                }
+                selection.select(model_->index(first, 0),
+                                 model_->index(row, model_->columnCount() - 1));
+            }
+        }
+        selectionModel()->select(selection, QItemSelectionModel::ClearAndSelect);
+    }
+    const QModelIndex index =
+        current_row ? model_->index(*current_row, std::max(0, currentIndex().column()))
+                    : QModelIndex();
+    if (index != currentIndex()) {
+        selectionModel()->setCurrentIndex(index, QItemSelectionModel::NoUpdate);
+        if (index.isValid()) {
+            scrollTo(index);
         }
     }
-    setCurrentItem(current_row, std::max(0, currentColumn()), QItemSelectionModel::NoUpdate);
-    if (current_row != nullptr) {
-        scrollToItem(current_row);
+}
+
+void DrawnList::currentChanged(const QModelIndex& current, const QModelIndex& previous)
+{
+    QTableView::currentChanged(current, previous);
+    if (!is_following_ && current.isValid()) {
+        const QScopedValueRollback notifying(is_notifying_, true);
+        drawing_.select(model_->idAt(current.row()));
     }
 }
 
-void DrawnList::fillRow(QTreeWidgetItem& row, const DrawnItem& item)
+void DrawnList::editAt(std::uint32_t id, int column)
 {
-    row.setData(0, kIdRole, item.id);
-    row.setText(columns_.name, item.name);
-    row.setIcon(columns_.name,
-                item.color ? swatch(QColor(item.color->red, item.color->green, item.color->blue),
-                                    kSwatchSide)
-                           : QIcon());
-    row.setText(columns_.note, item.note);
-    row.setToolTip(columns_.note, item.note);
-    fill(row, item);
-}
-
-// Only names and notes can be changed: other texts return.
-void DrawnList::edit(QTreeWidgetItem& row, int column)
-{
-    static_cast<Row&>(row).shown = nullptr; // its text is not that of the item
-    if (column == columns_.name) {
-        drawing_.rename(idOf(row), row.text(column));
-    } else if (column == columns_.note) {
-        drawing_.setNote(idOf(row), row.text(column));
+    if (const auto row = model_->rowOf(id)) {
+        edit(model_->index(*row, column));
     }
-    showItems();
 }
 
 void DrawnList::askColor(const std::vector<std::uint32_t>& ids)
 {
-    Rgb8 color = kCurrentDrawnColor;
-    for (const DrawnItem* item : drawing_.drawn()) {
-        if (item->id == ids.front() && item->color) {
-            color = *item->color;
-        }
-    }
+    const DrawnItem* first = drawing_.itemOf(ids.front());
+    const Rgb8 color =
+        first != nullptr ? first->color.value_or(kCurrentDrawnColor) : kCurrentDrawnColor;
     auto* dialog = new QColorDialog(QColor(color.red, color.green, color.blue), window());
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     connect(dialog, &QColorDialog::colorSelected, this, [this, ids](const QColor& chosen) {
@@ -194,18 +174,6 @@ void DrawnList::askColor(const std::vector<std::uint32_t>& ids)
                                      static_cast<std::uint8_t>(chosen.blue())});
     });
     dialog->open();
-}
-
-// Rows may have colors of the palette.
-void DrawnList::changeEvent(QEvent* event)
-{
-    QTreeWidget::changeEvent(event);
-    if (event->type() == QEvent::PaletteChange && topLevelItemCount() > 0) {
-        for (int i = 0; i < topLevelItemCount(); ++i) {
-            static_cast<Row*>(topLevelItem(i))->shown = nullptr;
-        }
-        QMetaObject::invokeMethod(this, &DrawnList::showItems, Qt::QueuedConnection);
-    }
 }
 
 void DrawnList::removeSelected()
@@ -221,20 +189,20 @@ void DrawnList::keyPressEvent(QKeyEvent* event)
         removeSelected();
         return;
     }
-    QTreeWidget::keyPressEvent(event);
+    QTableView::keyPressEvent(event);
 }
 
 void DrawnList::contextMenuEvent(QContextMenuEvent* event)
 {
     const bool is_by_mouse = event->reason() == QContextMenuEvent::Mouse;
-    QTreeWidgetItem* row =
-        is_by_mouse ? itemAt(viewport()->mapFromGlobal(event->globalPos())) : currentItem();
-    if (row == nullptr) {
+    const QModelIndex index =
+        is_by_mouse ? indexAt(viewport()->mapFromGlobal(event->globalPos())) : currentIndex();
+    if (!index.isValid()) {
         return;
     }
-    const std::uint32_t id = idOf(*row);
-    const QPoint place = is_by_mouse ? event->globalPos()
-                                     : viewport()->mapToGlobal(visualItemRect(row).bottomLeft());
+    const std::uint32_t id = model_->idAt(index.row());
+    const QPoint place =
+        is_by_mouse ? event->globalPos() : viewport()->mapToGlobal(visualRect(index).bottomLeft());
     // The row may move: the item is the current one from now on.
     drawing_.select(id);
     std::vector<std::uint32_t> ids = selectedIds();
@@ -248,16 +216,16 @@ void DrawnList::contextMenuEvent(QContextMenuEvent* event)
             [this, id] { drawing_.show(id); });
     QAction* rename = menu->addAction(tr("Re&name"));
     rename->setEnabled(is_one);
-    connect(rename, &QAction::triggered, this, [this] { editItem(currentItem(), columns_.name); });
+    connect(rename, &QAction::triggered, this, [this, id] { editAt(id, columns_.name); });
     QAction* note = menu->addAction(tr("Edit No&te"));
     note->setEnabled(is_one);
-    connect(note, &QAction::triggered, this, [this] { editItem(currentItem(), columns_.note); });
+    connect(note, &QAction::triggered, this, [this, id] { editAt(id, columns_.note); });
     connect(menu->addAction(tr("&Color…")), &QAction::triggered, this,
             [this, ids] { askColor(ids); });
-    const std::vector<const DrawnItem*> items = drawing_.drawn();
     QAction* usual = menu->addAction(tr("&Usual Color"));
-    usual->setEnabled(std::any_of(items.begin(), items.end(), [&ids](const DrawnItem* item) {
-        return item->color && std::find(ids.begin(), ids.end(), item->id) != ids.end();
+    usual->setEnabled(std::any_of(ids.begin(), ids.end(), [this](std::uint32_t each) {
+        const DrawnItem* item = drawing_.itemOf(each);
+        return item != nullptr && item->color;
     }));
     connect(usual, &QAction::triggered, this,
             [this, ids] { drawing_.setColors(ids, std::nullopt); });

@@ -3,10 +3,10 @@
 
 #include "ui/drawing/drawn_item.h"
 
-#include <QTreeWidget>
+#include <QTableView>
+#include <QVariant>
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 class QMenu;
@@ -14,10 +14,12 @@ class QMenu;
 namespace marsview {
 
 class DrawingBase;
+class DrawnModel;
 
 /// A row for each item. Names and notes are edited in place; a click on a column's title sorts by
-/// it; several rows can be selected, colored and removed together.
-class DrawnList : public QTreeWidget {
+/// it; several rows can be selected, colored and removed together. Rows ask for what they show when
+/// they are in sight.
+class DrawnList : public QTableView {
     Q_OBJECT
 
 public:
@@ -28,43 +30,41 @@ public:
     };
 
     DrawnList(DrawingBase& drawing, const Columns& columns, QWidget* parent);
+    ~DrawnList() override;
 
     /// To be called when items, or what is known of them, changed.
     void showItems();
     /// In the order of the rows.
     std::vector<std::uint32_t> selectedIds() const;
     void removeSelected();
+    int rowCount() const;
+    QString textAt(int row, int column) const;
+    /// As a user who types it: only names and notes can be changed.
+    void setTextAt(int row, int column, const QString& text);
 
 protected:
-    /// The columns other than name and note.
-    virtual void fill(QTreeWidgetItem& row, const DrawnItem& item) = 0;
-    /// Whether a row has to be filled again although its item is as it was.
-    virtual bool isStale(const QTreeWidgetItem& /*row*/, const DrawnItem& /*item*/) const
-    {
-        return true;
-    }
-    /// Whether row `a` comes before row `b` where the list is sorted by `column`.
-    virtual bool isBefore(const QTreeWidgetItem& a, const QTreeWidgetItem& b, int column) const;
+    /// What a cell shows, in the roles of Qt; names and notes have their texts and swatch already.
+    virtual QVariant cell(const DrawnItem& item, int column, int role) const = 0;
+    /// Whether item `a` comes before `b` where the list is sorted by `column`.
+    virtual bool isBefore(const DrawnItem& a, const DrawnItem& b, int column) const = 0;
     /// What the context menu offers for items, besides what all kinds have.
     virtual void addActions(QMenu& /*menu*/, const std::vector<std::uint32_t>& /*ids*/) {}
 
-    void changeEvent(QEvent* event) override;
     void contextMenuEvent(QContextMenuEvent* event) override;
     void keyPressEvent(QKeyEvent* event) override;
+    void currentChanged(const QModelIndex& current, const QModelIndex& previous) override;
 
 private:
-    class Row;
+    friend class DrawnModel;
 
-    static std::uint32_t idOf(const QTreeWidgetItem& row);
-    void fillRow(QTreeWidgetItem& row, const DrawnItem& item);
     void restoreSelection(const std::vector<std::uint32_t>& selected);
-    void edit(QTreeWidgetItem& row, int column);
+    void editAt(std::uint32_t id, int column);
     void askColor(const std::vector<std::uint32_t>& ids);
 
     DrawingBase& drawing_;
-    std::shared_ptr<const void> shown_; // the items that the rows were filled from
     Columns columns_;
-    bool is_filling_ = false;
+    DrawnModel* model_ = nullptr;
+    bool is_following_ = false; // the selection follows the items
     bool is_notifying_ = false; // of a change that the list itself made
 };
 

@@ -10,12 +10,6 @@
 #include <utility>
 
 namespace marsview {
-namespace {
-
-constexpr int kFigureRole = Qt::UserRole + 1;
-constexpr int kKindRole = Qt::UserRole + 2;
-
-} // namespace
 
 MeasureList::MeasureList(MeasureController& controller, QWidget* parent)
     : DrawnList(controller,
@@ -27,7 +21,7 @@ MeasureList::MeasureList(MeasureController& controller, QWidget* parent)
 {
     setObjectName(QStringLiteral("measurements"));
     setAccessibleName(tr("Measurements"));
-    header()->setSectionResizeMode(ResultColumn, QHeaderView::ResizeToContents);
+    horizontalHeader()->setSectionResizeMode(ResultColumn, QHeaderView::ResizeToContents);
 }
 
 void MeasureList::setHeightUnit(HeightUnit unit)
@@ -36,35 +30,43 @@ void MeasureList::setHeightUnit(HeightUnit unit)
     showItems();
 }
 
-bool MeasureList::isBefore(const QTreeWidgetItem& a, const QTreeWidgetItem& b, int column) const
+bool MeasureList::isBefore(const DrawnItem& a, const DrawnItem& b, int column) const
 {
-    if (column != ResultColumn) {
-        return DrawnList::isBefore(a, b, column);
+    if (column == ResultColumn) {
+        const auto key = [this](const DrawnItem& item) {
+            const auto& result = controller_.outcome(item.id).result;
+            const double figure = result ? measureFigure(*result) : std::nan("");
+            return std::pair(static_cast<const MeasureItem&>(item).kind,
+                             std::isnan(figure) ? -std::numeric_limits<double>::infinity()
+                                                : figure);
+        };
+        return key(a) < key(b);
     }
-    const auto key = [](const QTreeWidgetItem& row) {
-        return std::pair(row.data(ResultColumn, kKindRole).toInt(),
-                         row.data(ResultColumn, kFigureRole).toDouble());
+    const auto text = [this, column](const DrawnItem& item) {
+        return column == NameColumn   ? item.name
+               : column == NoteColumn ? item.note
+                                      : cell(item, column, Qt::DisplayRole).toString();
     };
-    return key(a) < key(b);
+    return text(a).localeAwareCompare(text(b)) < 0;
 }
 
-void MeasureList::fill(QTreeWidgetItem& row, const DrawnItem& drawn)
+QVariant MeasureList::cell(const DrawnItem& drawn, int column, int role) const
 {
-    const MeasureItem& item = *controller_.itemOf(drawn.id);
-    const MeasureOutcome& outcome = controller_.outcome(item.id);
-    const Layer* layer = controller_.layerOf(item);
-    row.setToolTip(NameColumn, measurementName(item.kind) + QLatin1Char('\n') +
-                                   locale().toString(item.time, QLocale::ShortFormat));
-    row.setText(ResultColumn, outcome.result ? measureSummary(*outcome.result, unit_) : QString());
-    row.setData(ResultColumn, kKindRole, static_cast<int>(item.kind));
-    const double figure = outcome.result ? measureFigure(*outcome.result) : std::nan("");
-    row.setData(ResultColumn, kFigureRole,
-                std::isnan(figure) ? -std::numeric_limits<double>::infinity() : figure);
-    const QString layer_name =
+    const auto& item = static_cast<const MeasureItem&>(drawn);
+    if (column == NameColumn && role == Qt::ToolTipRole) {
+        return QString(measurementName(item.kind) + QLatin1Char('\n') +
+                       locale().toString(localTime(item.time), QLocale::ShortFormat));
+    }
+    if (column == ResultColumn && role == Qt::DisplayRole) {
+        const MeasureOutcome& outcome = controller_.outcome(item.id);
+        return outcome.result ? measureSummary(*outcome.result, unit_) : QString();
+    }
+    if (column == LayerColumn && (role == Qt::DisplayRole || role == Qt::ToolTipRole)) {
+        const Layer* layer = controller_.layerOf(item);
         //: The layer on which a measurement was made
-        layer != nullptr ? QString::fromStdString(layer->name) : tr("removed");
-    row.setText(LayerColumn, layer_name);
-    row.setToolTip(LayerColumn, layer_name);
+        return layer != nullptr ? QString::fromStdString(layer->name) : tr("removed");
+    }
+    return {};
 }
 
 } // namespace marsview

@@ -20,9 +20,9 @@ public:
     void setHeightUnit(HeightUnit unit);
 
 protected:
-    void fill(QTreeWidgetItem& row, const DrawnItem& item) override;
+    QVariant cell(const DrawnItem& item, int column, int role) const override;
     /// Results sort by what they measure, then by size.
-    bool isBefore(const QTreeWidgetItem& a, const QTreeWidgetItem& b, int column) const override;
+    bool isBefore(const DrawnItem& a, const DrawnItem& b, int column) const override;
 
 private:
     MeasureController& controller_;

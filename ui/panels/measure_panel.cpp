@@ -429,7 +429,7 @@ QString MeasurePanel::tableCsv() const
             field(measurementName(item.kind)),
             field(item.note),
             field(layer != nullptr ? QString::fromStdString(layer->name) : QString()),
-            item.time.toString(Qt::ISODate),
+            localTime(item.time).toString(Qt::ISODate),
             field(results),
             field(points)};
         text += fields.join(QLatin1Char(',')) + QLatin1Char('\n');

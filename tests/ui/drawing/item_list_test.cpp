@@ -96,6 +96,56 @@ TEST(ItemList, ACopyHoldsOnlyWhatChanged)
     EXPECT_TRUE(list == before);
 }
 
+TEST(ItemList, TellsWhatDiffersFromAnotherList)
+{
+    test::Random random(12);
+    ItemList<Thing> list = things(3000);
+    for (int round = 0; round < 200; ++round) {
+        const ItemList<Thing> before = list;
+        std::set<std::uint32_t> removed;
+        std::set<std::uint32_t> changed;
+        for (std::size_t i = random.below(4); i > 0; --i) {
+            const auto id = static_cast<std::uint32_t>(1 + random.below(3000));
+            if (Thing* thing = list.edit(id); thing != nullptr && random.chance(0.7)) {
+                thing->name = "round " + std::to_string(round);
+                changed.insert(id);
+            } else if (thing != nullptr) {
+                list.eraseIf([id](const Thing& each) { return each.id == id; });
+                removed.insert(id);
+                changed.erase(id);
+            }
+        }
+        std::set<std::uint32_t> added;
+        if (random.chance(0.3)) {
+            const std::uint32_t id = list.back().id + 1;
+            list.push_back({id, "new"});
+            added.insert(id);
+        }
+        const auto expect = [&](const ItemList<Thing>& from, const ItemList<Thing>& to,
+                                const std::set<std::uint32_t>& fresh,
+                                const std::set<std::uint32_t>& gone) {
+            std::set<std::uint32_t> found_fresh;
+            std::set<std::uint32_t> found_gone;
+            std::set<std::uint32_t> found_changed;
+            ItemList<Thing>::forEachChange(from, to, [&](const Thing* was, const Thing* is) {
+                const std::uint32_t id = was != nullptr ? was->id : is->id;
+                EXPECT_EQ(was, from.find(id));
+                EXPECT_EQ(is, to.find(id));
+                (was == nullptr  ? found_fresh
+                 : is == nullptr ? found_gone
+                                 : found_changed)
+                    .insert(id);
+            });
+            EXPECT_EQ(found_fresh, fresh);
+            EXPECT_EQ(found_gone, gone);
+            EXPECT_EQ(found_changed, changed);
+        };
+        expect(before, list, added, removed);
+        expect(list, before, removed, added);
+        EXPECT_EQ(before == list, added.empty() && removed.empty() && changed.empty());
+    }
+}
+
 TEST(HandleGrid, MarksThatAreShownAreApartAndStandForTheOthers)
 {
     test::Random random(5);
