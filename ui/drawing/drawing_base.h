@@ -4,6 +4,7 @@
 #include "ui/drawing/drawn_item.h"
 
 #include <QObject>
+#include <QRectF>
 
 #include <cstdint>
 #include <memory>
@@ -44,6 +45,9 @@ public:
     /// Of what handles() returns now. The same number as before if nothing that marks of the items
     /// depend on has changed.
     virtual std::uint64_t handlesRevision() const = 0;
+    /// Boxes in the view that together cover the lines of the items, without the one to the
+    /// pointer. Of very many lines, some.
+    virtual std::vector<QRectF> lineBoxes() const = 0;
 
 Q_SIGNALS:
     /// Items or the selection.

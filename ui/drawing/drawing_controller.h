@@ -269,6 +269,49 @@ public:
         handles();
         return handles_revision_;
     }
+    std::vector<QRectF> lineBoxes() const override
+    {
+        constexpr double kSide = 24.0;           // points
+        constexpr double kMargin = 3.0;          // half a line, and some room
+        constexpr std::size_t kPointsMax = 5000; // beyond, no name has room anyway
+        std::vector<QRectF> boxes;
+        std::size_t points = 0;
+        const QRectF sight(view_.rect());
+        for (const Leg& leg : legs_) {
+            const Item* item = itemOf(leg.item);
+            if (item == nullptr || (!item->is_finished && leg.index + 1 >= item->vertices.size())) {
+                continue;
+            }
+            std::optional<QRectF> box;
+            const auto end_box = [&] {
+                if (box) {
+                    boxes.push_back(box->adjusted(-kMargin, -kMargin, kMargin, kMargin));
+                }
+                box.reset();
+            };
+            for (const ScenePoint& point : leg.run.points) {
+                if (++points > kPointsMax) {
+                    return boxes;
+                }
+                const auto place = view_.positionOfPlace(point);
+                if (!place || !sight.contains(*place)) {
+                    end_box();
+                    continue;
+                }
+                const QRectF wider = box ? QRectF(QPointF(std::min(box->left(), place->x()),
+                                                          std::min(box->top(), place->y())),
+                                                  QPointF(std::max(box->right(), place->x()),
+                                                          std::max(box->bottom(), place->y())))
+                                         : QRectF(*place, QSizeF());
+                if (wider.width() > kSide || wider.height() > kSide) {
+                    end_box();
+                }
+                box = box ? wider : QRectF(*place, QSizeF());
+            }
+            end_box();
+        }
+        return boxes;
+    }
     /// Those that are more than a point.
     const std::vector<std::uint32_t>& lineItems() const
     {

@@ -231,6 +231,22 @@ std::vector<QRectF> DrawnMarks::labelBoxes() const
     return boxes;
 }
 
+std::vector<QRectF> DrawnMarks::takenBoxes() const
+{
+    constexpr std::size_t kHandlesMax = 200; // between more, no name has room
+    std::vector<QRectF> boxes = labelBoxes();
+    if (handles().size() <= kHandlesMax) {
+        for (const DrawnHandle& handle : handles()) {
+            boxes.push_back(boxAround(handle.place, kNeighborRadius));
+        }
+    }
+    if (drawing_) {
+        const std::vector<QRectF> lines = drawing_->lineBoxes();
+        boxes.insert(boxes.end(), lines.begin(), lines.end());
+    }
+    return boxes;
+}
+
 void DrawnMarks::paintEvent(QPaintEvent* /*event*/)
 {
     QPainter painter(this);

@@ -39,6 +39,8 @@ public:
     void giveWayToNeighbor() { gives_way_ = true; }
     /// Of the labels as they are drawn now, in points. None overlap, also not those of neighbors.
     std::vector<QRectF> labelBoxes() const;
+    /// What names of places keep clear of: labels, points and lines.
+    std::vector<QRectF> takenBoxes() const;
     /// For a picture of the view of any size: as large as in the view where it is as high.
     std::vector<PicturePart> partsFor(const QSize& picture) const;
 

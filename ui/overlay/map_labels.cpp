@@ -78,7 +78,7 @@ std::vector<QRectF> MapLabels::markedBoxes() const
 {
     std::vector<QRectF> boxes;
     for (const DrawnMarks* marks : marked_) {
-        const std::vector<QRectF> more = marks->labelBoxes();
+        const std::vector<QRectF> more = marks->takenBoxes();
         boxes.insert(boxes.end(), more.begin(), more.end());
     }
     return boxes;

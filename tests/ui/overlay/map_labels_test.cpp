@@ -2,6 +2,7 @@
 #include "tests/support/shared_data.h"
 #include "tests/ui/map_window.h"
 #include "ui/commands/picture_saver.h"
+#include "ui/controllers/measure_controller.h"
 #include "ui/overlay/force_meter.h"
 #include "ui/overlay/legend.h"
 #include "ui/overlay/map_labels.h"
@@ -67,6 +68,33 @@ TEST_F(MapLabelsTest, NamesKeepClearOfEachOtherAndOfTheOtherOverlays)
     EXPECT_TRUE(labels().nameLabels().empty());
     action("names").trigger();
     EXPECT_GT(labels().nameLabels().size(), 5U);
+}
+
+TEST_F(MapLabelsTest, NamesMakeWayForLinesAndPointsThatAreMeasured)
+{
+    openMars();
+    const auto is_named = [this](QPointF place) {
+        const std::vector<MapLabels::Label>& names = labels().nameLabels();
+        return std::any_of(names.begin(), names.end(), [place](const MapLabels::Label& name) {
+            return name.box.contains(place);
+        });
+    };
+    ASSERT_FALSE(labels().nameLabels().empty());
+    const QPointF middle = labels().nameLabels().front().box.center();
+    MeasureController& measuring = *window_->measuring();
+    measuring.begin(MeasurementKind::Distance);
+    const QPointF half(labels().nameLabels().front().box.width(), 0.0);
+    for (const QPointF end : {middle - half, middle + half}) {
+        const auto hit = view().surfaceAt(end);
+        ASSERT_TRUE(hit);
+        measuring.addPointAt(hit->grid);
+    }
+    measuring.finish();
+    ASSERT_TRUE(waitFor([&] { return view().isPictureComplete() && !is_named(middle); }));
+    EXPECT_FALSE(labels().nameLabels().empty());
+    for (const DrawnHandle& handle : measuring.handles()) {
+        EXPECT_FALSE(is_named(handle.place));
+    }
 }
 
 TEST_F(MapLabelsTest, TheGraticuleIsLabeledInTheChosenFormat)
