@@ -5,11 +5,13 @@
 #include "core/annotations/annotation.h"
 #include "tests/support/random.h"
 #include "tests/support/shared_data.h"
+#include "tests/support/temp_folder.h"
 #include "tests/ui/map_window.h"
 #include "ui/commands/vector_tools.h"
 #include "ui/commands/window_commands.h"
 #include "ui/controllers/annotation_controller.h"
 #include "ui/controllers/vector_overlays.h"
+#include "ui/project/project_controller.h"
 #include "ui/window/window_actions.h"
 
 #include <QElapsedTimer>
@@ -94,6 +96,31 @@ protected:
         }
         return path;
     }
+    void addAnnotations()
+    {
+        test::Random random(3);
+        std::vector<Annotation> annotations;
+        Annotation annotation;
+        annotation.body = drawnBody(view().map()->georeference(), view().map()->info().body);
+        const int number = count(); // a file may have a hundred thousand, a project has many files
+        for (int i = 0; i < number; ++i) {
+            annotation.name = "p" + std::to_string(i);
+            annotation.vertices = {
+                DrawnVertex(GeographicPoint{Angle::degrees(random.uniform(0.0, 360.0)),
+                                            Angle::degrees(random.uniform(-85.0, 85.0))})};
+            annotations.push_back(annotation);
+        }
+        QElapsedTimer timer;
+        timer.start();
+        window_->annotating()->add(annotations, QStringLiteral("Import"));
+        std::printf("%d annotations added in %.2f s\n", number,
+                    static_cast<double>(timer.elapsed()) * 1e-3);
+        ASSERT_EQ(window_->annotating()->state().items.size(), static_cast<std::size_t>(number));
+    }
+    static qint64 fileSize(const std::string& file)
+    {
+        return QFileInfo(QString::fromStdString(file)).size();
+    }
     // Rough lines around the body, of 250 points each and some 40 bytes a point.
     QString coastline(int vertices)
     {
@@ -149,31 +176,60 @@ TEST_F(FeatureFramesTest, LinesOfAVectorFile)
 TEST_F(FeatureFramesTest, Annotations)
 {
     const double without_ms = frameMs();
+    ASSERT_NO_FATAL_FAILURE(addAnnotations());
     AnnotationController& annotating = *window_->annotating();
-    test::Random random(3);
-    std::vector<Annotation> annotations;
-    Annotation annotation;
-    annotation.body = drawnBody(view().map()->georeference(), view().map()->info().body);
-    const int number = count(); // a file may have a hundred thousand, a project has many files
-    for (int i = 0; i < number; ++i) {
-        annotation.name = "p" + std::to_string(i);
-        annotation.vertices = {
-            DrawnVertex(GeographicPoint{Angle::degrees(random.uniform(0.0, 360.0)),
-                                        Angle::degrees(random.uniform(-85.0, 85.0))})};
-        annotations.push_back(annotation);
-    }
-    QElapsedTimer timer;
-    timer.start();
-    annotating.add(annotations, QStringLiteral("Import"));
-    std::printf("%d annotations added in %.2f s\n", number,
-                static_cast<double>(timer.elapsed()) * 1e-3);
-    ASSERT_EQ(annotating.state().items.size(), static_cast<std::size_t>(number));
     const double with_ms = frameMs();
-    std::printf("%d annotations: %.1f ms a frame, without %.1f ms, ratio %.2f\n", number, with_ms,
+    std::printf("%d annotations: %.1f ms a frame, without %.1f ms, ratio %.2f\n", count(), with_ms,
                 without_ms, with_ms / without_ms);
+    QElapsedTimer timer;
     timer.start();
     annotating.rename(annotating.state().items.front().id, QStringLiteral("first"));
     std::printf("a step of undo: %.0f ms\n", static_cast<double>(timer.elapsed()));
+}
+
+// The longest time in which the window does not react, while one annotation is edited and copies
+// of the project are written.
+TEST_F(FeatureFramesTest, EditsWhileCopiesAreWritten)
+{
+    const test::TempFolder folder;
+    WindowOptions options = testWindowOptions();
+    options.autosave_folder = folder.path();
+    makeWindow(kWithPanels, options);
+    ASSERT_TRUE(openAndWait(*window_, QString::fromStdString(test::bundledMars())));
+    ASSERT_NO_FATAL_FAILURE(addAnnotations());
+    ProjectController& project = window_->commands().project;
+    QElapsedTimer timer;
+    timer.start();
+    project.autosaveNow();
+    std::printf("first copy: %.2f s on its thread\n", static_cast<double>(timer.elapsed()) * 1e-3);
+    AnnotationController& annotating = *window_->annotating();
+    const std::uint32_t id = annotating.state().items.front().id;
+    constexpr int kEdits = 5;
+    double edit_ms = 0.0;
+    double copy_ms = 0.0;
+    for (int i = 0; i < kEdits; ++i) {
+        timer.start();
+        annotating.setNote(id, QString::number(i));
+        QCoreApplication::processEvents();
+        edit_ms = std::fmax(edit_ms, static_cast<double>(timer.nsecsElapsed()) * 1e-6);
+        timer.start();
+        project.autosaveNow();
+        copy_ms = std::fmax(copy_ms, static_cast<double>(timer.nsecsElapsed()) * 1e-6);
+        EXPECT_TRUE(waitFor([this] { return view().isPictureComplete(); }));
+    }
+    std::printf("%d annotations, one edited: %.0f ms at most, a copy %.0f ms at most\n", count(),
+                edit_ms, copy_ms);
+    timer.start();
+    ASSERT_TRUE(project.saveAs(QString::fromStdString(folder.file("a.mvproj"))));
+    std::printf("saved in %.2f s, %.0f MB\n", static_cast<double>(timer.elapsed()) * 1e-3,
+                static_cast<double>(fileSize(folder.file("a.mvproj"))) * 1e-6);
+    constexpr int kLongMs = 300'000;
+    ASSERT_TRUE(QTest::qWaitFor([&] { return !project.isWriting(); }, kLongMs));
+    timer.start();
+    ASSERT_TRUE(project.open(QString::fromStdString(folder.file("a.mvproj"))));
+    std::printf("opened in %.2f s\n", static_cast<double>(timer.elapsed()) * 1e-3);
+    EXPECT_EQ(annotating.state().items.size(), static_cast<std::size_t>(count()));
+    EXPECT_TRUE(waitFor([this] { return !window_->controller().isBusy(); }));
 }
 
 } // namespace marsview

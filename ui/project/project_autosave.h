@@ -1,27 +1,48 @@
 // Copies of unsaved projects, for the next start after a crash or a power failure.
 #pragma once
 
+#include "core/annotations/annotation_log.h"
 #include "core/base/file_lock.h"
 #include "core/session/project.h"
+#include "ui/controllers/annotation_controller.h"
 
 #include <QObject>
 #include <QString>
 #include <QThreadPool>
 
+#include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
+#include <set>
 #include <vector>
 
 namespace marsview {
+
+/// What a copy is made of: a value that is cheap to copy, whatever the number of annotations.
+struct AutosavedState {
+    Project project;                      // without its annotations
+    std::vector<LayerId> layers;          // those of the project
+    ItemList<AnnotationItem> annotations; // of these layers
+    std::filesystem::path file;           // of the project; empty if it was never saved
+};
 
 /// A copy that a program left behind which did not end properly.
 struct LeftoverProject {
     std::filesystem::path copy;
     std::filesystem::path file; // of the project; empty if it was never saved
-    Project project;            // its paths are absolute
+    Project project;            // its paths are absolute; without its annotations
+
+    std::filesystem::path log; // of the annotations; empty if there are none
+    std::uint64_t log_bytes = 0;
+    std::vector<std::uint32_t> log_layers; // numbers in the log, of the layers of the project
 };
 
-/// Writes copies of one window's project, one at a time, on a thread of its own. GUI thread.
+/// Writes copies of one window's project, one at a time, on a thread of its own. A copy is a
+/// project file, and next to it a log of the annotations (`AnnotationLog`), to which changes are
+/// appended: one changed note costs one line, whatever the number of annotations. The project file
+/// states how much of the log belongs to it, and replaces the one before as a whole once the log is
+/// on the disk. GUI thread.
 class ProjectAutosave final : public QObject {
     Q_OBJECT
 
@@ -31,24 +52,38 @@ public:
     /// Waits for the copy that is being written. It stays until it is removed by discard().
     ~ProjectAutosave() override;
 
-    /// Replaces the copy. `file` is the path of the project, empty if it was never saved.
-    void write(const Project& project, const std::filesystem::path& file);
+    /// Replaces the copy. Of states that arrive while one is being written, the last one is next.
+    void write(AutosavedState state);
     /// Removes the copy: the project was saved, or the user does not want to keep its changes.
     void discard();
     /// Waits until the copy is written.
-    void wait() { pool_.waitForDone(); }
+    void wait();
 
     /// Copies of programs that do not run any more, the latest first. Damaged ones are skipped.
     std::vector<LeftoverProject> leftovers() const;
+    /// With the annotations. Reads their log, which takes seconds for a million.
+    static Result<Project> wholeProject(const LeftoverProject& leftover);
     /// Removes such a copy.
     static void remove(const LeftoverProject& leftover);
 
 private:
+    struct Job;
+
     bool begin();
+    void start();
+    void finish();
+    void removeLogsWithoutCopy(const std::set<std::filesystem::path>& known) const;
 
     std::filesystem::path folder_;
     std::filesystem::path copy_;   // empty before the first one
     std::optional<FileLock> lock_; // shows other programs that this one is running
+    int logs_ = 0;                 // how many there have been
+    std::shared_ptr<Job> job_;     // that runs
+    // Items are released in this thread: it changes blocks of them in place that nobody shares.
+    std::shared_ptr<const AutosavedState> written_; // that the log has; null: none
+    std::shared_ptr<const AutosavedState> writing_;
+    std::shared_ptr<const AutosavedState> next_;
+    std::optional<AnnotationLog> log_;
     QThreadPool pool_;
 };
 

@@ -53,7 +53,7 @@ ProjectController::ProjectController(SessionController& session,
     autosave_timer_.setInterval(options.autosave_delay_ms);
     connect(&autosave_timer_, &QTimer::timeout, this, [this] {
         if (isModified()) {
-            autosave_.write(project(), file_.toStdString());
+            autosave_.write(autosaved());
         }
     });
     connect(&session_.undoStack(), &QUndoStack::indexChanged, this, &ProjectController::noteChange);
@@ -76,7 +76,7 @@ bool ProjectController::isNothingToKeep() const
     const Session& session = session_.session();
     return file_.isEmpty() && (session_.undoStack().index() == 0 ||
                                (session.layers.empty() && session.missing.empty() &&
-                                measuring_.saved().empty() && annotating_.saved().empty()));
+                                measuring_.saved().empty() && annotating_.state().items.empty()));
 }
 
 // Opening maps can be repeated as easily: opening them alone does not lead to a question.
@@ -90,12 +90,21 @@ void ProjectController::noteOpened()
 
 Project ProjectController::project() const
 {
-    Project project = projectOf(session_.session());
-    project.measurements = measuring_.saved();
+    Project project = autosaved().project;
     project.annotations = annotating_.saved();
-    project.camera = camera_ ? camera_ : projectCamera(view_);
-    project.others = others_;
     return project;
+}
+
+AutosavedState ProjectController::autosaved() const
+{
+    AutosavedState state{.project = projectOf(session_.session()),
+                         .layers = projectOrder(session_.session()),
+                         .annotations = annotating_.state().items,
+                         .file = file_.toStdString()};
+    state.project.measurements = measuring_.saved();
+    state.project.camera = camera_ ? camera_ : projectCamera(view_);
+    state.project.others = others_;
+    return state;
 }
 
 void ProjectController::noteChange()
@@ -250,7 +259,12 @@ std::optional<LeftoverProject> ProjectController::leftover() const
 
 void ProjectController::recover(const LeftoverProject& leftover)
 {
-    replace(leftover.project, QString::fromStdString(leftover.file.string()));
+    const auto project = ProjectAutosave::wholeProject(leftover);
+    if (!project) {
+        Q_EMIT failed(QString::fromStdString(project.error().message));
+        return;
+    }
+    replace(*project, QString::fromStdString(leftover.file.string()));
     is_recovered_ = true;
     // The copy is removed only when another one has been written.
     autosaveNow();
@@ -262,7 +276,7 @@ void ProjectController::autosaveNow()
 {
     autosave_timer_.stop();
     if (isModified()) {
-        autosave_.write(project(), file_.toStdString());
+        autosave_.write(autosaved());
         autosave_.wait();
     }
 }

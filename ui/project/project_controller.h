@@ -69,7 +69,8 @@ public:
 
     /// The latest copy that a crash left behind; empty if there is none.
     std::optional<LeftoverProject> leftover() const;
-    /// Replaces the session by such a copy, with unsaved changes.
+    /// Replaces the session by such a copy, with unsaved changes. Emits failed() if its annotations
+    /// cannot be read.
     void recover(const LeftoverProject& leftover);
     /// Removes the copy: the project was saved, or its changes are not to be kept.
     void discardAutosave() { autosave_.discard(); }
@@ -98,6 +99,7 @@ private:
         std::vector<std::filesystem::path> files; // that are written
     };
     void reportBeside(const QString& path, const Beside& beside);
+    AutosavedState autosaved() const;
     void replace(const Project& project, const QString& file);
     bool isNothingToKeep() const;
     void noteOpened();

@@ -4,6 +4,7 @@
 #include "tests/support/temp_folder.h"
 #include "tests/ui/map_window.h"
 #include "ui/commands/window_commands.h"
+#include "ui/controllers/annotation_controller.h"
 #include "ui/controllers/recent_files.h"
 #include "ui/project/project_controller.h"
 #include "ui/project/project_menu.h"
@@ -350,6 +351,68 @@ TEST_F(ProjectWindowTest, AutosaveFollowsAChangeAndGoesWithItsUndo)
     EXPECT_EQ(copy_count(), 1);
     window_->undoStack().undo();
     EXPECT_EQ(copy_count(), 0);
+}
+
+// A changed note costs a line, not a project; what a crash leaves between two steps is whole.
+TEST_F(ProjectWindowTest, AutosaveAppendsWhatChangedToALog)
+{
+    makeWindow(kSmall, asking());
+    ASSERT_TRUE(openAndWait(*window_, maps_.mars()));
+    AnnotationController& annotating = *window_->annotating();
+    std::vector<Annotation> points(2000);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        points[i].name = "p" + std::to_string(i);
+        points[i].body = drawnBody(view().map()->georeference(), view().map()->info().body);
+        points[i].vertices = {
+            GeographicPoint{Angle::degrees(0.01 * static_cast<double>(i)), Angle::degrees(5.0)}};
+    }
+    annotating.add(points, QStringLiteral("Import"));
+    ProjectController& project = window_->commands().project;
+    project.autosaveNow();
+    const auto file_with = [this](const char* ending) {
+        fs::path found;
+        for (const auto& entry : fs::directory_iterator(folder_.path() / "autosave")) {
+            if (entry.path().extension() == ending) {
+                EXPECT_TRUE(found.empty());
+                found = entry.path();
+            }
+        }
+        return found;
+    };
+    const fs::path copy = file_with(".mvproj");
+    const fs::path log = file_with(".annotations");
+    const auto whole = fs::file_size(log);
+    EXPECT_LT(fs::file_size(copy), 10'000U);
+    const Project before = saved();
+    const fs::path older = folder_.path() / "older.mvproj";
+    fs::copy_file(copy, older);
+
+    const std::uint32_t first = annotating.state().items.front().id;
+    annotating.setNote(first, QStringLiteral("looked at"));
+    annotating.remove(first + 1);
+    project.autosaveNow();
+    EXPECT_EQ(file_with(".annotations"), log);
+    EXPECT_GT(fs::file_size(log), whole);
+    EXPECT_LT(fs::file_size(log), whole + 500);
+    const Project after = saved();
+    ASSERT_EQ(after.annotations.size(), 1999U);
+
+    window_.reset(); // as a crash does, it leaves the copy
+    makeWindow(kSmall, asking());
+    const auto found = [this]() -> std::optional<Project> {
+        const auto leftover = window_->commands().project.leftover();
+        const auto read = leftover ? ProjectAutosave::wholeProject(*leftover)
+                                   : Result<Project>(Error{ErrorCode::NotFound, ""});
+        return read ? std::optional(*read) : std::nullopt;
+    };
+    EXPECT_EQ(found(), after);
+    // Killed after the log was written and before the project file was.
+    fs::copy_file(older, copy, fs::copy_options::overwrite_existing);
+    EXPECT_EQ(found(), before);
+    window_->commands().project.recover(*window_->commands().project.leftover());
+    EXPECT_EQ(saved().annotations, before.annotations);
+    EXPECT_FALSE(fs::exists(copy));
+    EXPECT_FALSE(fs::exists(log));
 }
 
 // Opening is repeated as easily as it is done: there is nothing to ask.
