@@ -7,6 +7,7 @@
 #include "app/console/number_checks.h"
 #include "app/console/text_output.h"
 #include "core/measure/attitude.h"
+#include "core/measure/constants.h"
 #include "core/measure/crater.h"
 #include "core/measure/hypsometry.h"
 #include "core/measure/line_measures.h"
@@ -16,6 +17,7 @@
 #include "core/session/measurement_tables.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <fmt/format.h>
@@ -65,6 +67,17 @@ MeasuredDigits digitsOf(const MeasureInput& input)
         input.positions.empty() ? kNan : input.terrain->elevation(input.positions.front());
     return MeasuredDigits(
         resolutionOf(input.terrain->georeference(), input.raster->info, elevation_m));
+}
+
+// Of the coordinates of something's middle, in the units that positions have; its RMS is 0 without
+// residuals. A coordinate of 0 is a place like others: its digits do not depend on its size.
+int lastPlaceOfPosition(const MeasureInput& input, double rms_m)
+{
+    const double sample_m =
+        resolutionOf(input.terrain->georeference(), input.raster->info, kNan).ground_m;
+    const auto& ellipsoid = input.terrain->ground().ellipsoid();
+    const double unit_m = ellipsoid ? ellipsoid->equatorial_m / kDegreesPerRadian : 1.0;
+    return lastPlace(0.0, (rms_m > 0.0 ? std::max(rms_m, 0.1 * sample_m) : sample_m) / unit_m);
 }
 
 void printForPeople(const Distance& distance, const MeasuredDigits& digits)
@@ -346,12 +359,13 @@ Status runCrater(const MeasureOptions& options)
         const auto line = [](const char* label, const std::string& text) {
             printLine(fmt::format("{:<12}{}", label, text));
         };
-        line("Center:", fmt::format("{}, {}", asText(center.x), asText(center.y)));
         const MeasuredDigits digits = digitsOf(*input);
         const auto height = [&](const char* label, double value_m) {
             line(label, written(value_m, digits.elevation(value_m)) + " m");
         };
         const double rms_m = crater->hasResiduals() ? crater->rms_m : 0.0;
+        const int place = lastPlaceOfPosition(*input, rms_m);
+        line("Center:", fmt::format("{}, {}", written(center.x, place), written(center.y, place)));
         line("Diameter:",
              written(crater->diameter_m, digits.diameter(crater->diameter_m, rms_m)) + " m");
         height("Depth:", crater->depth_m);

@@ -187,6 +187,11 @@ TEST(MeasureDistance, PrintsTheDigitsThatTheSamplesGive)
                                             exact["rise_m"].get<double>())));
     const nlohmann::json crater =
         measuredJson("crater", bundledMars(), "226.1 18.9\n227.4 18.5\n226.4 17.8\n227.2 18.9\n");
+    // A tenth of the samples' distance is 0.025°, and 2 digits of it are thousandths.
+    EXPECT_THAT(
+        measured("crater", bundledMars(), "226.1 18.9\n227.4 18.5\n226.4 17.8\n227.2 18.9\n").out,
+        HasSubstr(fmt::format("Center:     {:.3f}, {:.3f}\n", crater["lon"].get<double>(),
+                              crater["lat"].get<double>())));
     EXPECT_THAT(
         measured("crater", bundledMars(), "226.1 18.9\n227.4 18.5\n226.4 17.8\n227.2 18.9\n").out,
         HasSubstr(fmt::format("Depth:      {:.1f} m\nd/D:        {:.2f}",
