@@ -71,8 +71,8 @@ MeasurePanel::MeasurePanel(MeasureController& controller, QWidget* parent)
     splitter->addWidget(hypsometry_side_);
     attitudes_ = new AttitudesView(controller_, this);
     splitter->addWidget(attitudes_);
-    splitter->setStretchFactor(0, 2);
-    splitter->setStretchFactor(1, 2);
+    splitter->setStretchFactor(0, 3);
+    splitter->setStretchFactor(1, 3);
     splitter->setStretchFactor(2, 5);
     splitter->setStretchFactor(3, 4);
     splitter->setStretchFactor(4, 3);
@@ -114,8 +114,9 @@ void MeasurePanel::makeResults()
     results_->horizontalHeader()->hide();
     results_->verticalHeader()->hide();
     results_->findChild<QAbstractButton*>()->setAccessibleName(tr("Select all results"));
-    results_->horizontalHeader()->setSectionResizeMode(0, QHeaderView::Stretch);
-    results_->horizontalHeader()->setSectionResizeMode(1, QHeaderView::ResizeToContents);
+    // Labels are in one piece; a long value, such as a position, has lines.
+    results_->horizontalHeader()->setSectionResizeMode(0, QHeaderView::ResizeToContents);
+    results_->horizontalHeader()->setSectionResizeMode(1, QHeaderView::Stretch);
     results_->setEditTriggers(QAbstractItemView::NoEditTriggers);
     results_->setSelectionBehavior(QAbstractItemView::SelectRows);
     results_->setShowGrid(false);

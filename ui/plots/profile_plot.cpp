@@ -7,6 +7,8 @@
 #include <QFileInfo>
 #include <QKeyEvent>
 #include <QMouseEvent>
+#include <QResizeEvent>
+#include <QScopeGuard>
 #include <QSvgGenerator>
 #include <QVBoxLayout>
 
@@ -20,6 +22,7 @@ namespace marsview {
 namespace {
 
 constexpr double kDragLeast = 4.0; // pixels: less is a click
+constexpr int kTicksMax = 6;
 constexpr QSize kPictureSize{1200, 500};
 constexpr double kPictureScale = 2.0;
 
@@ -80,7 +83,7 @@ ProfilePlot::ProfilePlot(QWidget* parent)
     setFocusProxy(nullptr);
     for (QCPAxis* axis : {plot->xAxis, plot->yAxis, plot->yAxis2}) {
         axis->setTicker(QSharedPointer<NumberTicker>::create());
-        axis->ticker()->setTickCount(6);
+        axis->ticker()->setTickCount(kTicksMax);
     }
     parts_->plot = plot;
     parts_->stretch = new QCPItemRect(plot);
@@ -403,6 +406,9 @@ void ProfilePlot::moveCursor(std::optional<double> distance_m)
 bool ProfilePlot::eventFilter(QObject* watched, QEvent* event)
 {
     QCustomPlot& plot = *parts_->plot;
+    if (watched == &plot && event->type() == QEvent::Resize) {
+        fitTicks(static_cast<QResizeEvent&>(*event).size().height());
+    }
     if (watched != &plot || curves_.empty()) {
         return QWidget::eventFilter(watched, event);
     }
@@ -454,6 +460,17 @@ bool ProfilePlot::eventFilter(QObject* watched, QEvent* event)
     }
 }
 
+// Numbers on top of each other cannot be read.
+void ProfilePlot::fitTicks(int height)
+{
+    constexpr int kBelow = 50; // points for the axis of distances
+    constexpr int kTick = 26;  // points from one elevation to the next
+    const int count = std::clamp((height - kBelow) / kTick, 2, kTicksMax);
+    for (QCPAxis* axis : {parts_->plot->yAxis, parts_->plot->yAxis2}) {
+        axis->ticker()->setTickCount(count);
+    }
+}
+
 void ProfilePlot::keyPressEvent(QKeyEvent* event)
 {
     const QCPRange shown = parts_->plot->xAxis->range();
@@ -488,6 +505,8 @@ void ProfilePlot::changeEvent(QEvent* event)
 
 bool ProfilePlot::savePicture(const QString& path)
 {
+    fitTicks(kPictureSize.height());
+    const auto fit_again = qScopeGuard([this] { fitTicks(parts_->plot->height()); });
     const QString suffix = QFileInfo(path).suffix().toLower();
     if (suffix == QStringLiteral("svg")) {
         QSvgGenerator file;

@@ -79,6 +79,7 @@ private:
     void fillGraphs();
     void applyColors();
     void applyScale();
+    void fitTicks(int height);
     void placeCursor();
     void placeStretch();
     void moveCursor(std::optional<double> distance_m);
