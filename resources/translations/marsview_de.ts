@@ -6407,6 +6407,14 @@ A scene: the one that suits the layers</extracomment>
         <translation>Ein Teil des Bilds ist vorerst grob. %1</translation>
     </message>
     <message>
+        <source>%1 is hidden: its CRS is not that of the flat map. The globe shows both</source>
+        <translation>%1 ist verborgen: Das KBS ist nicht das der ebenen Karte. Der Globus zeigt beide</translation>
+    </message>
+    <message>
+        <source>Show Globe</source>
+        <translation>Globus zeigen</translation>
+    </message>
+    <message>
         <source>The sample map was closed to show your file</source>
         <translation>Die Beispielkarte wurde geschlossen, um Ihre Datei zu zeigen</translation>
     </message>

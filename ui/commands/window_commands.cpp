@@ -192,6 +192,7 @@ WindowCommands::WindowCommands(const WindowParts& parts, const WindowOptions& op
                .session = parts.session,
                .view = parts.view,
                .haptics = parts.haptics,
+               .globe = *parts.actions.globe,
                .fetched_tiles = options.opener.resources.fetched_tiles},
               noticeCommandsOf(parts))
     , sound({.action = *parts.actions.contact_sound,

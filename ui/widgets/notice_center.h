@@ -22,6 +22,7 @@ enum class NoticeSource {
     VectorFile, // that was just asked for
     Correction, // of how the active layer is read
     Sample,
+    Scene, // layers that the picture leaves out
     Layer,
     Storage,
 };
@@ -42,7 +43,7 @@ public:
     QList<Notice> open() const;
 
 private:
-    static constexpr std::size_t kSourceCount = 9;
+    static constexpr std::size_t kSourceCount = static_cast<std::size_t>(NoticeSource::Storage) + 1;
 
     void dismissAll();
     void runAction(const QString& id, int action);

@@ -11,7 +11,11 @@
 #include "ui/text/sentence.h"
 #include "ui/widgets/notice_center.h"
 
+#include <QAction>
+
+#include <algorithm>
 #include <utility>
+#include <vector>
 
 namespace marsview {
 namespace {
@@ -37,7 +41,9 @@ WindowNotices::WindowNotices(Parts parts, NoticeCommands commands, QObject* pare
     : QObject(parent)
     , parts_(std::move(parts))
     , commands_(std::move(commands))
-{}
+{
+    connect(&parts_.globe, &QAction::toggled, this, &WindowNotices::update);
+}
 
 void WindowNotices::update()
 {
@@ -46,6 +52,7 @@ void WindowNotices::update()
     center.setNotices(NoticeSource::Device, ofDevice());
     center.setNotices(NoticeSource::Picture, active != nullptr ? ofPicture() : QList<Notice>());
     center.setNotices(NoticeSource::Sample, ofSample());
+    center.setNotices(NoticeSource::Scene, ofScene());
     QList<Notice> corrections;
     QList<Notice> of_layer;
     if (active != nullptr) {
@@ -125,6 +132,25 @@ QList<Notice> WindowNotices::ofSample() const
                                          //: On a button: keep the sample map; %1 is a body
                                          : tr("Keep %1").arg(name),
                           [&session] { session.keepSample(); }}}}};
+}
+
+// The flat map shows layers of one CRS only, the globe all of a body.
+QList<Notice> WindowNotices::ofScene() const
+{
+    const Session& session = parts_.session.session();
+    const std::vector<LayerState> states = placement(session);
+    const auto left_out = std::find(states.begin(), states.end(), LayerState::OtherCrs);
+    QAction& globe = parts_.globe;
+    if (left_out == states.end() || globe.isChecked() || !globe.isEnabled()) {
+        return {};
+    }
+    const Layer& layer = session.layers[static_cast<std::size_t>(left_out - states.begin())];
+    return {{.id = idOf(layer.id, QStringLiteral("other CRS")),
+             //: %1 is a layer
+             .text = tr("%1 is hidden: its CRS is not that of the flat map. The globe shows both")
+                         .arg(shortName(layer.name)),
+             //: On a button: show all layers of a body on the globe
+             .actions = {{tr("Show Globe"), [&globe] { globe.trigger(); }}}}};
 }
 
 void WindowNotices::addNotices(const Layer& layer,

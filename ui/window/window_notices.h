@@ -9,6 +9,8 @@
 #include <functional>
 #include <memory>
 
+class QAction;
+
 namespace marsview {
 
 class HapticsController;
@@ -38,6 +40,7 @@ public:
         SessionController& session;
         const TerrainView& view;
         HapticsController& haptics;
+        QAction& globe; // shows the globe, is checked while it does
         /// May be null.
         std::shared_ptr<TileDiskCache> fetched_tiles;
     };
@@ -52,6 +55,7 @@ private:
     QList<Notice> ofReplay() const;
     QList<Notice> ofPicture() const;
     QList<Notice> ofSample() const;
+    QList<Notice> ofScene() const;
     /// Appends those of the layer: `corrections` are what the user should decide first.
     void addNotices(const Layer& layer, QList<Notice>& corrections, QList<Notice>& others) const;
     void addNodata(Notice& notice, double raw, const Layer& layer) const;

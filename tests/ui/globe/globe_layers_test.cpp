@@ -7,10 +7,13 @@
 #include "ui/overlay/map_overlays.h"
 #include "ui/panels/layer_model.h"
 #include "ui/panels/layers_panel.h"
+#include "ui/widgets/notice_bar.h"
 #include "ui/window/status_readout.h"
 
 #include <QImage>
 #include <QMouseEvent>
+#include <QTest>
+#include <QToolButton>
 
 #include <algorithm>
 #include <array>
@@ -56,6 +59,25 @@ TEST_F(GlobeLayersTest, LayersInOtherProjectionsLieTogetherTheUpperOneOnTop)
     EXPECT_EQ(layerAt(0.0, 80.0), 0U);
     EXPECT_EQ(layerAt(90.0, 80.0), 1U);
     EXPECT_EQ(layerAt(-120.0, 10.0), 1U);
+}
+
+// The flat map hides the lower one; a notice offers the globe.
+TEST_F(GlobeLayersTest, ANoticeOffersTheGlobeForLayersOfOtherCrss)
+{
+    ASSERT_TRUE(openNested());
+    const auto& bar = *window_->findChild<NoticeBar*>();
+    auto& button = *bar.findChild<QToolButton*>(QStringLiteral("noticeAction"));
+    const auto offers = [&] {
+        return bar.isVisible() && button.isVisible() &&
+               button.text() == QStringLiteral("Show Globe");
+    };
+    ASSERT_TRUE(waitFor(offers));
+    QTest::mouseClick(&button, Qt::LeftButton);
+    ASSERT_TRUE(waitFor(
+        [this] { return globe().terrain() != nullptr && globe().scene().maps().size() == 2; }));
+    EXPECT_FALSE(offers());
+    scene(1)->trigger();
+    EXPECT_TRUE(waitFor(offers));
 }
 
 TEST_F(GlobeLayersTest, TheElevationReadIsThatOfTheLayerInThePicture)
