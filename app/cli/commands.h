@@ -19,6 +19,7 @@ void addRenderCommand(CLI::App& app, CommandAction& run);
 /// `has_stdin` is true if `--stdin` is among the arguments: the position options then take no
 /// numbers.
 void addSampleCommand(CLI::App& app, CommandAction& run, bool has_stdin);
+void addThumbnailCommand(CLI::App& app, CommandAction& run);
 void addTraceCommand(CLI::App& app, CommandAction& run);
 
 } // namespace marsview

@@ -111,6 +111,7 @@ int run(const std::vector<std::string>& arguments, marsview::ErrorForm form)
     marsview::addLoopCommand(app, action);
     marsview::addPrepareCommand(app, action);
     marsview::addRenderCommand(app, action);
+    marsview::addThumbnailCommand(app, action);
     marsview::addDevicesCommand(app, action);
     CLI::App* bench = app.add_subcommand("bench", "Measure the speed and accuracy of this program");
     bench->require_subcommand(1);

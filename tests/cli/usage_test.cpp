@@ -49,7 +49,7 @@ TEST(Usage, NamesUnknownCommandsAndSuggestsTheNearest)
               "marsview-cli: contcat: unknown command of bench. Did you mean \"contact\"?");
     EXPECT_EQ(refusal({"juggle"}),
               "marsview-cli: juggle: unknown command; known ones are info, sample, measure, trace, "
-              "loop, prepare, render, devices, bench");
+              "loop, prepare, render, thumbnail, devices, bench");
     EXPECT_THAT(refusal({}), StartsWith("marsview-cli: a command is missing; known ones are info"));
     EXPECT_THAT(refusal({"bench"}), StartsWith("marsview-cli: bench: a command is missing; known "
                                                "ones are view"));
