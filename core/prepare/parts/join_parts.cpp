@@ -21,6 +21,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <optional>
+#include <sys/resource.h>
 #include <system_error>
 #include <utility>
 
@@ -33,6 +34,17 @@ using Clock = std::chrono::steady_clock;
 // Of the time of a join whose parts have made the second pass.
 constexpr double kMergeShare = 0.2;
 constexpr double kStreamEnd = 0.8;
+
+// Many systems allow a program 1024 files unless it asks for more.
+void allowOpenFiles(std::size_t count)
+{
+    constexpr std::size_t kOthers = 64;
+    rlimit limit{};
+    if (getrlimit(RLIMIT_NOFILE, &limit) == 0 && limit.rlim_cur < count + kOthers) {
+        limit.rlim_cur = std::min<rlim_t>(count + kOthers, limit.rlim_max);
+        setrlimit(RLIMIT_NOFILE, &limit);
+    }
+}
 
 // The rows of tiles of the new file, with the file that has each: a part, or the one of what parts
 // share.
@@ -483,6 +495,9 @@ Result<JoinReport> joinParts(const OpenRaster& raster, const JoinJob& job, JobMo
         }
         output_lock = std::move(output).value();
     }
+    // All parts are open at a time, with a handle for each page (TiffTiles).
+    allowOpenFiles(job.parts * (overviewCount(map->info.columns, map->info.rows) + 1) *
+                   (map->info.needsVoidMask() ? 2 : 1));
     JoinReport report;
     report.samples = std::uint64_t{map->info.columns} * map->info.rows;
     Join join(*map, job, report, monitor);

@@ -35,7 +35,8 @@ struct JoinReport {
 /// Writes both files, byte for byte those of prepareMapFiles() except the time of the first in the
 /// second, and removes the parts. Makes the second pass of those parts that lack it. NotFound, with
 /// their numbers, if parts are missing. On failure the parts stay, and the next call starts over.
-/// On all cores; not for the GUI thread.
+/// On all cores; not for the GUI thread. Raises the soft limit of open files if there are many
+/// parts.
 Result<JoinReport> joinParts(const OpenRaster& raster, const JoinJob& job, JobMonitor& monitor);
 
 } // namespace marsview

@@ -21,6 +21,7 @@
 #include <fstream>
 #include <limits>
 #include <string>
+#include <sys/resource.h>
 #include <vector>
 
 namespace marsview {
@@ -209,7 +210,14 @@ TEST_F(Parts, ShareTheCoarsestOverviews)
     const std::string source = test::writeVrt(folder_, "tall", recipeOf<std::int16_t>(40, 140'000));
     const Files whole = once(source);
     expectEqual(joined(source, 7), whole, "7 parts");
+    // More files than a program may have open without asking for more.
+    rlimit before{};
+    ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &before), 0);
+    rlimit few = before;
+    few.rlim_cur = 200;
+    ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &few), 0);
     expectEqual(joined(source, 300, Measured::WhileJoining), whole, "300 parts");
+    ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &before), 0);
 }
 
 TEST_F(Parts, MayBeMadeInAnyOrderTwiceAndMeasuredBeforehand)
