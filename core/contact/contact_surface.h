@@ -114,10 +114,9 @@ struct SurfaceLegs {
 ///   hasBeyond(t, i)    whether there is a face beyond the edge opposite corner i of a facet
 ///   beyond(t, i)       that face, if any; its first corner is opposite that edge, so that its
 ///                      second is corner i + 2 of the other
-///   bend(t, i)         how the surface bends there, if it exists. Positive: a valley, free space
-///   fills
-///                      less than half the angle around the edge; 0: flat, to rounding; negative:
-///                      a ridge
+///   bend(t, i, b)      how the surface bends there, where b is beyond(t, i). Positive: a valley,
+///                      free space fills less than half the angle around the edge; 0: flat, to
+///                      rounding; negative: a ridge
 ///   ends(e)            the two vertices of an edge, in its order
 ///   edgeBetween(a, b)  the edge between two vertices of a face
 ///   wings(e)           the one or two faces of an edge
@@ -222,7 +221,7 @@ concept ContactSurface = requires(const S& s,
     }
     noexcept->std::same_as<bool>;
     {
-        s.bend(facet, std::size_t{0})
+        s.bend(facet, std::size_t{0}, facet)
     }
     noexcept->std::same_as<int>;
     {

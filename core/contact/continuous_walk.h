@@ -323,20 +323,21 @@ private:
         constexpr std::size_t kK = (kCorner + 2) % 3;
         const bool is_stuck = isStuck(share);
         const bool has_beyond = surface_.hasBeyond(left(), kCorner);
-        const int bend = has_beyond ? surface_.bend(left(), kCorner) : S::kIsBorderWall ? 1 : -1;
+        if (has_beyond) {
+            remake(right(), [&] { return surface_.beyond(left(), kCorner); });
+        }
+        const int bend = has_beyond         ? surface_.bend(left(), kCorner, right())
+                         : S::kIsBorderWall ? 1
+                                            : -1;
         if (bend > 0 && !is_stuck) {
             at_ = share;
             left_corner_ = kCorner;
             has_right_ = has_beyond;
-            if (has_beyond) {
-                remake(right(), [&] { return surface_.beyond(left(), kCorner); });
-            }
             contact_.feature = ContactFeature::Edge;
             return alongEdge(last, end);
         }
         if (bend == 0 && !is_stuck) {
             at_ = share;
-            remake(right(), [&] { return surface_.beyond(left(), kCorner); });
             left_at_ = 1 - left_at_;
             return false;
         }
@@ -357,8 +358,7 @@ private:
         }
         advanceBeyond(share, edge, end);
         Descent descent(surface_, counters_);
-        is_free_ =
-            descent.descendOver(contact_, surface_.beyond(left(), kCorner), 1.0 - to_k, goal_);
+        is_free_ = descent.descendOver(contact_, right(), 1.0 - to_k, goal_);
         is_known_ = descent.facet().has_value();
         if (is_known_) {
             left() = *descent.facet();

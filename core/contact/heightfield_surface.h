@@ -263,11 +263,11 @@ public:
                        {facet.kinds[opposite], facet.kinds[next], facet.kinds[last]},
                        {heightOf(there), facet.heights[last], facet.heights[next]});
     }
-    int bend(const Facet& facet, std::size_t opposite) const noexcept
+    static int bend(const Facet& facet, std::size_t opposite, const Facet& beyond) noexcept
     {
         const double edge_sum =
             facet.heights[(opposite + 1) % 3] + facet.heights[(opposite + 2) % 3];
-        const double far_sum = facet.heights[opposite] + heightOf(mirrored(facet, opposite));
+        const double far_sum = facet.heights[opposite] + beyond.heights[0];
         const double difference = far_sum - edge_sum;
         constexpr double kTolerance = 4.0 * std::numeric_limits<double>::epsilon();
         if (std::abs(difference) <= kTolerance * (std::abs(edge_sum) + std::abs(far_sum))) {

@@ -235,10 +235,10 @@ public:
         }
         return facetAt(mesh_->across(cornerOf(facet, opposite)));
     }
-    int bend(const Facet& facet, std::size_t opposite) const noexcept
+    static int bend(const Facet& facet, std::size_t opposite, const Facet& beyond) noexcept
     {
         constexpr double kFlat = 16.0 * std::numeric_limits<double>::epsilon();
-        const Vec3 to_far = pointBeyond(facet, opposite) - facet.points[(opposite + 1) % 3];
+        const Vec3 to_far = beyond.points[0] - facet.points[(opposite + 1) % 3];
         const double above = dot(facet.normal, to_far);
         return above * above <= kFlat * kFlat * facet.scale * dot(to_far, to_far) ? 0
                : above > 0.0                                                      ? 1
@@ -376,17 +376,6 @@ private:
     {
         const auto& at = facet.steps.at;
         return Mesh::step(at[opposite], at[(opposite + 1) % 3], at[(opposite + 2) % 3]);
-    }
-    // The far corner of the face beyond an edge, if there is one.
-    ScenePoint pointBeyond(const Facet& facet, std::size_t opposite) const noexcept
-    {
-        if constexpr (MeshOfSamples<Mesh>) {
-            const auto far = stepOver(facet, opposite);
-            if (mesh_->isSample(far)) {
-                return mesh_->pointOf(far);
-            }
-        }
-        return mesh_->vertex(mesh_->vertexAt(mesh_->across(cornerOf(facet, opposite))));
     }
     Facet facetAt(std::uint32_t corner) const noexcept
     {

@@ -527,7 +527,7 @@ TEST(MeshSurface, FacetsKnowTheirNeighbors)
                 EXPECT_EQ(beyond.vertices[2], facet.vertices[(k + 1) % 3]);
                 EXPECT_EQ(surface.beyond(beyond, 0).vertices[0], facet.vertices[k]);
                 const double above = dot(facet.normal, beyond.points[0] - facet.points[k]);
-                EXPECT_EQ(surface.bend(facet, k), above > 0.0 ? 1 : -1);
+                EXPECT_EQ(surface.bend(facet, k, beyond), above > 0.0 ? 1 : -1);
                 const auto both =
                     surface.edgeFacets(surface.edgeBetween(beyond.vertices[1], beyond.vertices[2]));
                 EXPECT_TRUE(both.has_right);
