@@ -92,8 +92,8 @@ OrbitCamera fillingCamera(std::span<const SceneBox> boxes,
                           const Viewport& viewport,
                           Angle field_of_view = Angle::degrees(40));
 
-/// A first view of a map around its body, oblique and filled by the map: on Mars, Tharsis and Valles
-/// Marineris from the southeast, otherwise its middle from the south. Empty for other maps.
+/// A first view of a map around its body, oblique and filled by the map: on Mars, Tharsis and
+/// Valles Marineris from the southeast, otherwise its middle from the south. Empty for other maps.
 std::optional<OrbitCamera> openingCamera(const Georeference& georeference);
 
 /// The intersection of a ray with the level z = `level_m`, at most `distance_max_m` away; the point

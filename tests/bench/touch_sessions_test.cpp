@@ -21,8 +21,8 @@ TEST(TouchSessions, HoldTheirInvariants)
     EXPECT_GT(sum.gliding_ticks, 100U);
 }
 
-// The hand ends against the wall at the map's edge, beyond the last samples, with the nearest terrain
-// 1.5 mm below it.
+// The hand ends against the wall at the map's edge, beyond the last samples, with the nearest
+// terrain 1.5 mm below it.
 TEST(TouchSessions, CountTheNearestTerrainAtTheMapsEdgeAsWithinReach)
 {
     const TouchSessionResult result = runTouchSession({.seed = 30432});
