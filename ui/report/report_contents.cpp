@@ -84,9 +84,17 @@ profileFigure(const MeasureItem& item, const Profile& profile, HeightUnit unit)
     plot.resize(1200, 500);
     plot.setCurves({std::move(curve)});
     plot.showEverything();
-    //: Below a diagram; %1 is a number: elevations are drawn so many times larger than distances
-    return figureOf(plot, reportTr(QT_TRANSLATE_NOOP("Report", "Vertical exaggeration %1"))
-                              .arg(shortNumberText(plot.drawnExaggeration(), 2)));
+    // Drawn first: the axes get the size that they have in the figure.
+    std::optional<ReportFigure> figure = figureOf(plot, {});
+    if (figure) {
+        const double factor = plot.drawnExaggeration();
+        constexpr double kWhole = 10.0;
+        //: Below a diagram; %1 is a number: elevations are drawn so many times larger than
+        //: distances
+        figure->caption = reportTr(QT_TRANSLATE_NOOP("Report", "Vertical exaggeration %1"))
+                              .arg(numberText(factor, factor < kWhole ? 1 : 0));
+    }
+    return figure;
 }
 
 std::optional<ReportFigure> hypsometryFigure(const TerrainArea& area, HeightUnit unit)
@@ -203,8 +211,8 @@ ReportSection layersSection(const ReportSource& source)
             {QString::fromStdString(layer->name), bodyAndCrs(map),
              QStringLiteral("%1 × %2").arg(countText(info.columns), countText(info.rows)),
              QStringLiteral("%1 × %2 m")
-                 .arg(shortNumberText(georeference.pixelWidthMeters(), 4),
-                      shortNumberText(georeference.pixelHeightMeters(), 4)),
+                 .arg(shortNumberText(georeference.pixelWidthMeters(), 6),
+                      shortNumberText(georeference.pixelHeightMeters(), 6)),
              elevations});
     }
     section.table = std::move(table);

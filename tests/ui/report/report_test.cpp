@@ -18,6 +18,7 @@
 #include <QFileDialog>
 #include <QImage>
 #include <QLineEdit>
+#include <QLocale>
 #include <QPushButton>
 #include <QRegularExpression>
 #include <QSignalSpy>
@@ -26,6 +27,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace marsview {
@@ -133,6 +135,20 @@ TEST_F(ReportTest, TheWebPageHoldsEverythingAndNeedsNoOtherFile)
         page.contains(QStringLiteral("%1° ").arg(std::abs(place->latitude.degrees()), 0, 'f', 2)))
         << place->latitude.degrees();
     EXPECT_TRUE(page.contains(QStringLiteral("Position")));
+    // Of a diagram of 1200 × 500 with room for labels: elevations fill its height, distances its
+    // width.
+    const Profile& profile =
+        *window_->measuring()->outcome(window_->measuring()->state().items[0].id).as<Profile>();
+    const auto [lowest, highest] = std::minmax_element(
+        profile.points.begin(), profile.points.end(),
+        [](const ProfilePoint& a, const ProfilePoint& b) { return a.elevation_m < b.elevation_m; });
+    const double across_per_up =
+        profile.points.back().distance_m / (highest->elevation_m - lowest->elevation_m);
+    const QRegularExpression caption(QStringLiteral("Vertical exaggeration ([0-9.,]+)<"));
+    const double stated = QLocale().toDouble(caption.match(page).captured(1));
+    EXPECT_GT(stated, 300.0 / 1200.0 / 1.12 * across_per_up);
+    EXPECT_LT(stated, 500.0 / 1000.0 * across_per_up);
+    EXPECT_EQ(page.count(QLocale().toString(14817.8, 'f', 1)), 2);
     // Nothing is loaded from elsewhere: all addresses are data.
     const QRegularExpression address(QStringLiteral("(?:src|href)=\"([^\"]{0,12})"));
     int images = 0;
