@@ -59,21 +59,21 @@ NoticeBar::NoticeBar(QWidget* parent)
     action_->setObjectName(QStringLiteral("noticeAction"));
     action_->setAccessibleName(tr("Action")); // until a notice names its own
     action_->setPopupMode(QToolButton::InstantPopup);
-    action_->setFocusPolicy(Qt::StrongFocus);
+    action_->setFocusPolicy(Qt::TabFocus);
     details_->setObjectName(QStringLiteral("noticeDetails"));
     details_->setText(tr("Details"));
     details_->setToolTip(tr("Show where the notice comes from"));
     details_->setAutoRaise(true);
-    details_->setFocusPolicy(Qt::StrongFocus);
+    details_->setFocusPolicy(Qt::TabFocus);
     next_->setObjectName(QStringLiteral("noticeNext"));
     next_->setToolTip(tr("Show the next notice"));
     next_->setAutoRaise(true);
-    next_->setFocusPolicy(Qt::StrongFocus);
+    next_->setFocusPolicy(Qt::TabFocus);
     auto* close = new QToolButton(this);
     close->setObjectName(QStringLiteral("noticeClose"));
     close->setIcon(lineIcon(QStringLiteral("close")));
     close->setAutoRaise(true);
-    close->setFocusPolicy(Qt::StrongFocus);
+    close->setFocusPolicy(Qt::TabFocus);
     close->setAccessibleName(tr("Close Notices"));
     close->setToolTip(tr("Close the notices"));
     auto* layout = new QHBoxLayout(this);
