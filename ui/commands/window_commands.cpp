@@ -215,6 +215,25 @@ WindowCommands::WindowCommands(const WindowParts& parts, const WindowOptions& op
 {
     showMessages(parts.messages);
     showNames(parts.overlays);
+    keepUsedSample(parts);
+}
+
+// The sample that the program starts with makes way for the user's maps, but not once it carries
+// the user's work.
+void WindowCommands::keepUsedSample(const WindowParts& parts)
+{
+    SessionController* const session = &parts.session;
+    const auto keep_with_items = [session](const auto& drawing) {
+        QObject::connect(&drawing, &DrawingBase::changed, session, [session, &drawing] {
+            if (!drawing.state().items.empty()) {
+                session->adoptSample();
+            }
+        });
+    };
+    keep_with_items(parts.measuring);
+    keep_with_items(parts.annotating);
+    QObject::connect(&project, &ProjectController::saved, session,
+                     [session] { session->adoptSample(); });
 }
 
 void WindowCommands::showMessages(WindowMessages& messages)

@@ -100,6 +100,7 @@ public:
 private:
     void showMessages(WindowMessages& messages);
     void showNames(MapOverlays& overlays);
+    void keepUsedSample(const WindowParts& parts);
 };
 
 } // namespace marsview

@@ -190,6 +190,7 @@ void SessionController::openProject(const Project& project)
     loader_->cancel();
     are_previews_left_alone_ = false;
     replaced_sample_.reset();
+    is_sample_adopted_ = false;
     to_reveal_ = LayerId::None;
     project_active_ = LayerId::None;
     undo_stack_.clear();
@@ -389,12 +390,16 @@ void SessionController::accept(const std::shared_ptr<const Map>& map)
         if (const Body* body = map->info().body; is_sample && body != nullptr) {
             top.name = body->name; // the user did not choose that file
         }
-        const Session after = added(session_, std::move(top));
+        Session before = session_;
+        for (Layer& layer : before.layers) {
+            layer.is_sample = layer.is_sample && !is_sample_adopted_;
+        }
+        const Session after = added(before, std::move(top));
         to_reveal_ = after.active;
         if (load.as_declared && load.as_declared != map) {
             assumed_nodata_.push_back({.layer = after.active, .raw = *load.spec.overrides.nodata});
         }
-        for (const Layer& layer : session_.layers) {
+        for (const Layer& layer : before.layers) {
             if (layer.is_sample && !is_sample) {
                 replaced_sample_ = layer;
             }

@@ -87,6 +87,8 @@ public:
     void locate(LayerId id, const QString& file);
     /// Removes a missing layer from the session.
     void removeMissing(LayerId id);
+    /// The user works with the sample: it stays when other maps are opened, as a layer like them.
+    void adoptSample() { is_sample_adopted_ = true; }
     /// The sample that the first opened map replaced, as long as it is not back in the session;
     /// null otherwise.
     const Layer* replacedSample() const;
@@ -252,6 +254,7 @@ private:
     int ending_count_ = 0;
     LayerId to_reveal_ = LayerId::None;
     std::optional<Layer> replaced_sample_;
+    bool is_sample_adopted_ = false;
     struct AssumedNodata {
         LayerId layer;
         double raw;

@@ -2,8 +2,11 @@
 
 #include "tests/support/run_program.h"
 #include "tests/ui/map_window.h"
+#include "ui/commands/window_commands.h"
 #include "ui/controllers/contact_sounds.h"
+#include "ui/controllers/measure_controller.h"
 #include "ui/panels/georeferencing_panel.h"
+#include "ui/project/project_controller.h"
 #include "ui/widgets/notice_bar.h"
 #include "ui/widgets/notice_center.h"
 #include "ui/window/window_actions.h"
@@ -204,6 +207,33 @@ TEST_F(NoticesTest, TheReplacedSampleCanBeKept)
     EXPECT_EQ(window_->session().layers.at(0).id, sample);
     EXPECT_TRUE(window_->session().layers.at(0).is_sample);
     EXPECT_FALSE(shown().contains(QStringLiteral("sample")));
+}
+
+// Closing it would take the results along.
+TEST_F(NoticesTest, ASampleThatWasMeasuredStays)
+{
+    window_->openSample(maps_.mars("sample"));
+    ASSERT_TRUE(waitUntilSettled(*window_));
+    MeasureController& measuring = *window_->measuring();
+    measuring.begin(MeasurementKind::Distance);
+    measuring.addPointAt({10.0, 10.0});
+    measuring.addPointAt({20.0, 15.0});
+    measuring.finish();
+    const LayerId measured = measuring.state().items.back().layer;
+    ASSERT_TRUE(openAndWait(*window_, maps_.moon()));
+    ASSERT_EQ(window_->session().layers.size(), 2U);
+    EXPECT_EQ(window_->session().layers[1].id, measured);
+    EXPECT_FALSE(window_->session().layers[1].is_sample);
+    EXPECT_FALSE(shown().contains(QStringLiteral("sample")));
+}
+
+TEST_F(NoticesTest, ASampleInASavedProjectStays)
+{
+    window_->openSample(maps_.mars("sample"));
+    ASSERT_TRUE(waitUntilSettled(*window_));
+    ASSERT_TRUE(window_->commands().project.saveAs(maps_.path(QStringLiteral("kept.mvproj"))));
+    ASSERT_TRUE(openAndWait(*window_, maps_.moon()));
+    EXPECT_EQ(window_->session().layers.size(), 2U);
 }
 
 // A hole of -32767 that the file does not declare: it is a hole from the first picture on, and the
