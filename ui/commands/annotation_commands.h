@@ -4,6 +4,7 @@
 #include "core/annotations/annotation_files.h"
 #include "ui/controllers/detached_jobs.h"
 
+#include <QDir>
 #include <QObject>
 #include <QString>
 
@@ -66,7 +67,7 @@ private:
     void askBody(const QString& file, const Outcome& outcome);
 
     Parts parts_;
-    QString folder_;
+    QString folder_ = QDir::homePath(); // of the file that was saved or read last
     DetachedJobs jobs_;
 };
 

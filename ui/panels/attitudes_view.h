@@ -1,6 +1,7 @@
 // The attitudes of a session together: stereonet or rose diagram, statistics, and saving.
 #pragma once
 
+#include <QDir>
 #include <QString>
 #include <QWidget>
 
@@ -34,7 +35,7 @@ private:
     MeasureController& controller_;
     StereonetPlot* plot_ = nullptr;
     QLabel* statistics_ = nullptr;
-    QString folder_;
+    QString folder_ = QDir::homePath(); // of the file that was saved or read last
 };
 
 } // namespace marsview

@@ -3,6 +3,7 @@
 
 #include "ui/controllers/haptics/haptics_controller.h"
 
+#include <QDir>
 #include <QWidget>
 
 class QAction;
@@ -91,7 +92,7 @@ private:
     QPushButton* rest_ = nullptr; // shown for an arm that does not know where it is
     QLabel* recording_ = nullptr;
 
-    QString folder_;
+    QString folder_ = QDir::homePath(); // of the file that was saved or read last
     bool is_filling_ = false;
 };
 

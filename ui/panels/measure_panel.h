@@ -3,6 +3,7 @@
 
 #include "ui/text/measure_text.h"
 
+#include <QDir>
 #include <QWidget>
 
 #include <vector>
@@ -86,7 +87,7 @@ private:
     QLabel* stretch_note_ = nullptr;
     QWidget* hypsometry_side_ = nullptr;
     HypsometryPlot* hypsometry_ = nullptr;
-    QString folder_;
+    QString folder_ = QDir::homePath(); // of the file that was saved or read last
 };
 
 } // namespace marsview

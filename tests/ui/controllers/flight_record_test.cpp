@@ -6,6 +6,7 @@
 #include "ui/widgets/notice_bar.h"
 #include "ui/window/window_actions.h"
 
+#include <QDir>
 #include <QFile>
 #include <QFileDialog>
 #include <QLabel>
@@ -99,6 +100,7 @@ TEST_F(FlightRecordTest, CoversTheTimeBeforeItIsSaved)
     // A busy machine takes a while to open the dialog.
     const std::uint64_t asked = device().loop()->state().tick;
     ASSERT_NE(dialog(), nullptr);
+    EXPECT_EQ(dialog()->directory(), QDir::home()); // not a folder of maps
     // The loop keeps running while a file name is chosen.
     ASSERT_TRUE(waitFor([&] { return device().loop()->state().tick > asked + 300; }));
     const auto rows = saved(QStringLiteral("flight.csv"));
