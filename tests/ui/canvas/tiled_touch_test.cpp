@@ -106,11 +106,16 @@ protected:
     std::unique_ptr<TerrainView> tiled_;
 };
 
-// From a cold start: the first contact is with coarser terrain.
+// From a cold start: the first contact is with coarser terrain, and its proxy may rest in another
+// hollow than one that began on the finer terrain. The next press begins on that.
 TEST_F(TiledTouchTest, PressesAsOnTheMapInMemoryOnceTilesAreLoaded)
 {
+    constexpr int kLoadedMs = 3000;
     for (const QPointF at : {QPointF{150, 120}, QPointF{260, 210}, QPointF{380, 300}}) {
         large_.forgetTiles();
+        press(at);
+        (void)QTest::qWaitFor([this] { return apartM() < kTogetherM; }, kLoadedMs);
+        release(at);
         press(at);
         EXPECT_TRUE(comeTogether()) << apartM();
         EXPECT_NEAR(length(tiled_->stylus()->force_n), length(held_->stylus()->force_n), 1e-5);
