@@ -86,7 +86,7 @@ public:
         run(2000, {});
     }
 
-    // "ratcheting up": the hand grabs, lifts, lets go, returns and grabs again.
+    // "ratcheting up": the hand grabs, lifts, releases, returns and grabs again.
     void ratchets()
     {
         for (int stroke = 0; stroke < 4; ++stroke) {
@@ -187,12 +187,12 @@ std::string_view touchGestureName(TouchGesture gesture) noexcept
 std::string_view touchGestureTitle(TouchGesture gesture) noexcept
 {
     constexpr std::array<std::string_view, kTouchGestures.size()> kTitles{
-        "Pan: press, grab, pull, let go of the moving map",
-        "Fling: let go of a fast map, which ends at its limit",
-        "Zoom in: grab space, lift, let go",
-        "Zoom out: grab space, lower, let go",
+        "Pan: press, grab, pull, release the moving map",
+        "Fling: release a fast map, which stops at its limit",
+        "Zoom in: grab space, lift, release",
+        "Zoom out: grab space, lower, release",
         "Ratchets: grab space and lift, four times, then press",
-        "Twist: grab space, turn the stylus by 90°, let go, press"};
+        "Twist: grab space, turn the stylus by 90°, release, press"};
     return kTitles[static_cast<std::size_t>(gesture)];
 }
 
