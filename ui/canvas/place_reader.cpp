@@ -162,7 +162,6 @@ void PlaceReader::readSamples()
     // It was loaded before or just now, or cannot be read.
     if (heightfield.isExact(ground->grid)) {
         parts_.touch.follow();
-        parts_.touch.pressAgainIfStill();
         report();
     }
 }

@@ -1,6 +1,7 @@
 #include "ui/canvas/touch_tool.h"
 
 #include <chrono>
+#include <utility>
 
 namespace marsview {
 namespace {
@@ -30,9 +31,21 @@ void TouchTool::updateGround()
     stylus_.setGround(scene_.ground(), scene_.style.exaggeration);
 }
 
+// Tiles that arrive after this was read may change what a ray hits.
+std::uint64_t TouchTool::arrivals() const
+{
+    std::uint64_t count = 0;
+    for (const ShownLayer& layer : scene_.layers()) {
+        const Heightfield& heightfield = layer.map->heightfield();
+        count += heightfield.isTiled() ? heightfield.tiles()->raster().generation() : 0;
+    }
+    return count;
+}
+
 void TouchTool::follow()
 {
     const bool was_shown = shown().has_value();
+    const bool has_arrived = std::exchange(aimed_arrivals_, arrivals()) != aimed_arrivals_;
     const auto ground = pointer_ && !scene_.isEmpty() ? projection_.groundUnder(*pointer_)
                                                       : std::optional<GroundPoint>();
     if (ground) {
@@ -41,6 +54,9 @@ void TouchTool::follow()
         stylus_.aim(*ground, buttons_, projection_.metersPerPoint(at));
         if (!was_panning && stylus_.pose()->mode == StylusMode::Pan) {
             grabbed_z_m_ = at.z; // the grabbed point stays under the pointer
+        }
+        if (has_arrived && !has_hand_moved_) {
+            stylus_.pressAnew();
         }
     } else if (!buttons_.is_pressing && !buttons_.is_grabbing) {
         stylus_.lift();
@@ -87,19 +103,12 @@ void TouchTool::refresh()
 {
     if (!stylus_.isWaiting()) {
         refresh_timer_.stop();
+    } else if (arrivals() != aimed_arrivals_) {
+        follow();
     } else if (stylus_.refresh()) {
         if (!has_hand_moved_) {
             stylus_.pressAnew();
         }
-        Q_EMIT redrawNeeded();
-        Q_EMIT moved();
-    }
-}
-
-void TouchTool::pressAgainIfStill()
-{
-    if (!has_hand_moved_) {
-        stylus_.pressAnew();
         Q_EMIT redrawNeeded();
         Q_EMIT moved();
     }

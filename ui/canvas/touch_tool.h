@@ -9,6 +9,7 @@
 #include <QPointF>
 #include <QTimer>
 
+#include <cstdint>
 #include <optional>
 
 namespace marsview {
@@ -31,7 +32,9 @@ public:
     /// Where the pointer is over the map, and not over an overlay.
     void setPointer(std::optional<QPointF> position) { pointer_ = position; }
     const std::optional<QPointF>& pointer() const noexcept { return pointer_; }
-    /// The pointer, a button, the camera or the terrain changed: moves the stylus.
+    /// The pointer, a button, the camera or the terrain changed: moves the stylus. Where finer
+    /// terrain has arrived since the last call, a hand that has not moved since it began to press
+    /// presses again.
     void follow();
 
     void setPressing(bool is_pressing);
@@ -45,9 +48,6 @@ public:
     void deepen(double factor);
     /// The hand moved over the terrain.
     void noteMotion() { has_hand_moved_ = true; }
-    /// Finer terrain arrived below the pointer: presses again if the hand has not moved since it
-    /// began to.
-    void pressAgainIfStill();
 
     /// Of the mouse; empty while lifted.
     const std::optional<StylusPose>& pose() const noexcept { return stylus_.pose(); }
@@ -71,6 +71,7 @@ Q_SIGNALS:
 
 private:
     void refresh();
+    std::uint64_t arrivals() const;
 
     const ShownScene& scene_;
     const ViewProjection& projection_;
@@ -80,6 +81,7 @@ private:
     std::optional<QPointF> pointer_;
     QTimer refresh_timer_; // runs while finer terrain may arrive below the stylus
     double grabbed_z_m_ = 0.0;
+    std::uint64_t aimed_arrivals_ = 0; // when the stylus was last aimed
     bool is_chosen_ = false;
     bool is_device_grabbing_ = false;
     bool is_over_terrain_ = false;

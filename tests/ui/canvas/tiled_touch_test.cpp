@@ -8,9 +8,11 @@
 #include "ui/canvas/terrain_view.h"
 
 #include <QApplication>
+#include <QDeadlineTimer>
 #include <QMouseEvent>
 #include <QSignalSpy>
 #include <QTest>
+#include <QThread>
 
 #include <gtest/gtest.h>
 
@@ -106,21 +108,42 @@ protected:
     std::unique_ptr<TerrainView> tiled_;
 };
 
-// From a cold start: the first contact is with coarser terrain, and its proxy may rest in another
-// hollow than one that began on the finer terrain. The next press begins on that.
+// From a cold start: the first contact is with coarser terrain.
 TEST_F(TiledTouchTest, PressesAsOnTheMapInMemoryOnceTilesAreLoaded)
 {
-    constexpr int kLoadedMs = 3000;
     for (const QPointF at : {QPointF{150, 120}, QPointF{260, 210}, QPointF{380, 300}}) {
         large_.forgetTiles();
-        press(at);
-        (void)QTest::qWaitFor([this] { return apartM() < kTogetherM; }, kLoadedMs);
-        release(at);
         press(at);
         EXPECT_TRUE(comeTogether()) << apartM();
         EXPECT_NEAR(length(tiled_->stylus()->force_n), length(held_->stylus()->force_n), 1e-5);
         release(at);
     }
+}
+
+// The tile below the pointer arrives after the stylus was aimed and before the press has been
+// dealt with.
+TEST_F(TiledTouchTest, AimsAgainWhenTilesArriveDuringThePress)
+{
+    const QPointF at{150.0, 120.0};
+    const auto truth = held_->surfaceAt(at);
+    ASSERT_TRUE(truth);
+    const Heightfield& tiles = tiled_->map()->heightfield();
+    large_.holdTiles(true);
+    large_.forgetTiles();
+    ASSERT_FALSE(tiles.isExact(truth->grid));
+    const auto waitForTile = [&] {
+        large_.holdTiles(false);
+        const QDeadlineTimer deadline(kTimeout);
+        while (!tiles.isExact(truth->grid) && !deadline.hasExpired()) {
+            QThread::msleep(1);
+        }
+    };
+    QObject::connect(tiled_.get(), &TerrainView::stylusMoved, tiled_.get(), waitForTile,
+                     Qt::SingleShotConnection);
+    press(at);
+    ASSERT_TRUE(tiles.isExact(truth->grid));
+    EXPECT_TRUE(comeTogether()) << apartM();
+    release(at);
 }
 
 TEST_F(TiledTouchTest, DragsAsOnTheMapInMemory)
