@@ -375,10 +375,12 @@ VectorOverlay overlayFrom(Members& members, const ProjectFolders& folders)
 
 // Annotations as projectText() has them: a document of a million takes gigabytes, so that each is
 // made and written alone.
-std::string annotationsText(const std::vector<ProjectAnnotation>& annotations)
+std::string annotationsText(const std::vector<ProjectAnnotation>& annotations, JobMonitor& monitor)
 {
     std::string text = "[";
-    for (const ProjectAnnotation& drawn : annotations) {
+    for (std::size_t i = 0; i < annotations.size() && !monitor.isCanceled(); ++i) {
+        const ProjectAnnotation& drawn = annotations[i];
+        monitor.report(static_cast<double>(i) / static_cast<double>(annotations.size()));
         Json annotation = annotationJson(drawn.annotation);
         if (drawn.layer) {
             annotation["layer"] = *drawn.layer;
@@ -439,6 +441,50 @@ private:
     std::vector<ProjectAnnotation> annotations_;
 };
 
+// A text that is being parsed: reports how much of it has been, and ends early when canceled.
+struct ParsedText {
+    std::string_view text;
+    JobMonitor& monitor;
+    bool is_canceled = false;
+
+    void note(std::size_t position)
+    {
+        constexpr std::size_t kBytes = 1U << 16; // between two reports
+        if (position % kBytes == 0) {
+            monitor.report(static_cast<double>(position) / static_cast<double>(text.size()));
+            is_canceled = monitor.isCanceled();
+        }
+    }
+};
+
+class ParsedLetter {
+public:
+    using iterator_category = std::input_iterator_tag;
+    using value_type = char;
+    using difference_type = std::ptrdiff_t;
+    using pointer = const char*;
+    using reference = const char&;
+
+    ParsedLetter(ParsedText& of, std::size_t position)
+        : of_(&of)
+        , position_(position)
+    {}
+    const char& operator*() const { return of_->text[position_]; }
+    ParsedLetter& operator++()
+    {
+        of_->note(++position_);
+        return *this;
+    }
+    bool operator==(const ParsedLetter& other) const
+    {
+        return position_ == other.position_ || of_->is_canceled;
+    }
+
+private:
+    ParsedText* of_;
+    std::size_t position_;
+};
+
 constexpr std::array kKnownMembers{"format", "version",  "active", "look",         "camera",
                                    "layers", "overlays", "views",  "measurements", "annotations"};
 
@@ -479,7 +525,10 @@ Project projectOf(const Session& session)
     return project;
 }
 
-Result<std::string> projectText(const Project& project, const ProjectFolders& folders)
+namespace {
+
+Result<std::string>
+textOf(const Project& project, const ProjectFolders& folders, JobMonitor& monitor)
 {
     Json json = Json::object();
     json["format"] = kFormat;
@@ -528,7 +577,7 @@ Result<std::string> projectText(const Project& project, const ProjectFolders& fo
         if (!project.annotations.empty()) {
             const std::string empty = "\n  \"annotations\": []"; // texts have no line breaks
             text.replace(text.find(empty) + empty.size() - 2, 2,
-                         annotationsText(project.annotations));
+                         annotationsText(project.annotations, monitor));
         }
         return text;
     } catch (const Json::type_error&) {
@@ -539,11 +588,28 @@ Result<std::string> projectText(const Project& project, const ProjectFolders& fo
     }
 }
 
-Result<Project>
-projectFrom(std::string_view text, const ProjectFolders& folders, const std::string& name)
+} // namespace
+
+Result<std::string> projectText(const Project& project, const ProjectFolders& folders)
+{
+    JobMonitor monitor;
+    return textOf(project, folders, monitor);
+}
+
+namespace {
+
+Result<Project> projectIn(std::string_view text,
+                          const ProjectFolders& folders,
+                          const std::string& name,
+                          JobMonitor& monitor)
 {
     AnnotationTaker taker;
-    const Json json = Json::parse(text, std::ref(taker), false);
+    ParsedText parsed{.text = text, .monitor = monitor};
+    const Json json = Json::parse(ParsedLetter(parsed, 0), ParsedLetter(parsed, text.size()),
+                                  std::ref(taker), false);
+    if (parsed.is_canceled) {
+        return Error{ErrorCode::Canceled, name + ": opening was canceled"};
+    }
     const auto damaged = [&name](const std::string& why) {
         return Error{
             ErrorCode::Damaged,
@@ -618,7 +684,16 @@ projectFrom(std::string_view text, const ProjectFolders& folders, const std::str
     return project;
 }
 
-Result<Project> readProject(const fs::path& path, const fs::path& bundled)
+} // namespace
+
+Result<Project>
+projectFrom(std::string_view text, const ProjectFolders& folders, const std::string& name)
+{
+    JobMonitor monitor;
+    return projectIn(text, folders, name, monitor);
+}
+
+Result<Project> readProject(const fs::path& path, const fs::path& bundled, JobMonitor& monitor)
 {
     const std::string name = path.string();
     std::error_code problem;
@@ -638,16 +713,23 @@ Result<Project> readProject(const fs::path& path, const fs::path& bundled)
         return Error{ErrorCode::Unreadable,
                      fmt::format("{}: cannot be read: {}", name, std::strerror(errno))};
     }
-    return projectFrom(
+    return projectIn(
         text, {.project = fs::absolute(path).lexically_normal().parent_path(), .bundled = bundled},
-        name);
+        name, monitor);
 }
 
-Status writeProject(const Project& project, const fs::path& path, const fs::path& bundled)
+Status writeProject(const Project& project,
+                    const fs::path& path,
+                    const fs::path& bundled,
+                    JobMonitor& monitor)
 {
     const auto text =
-        projectText(project, {.project = fs::absolute(path).lexically_normal().parent_path(),
-                              .bundled = bundled});
+        textOf(project,
+               {.project = fs::absolute(path).lexically_normal().parent_path(), .bundled = bundled},
+               monitor);
+    if (monitor.isCanceled()) {
+        return Error{ErrorCode::Canceled, path.string() + ": saving was canceled"};
+    }
     if (!text) {
         return Error{text.error().code,
                      path.string() + ": cannot be saved: " + text.error().message};

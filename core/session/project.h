@@ -4,6 +4,7 @@
 
 #include "core/annotations/annotation.h"
 #include "core/base/angle.h"
+#include "core/base/job_monitor.h"
 #include "core/base/result.h"
 #include "core/session/measurement.h"
 #include "core/session/session.h"
@@ -118,14 +119,31 @@ Result<std::string> projectText(const Project& project, const ProjectFolders& fo
 Result<Project>
 projectFrom(std::string_view text, const ProjectFolders& folders, const std::string& name);
 
-/// Reads a project file of at most 1 GB. Blocks on the disk.
+/// Reads a project file of at most 1 GB: seconds for a million annotations. Blocks on the disk.
+/// Canceled if the monitor says so.
 Result<Project> readProject(const std::filesystem::path& path,
-                            const std::filesystem::path& bundled);
+                            const std::filesystem::path& bundled,
+                            JobMonitor& monitor);
+inline Result<Project> readProject(const std::filesystem::path& path,
+                                   const std::filesystem::path& bundled)
+{
+    JobMonitor monitor;
+    return readProject(path, bundled, monitor);
+}
 
-/// Replaces the project file as a whole (replaceFile). Blocks on the disk.
+/// Replaces the project file as a whole (replaceFile): seconds for a million annotations. Blocks on
+/// the disk. Canceled if the monitor says so: the file stays as it was.
 Status writeProject(const Project& project,
                     const std::filesystem::path& path,
-                    const std::filesystem::path& bundled);
+                    const std::filesystem::path& bundled,
+                    JobMonitor& monitor);
+inline Status writeProject(const Project& project,
+                           const std::filesystem::path& path,
+                           const std::filesystem::path& bundled)
+{
+    JobMonitor monitor;
+    return writeProject(project, path, bundled, monitor);
+}
 
 /// Whether a path has the extension of project files, in either case.
 bool isProjectPath(const std::string& path);

@@ -2,6 +2,7 @@
 
 #include "tests/support/run_program.h"
 #include "tests/ui/map_window.h"
+#include "tests/ui/project_files.h"
 #include "tests/ui/test_map.h"
 #include "ui/canvas/terrain_view.h"
 #include "ui/commands/picture_saver.h"
@@ -404,7 +405,7 @@ TEST_F(AnnotationTest, AProjectKeepsThemAndTheirStepsAreChanges)
     QStringList written;
     QObject::connect(&project, &ProjectController::written, window_.get(),
                      [&](const QStringList& files) { written = files; });
-    ASSERT_TRUE(project.saveAs(file));
+    ASSERT_TRUE(saveProject(project, file));
     EXPECT_FALSE(project.isModified());
     ASSERT_TRUE(QTest::qWaitFor([&] { return !project.isWriting(); }, kTimeout));
     EXPECT_EQ(written, QStringList({file, maps_.path(QStringLiteral("rims-annotations.gpkg"))}));
@@ -419,7 +420,7 @@ TEST_F(AnnotationTest, AProjectKeepsThemAndTheirStepsAreChanges)
     EXPECT_TRUE(project.isModified());
     project.startNew();
     EXPECT_TRUE(annotating().state().items.empty());
-    ASSERT_TRUE(project.open(file));
+    ASSERT_TRUE(openProject(project, file));
     EXPECT_EQ(annotating().annotations(), drawn);
     ASSERT_TRUE(QTest::qWaitFor([this] { return !window_->session().layers.empty(); }, kTimeout));
 }

@@ -7,6 +7,7 @@
 #include "tests/support/shared_data.h"
 #include "tests/support/temp_folder.h"
 #include "tests/ui/map_window.h"
+#include "tests/ui/project_files.h"
 #include "ui/commands/vector_tools.h"
 #include "ui/commands/window_commands.h"
 #include "ui/controllers/annotation_controller.h"
@@ -18,6 +19,7 @@
 #include <QFile>
 #include <QFileInfo>
 #include <QSignalSpy>
+#include <QTimer>
 
 #include <gtest/gtest.h>
 
@@ -29,6 +31,33 @@
 
 namespace marsview {
 namespace {
+
+// The longest time since its construction in which the event loop did not run.
+class PauseMeter {
+public:
+    PauseMeter()
+    {
+        since_.start();
+        QObject::connect(&timer_, &QTimer::timeout, [this] { note(); });
+        timer_.start(1);
+    }
+    double longestMs()
+    {
+        note();
+        return longest_ms_;
+    }
+
+private:
+    void note()
+    {
+        longest_ms_ = std::fmax(longest_ms_, static_cast<double>(since_.nsecsElapsed()) * 1e-6);
+        since_.start();
+    }
+
+    QElapsedTimer since_;
+    QTimer timer_;
+    double longest_ms_ = 0.0;
+};
 
 class FeatureFramesTest : public MapWindowTest {
 protected:
@@ -220,14 +249,19 @@ TEST_F(FeatureFramesTest, EditsWhileCopiesAreWritten)
     std::printf("%d annotations, one edited: %.0f ms at most, a copy %.0f ms at most\n", count(),
                 edit_ms, copy_ms);
     timer.start();
-    ASSERT_TRUE(project.saveAs(QString::fromStdString(folder.file("a.mvproj"))));
-    std::printf("saved in %.2f s, %.0f MB\n", static_cast<double>(timer.elapsed()) * 1e-3,
-                static_cast<double>(fileSize(folder.file("a.mvproj"))) * 1e-6);
+    PauseMeter saving_pauses;
+    ASSERT_TRUE(saveProject(project, QString::fromStdString(folder.file("a.mvproj"))));
+    std::printf("saved in %.2f s, %.0f MB, the window does not react for %.0f ms at most\n",
+                static_cast<double>(timer.elapsed()) * 1e-3,
+                static_cast<double>(fileSize(folder.file("a.mvproj"))) * 1e-6,
+                saving_pauses.longestMs());
     constexpr int kLongMs = 300'000;
     ASSERT_TRUE(QTest::qWaitFor([&] { return !project.isWriting(); }, kLongMs));
     timer.start();
-    ASSERT_TRUE(project.open(QString::fromStdString(folder.file("a.mvproj"))));
-    std::printf("opened in %.2f s\n", static_cast<double>(timer.elapsed()) * 1e-3);
+    PauseMeter opening_pauses;
+    ASSERT_TRUE(openProject(project, QString::fromStdString(folder.file("a.mvproj"))));
+    std::printf("opened in %.2f s, the window does not react for %.0f ms at most\n",
+                static_cast<double>(timer.elapsed()) * 1e-3, opening_pauses.longestMs());
     EXPECT_EQ(annotating.state().items.size(), static_cast<std::size_t>(count()));
     EXPECT_TRUE(waitFor([this] { return !window_->controller().isBusy(); }));
 }

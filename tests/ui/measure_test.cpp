@@ -3,6 +3,7 @@
 #include "core/measure/profile_statistics.h"
 #include "tests/support/run_program.h"
 #include "tests/ui/map_window.h"
+#include "tests/ui/project_files.h"
 #include "tests/ui/test_map.h"
 #include "ui/canvas/terrain_view.h"
 #include "ui/commands/picture_saver.h"
@@ -620,7 +621,7 @@ TEST_F(MeasureTest, AProjectKeepsTheMeasurements)
     const double dip_deg = measuring().outcome(measuring().current()->id).as<Attitude>()->dip_deg;
     ASSERT_TRUE(window_->isWindowModified());
     const QString file = maps_.path(QStringLiteral("measured.mvproj"));
-    ASSERT_TRUE(window_->commands().project.saveAs(file));
+    ASSERT_TRUE(saveProject(window_->commands().project, file));
     EXPECT_FALSE(window_->isWindowModified());
     ASSERT_TRUE(
         QTest::qWaitFor([&] { return !window_->commands().project.isWriting(); }, kTimeout));

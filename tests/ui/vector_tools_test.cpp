@@ -1,6 +1,7 @@
 // Vector files on the terrain, in a window. The files are made by GDAL's ogr2ogr.
 #include "tests/support/run_program.h"
 #include "tests/ui/map_window.h"
+#include "tests/ui/project_files.h"
 #include "ui/commands/vector_tools.h"
 #include "ui/commands/window_commands.h"
 #include "ui/controllers/file_work.h"
@@ -126,7 +127,7 @@ TEST_F(VectorToolsTest, OpeningHidingAndClosingAreStepsOfUndoAndPartOfTheProject
     window_->undoStack().undo();
 
     const QString project = maps_.path(QStringLiteral("with.mvproj"));
-    ASSERT_TRUE(window_->commands().project.saveAs(project));
+    ASSERT_TRUE(saveProject(window_->commands().project, project));
     makeWindow(kSmall);
     window_->open(project);
     ASSERT_TRUE(waitFor(
@@ -218,7 +219,7 @@ TEST_F(VectorToolsTest, AFileOfPlainLongitudesAndLatitudesCanBeReadOnTheMapsBody
     EXPECT_EQ(failures.count(), 0);
 
     const QString project = maps_.path(QStringLiteral("plain.mvproj"));
-    ASSERT_TRUE(window_->commands().project.saveAs(project));
+    ASSERT_TRUE(saveProject(window_->commands().project, project));
     makeWindow(kSmall);
     window_->open(project);
     ASSERT_TRUE(waitFor(

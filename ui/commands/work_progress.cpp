@@ -75,6 +75,7 @@ void WorkProgress::followFiles()
         parts_.status.endFileWork();
         showCancel();
     });
+    connect(&parts_.files, &FileWork::idle, this, &WorkProgress::settleIfIdle);
 }
 
 void WorkProgress::followPreparing()
@@ -158,6 +159,7 @@ void WorkProgress::settleIfIdle()
 {
     const SessionController& session = parts_.session;
     if (parts_.view.isReady() && !session.isBusy() && !session.isPreparing() &&
+        !parts_.files.isBusy() &&
         (shownLayers(session.session()).empty() || parts_.view.isPictureComplete())) {
         Q_EMIT settled();
     }

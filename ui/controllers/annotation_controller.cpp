@@ -126,22 +126,6 @@ AnnotationController::annotations(const std::vector<std::uint32_t>& ids) const
     return some;
 }
 
-std::vector<ProjectAnnotation> AnnotationController::saved() const
-{
-    const std::vector<LayerId> order = projectOrder(session());
-    std::vector<ProjectAnnotation> saved;
-    for (const AnnotationItem& item : state().items) {
-        if (item.isComplete()) {
-            const auto layer = std::find(order.begin(), order.end(), item.layer);
-            saved.push_back({.annotation = annotationOf(item),
-                             .layer = layer != order.end() ? std::optional(static_cast<std::size_t>(
-                                                                 layer - order.begin()))
-                                                           : std::nullopt});
-        }
-    }
-    return saved;
-}
-
 void AnnotationController::open(const std::vector<ProjectAnnotation>& saved,
                                 const std::vector<LayerId>& layers)
 {

@@ -48,8 +48,6 @@ public:
     std::vector<Annotation> annotations() const;
     /// The same of single items.
     std::vector<Annotation> annotations(const std::vector<std::uint32_t>& ids) const;
-    /// What a project keeps of them.
-    std::vector<ProjectAnnotation> saved() const;
     /// Replaces everything by the annotations of a project, whose layers are those of `layers`. Not
     /// a step of undo.
     void open(const std::vector<ProjectAnnotation>& saved, const std::vector<LayerId>& layers);

@@ -43,6 +43,7 @@ void FileWork::end(const std::shared_ptr<JobMonitor>& monitor)
         if (std::exchange(is_reported_, false)) {
             Q_EMIT ended();
         }
+        Q_EMIT idle();
     }
 }
 

@@ -38,8 +38,10 @@ public:
 Q_SIGNALS:
     /// Of the job that began first: `share` of it is done.
     void progressed(const QString& text, const QString& file, double share);
-    /// No job runs.
+    /// No job runs, after progressed() was emitted.
     void ended();
+    /// No job runs.
+    void idle();
 
 private:
     struct Job {

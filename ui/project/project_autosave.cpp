@@ -53,8 +53,8 @@ LoggedAnnotation loggedOf(const AnnotationItem& item)
 
 // Runs on the pool's thread, and owns nothing that it must not release there.
 struct ProjectAutosave::Job {
-    const AutosavedState* before = nullptr;
-    const AutosavedState* after = nullptr;
+    const ProjectState* before = nullptr;
+    const ProjectState* after = nullptr;
     std::optional<AnnotationLog> log;
     fs::path new_log;
     fs::path copy;
@@ -156,10 +156,10 @@ bool ProjectAutosave::begin()
     return true;
 }
 
-void ProjectAutosave::write(AutosavedState state)
+void ProjectAutosave::write(ProjectState state)
 {
     if (begin()) {
-        next_ = std::make_shared<const AutosavedState>(std::move(state));
+        next_ = std::make_shared<const ProjectState>(std::move(state));
         start();
     }
 }

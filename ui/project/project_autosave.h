@@ -4,7 +4,7 @@
 #include "core/annotations/annotation_log.h"
 #include "core/base/file_lock.h"
 #include "core/session/project.h"
-#include "ui/controllers/annotation_controller.h"
+#include "ui/project/project_state.h"
 
 #include <QObject>
 #include <QString>
@@ -18,14 +18,6 @@
 #include <vector>
 
 namespace marsview {
-
-/// What a copy is made of: a value that is cheap to copy, whatever the number of annotations.
-struct AutosavedState {
-    Project project;                      // without its annotations
-    std::vector<LayerId> layers;          // those of the project
-    ItemList<AnnotationItem> annotations; // of these layers
-    std::filesystem::path file;           // of the project; empty if it was never saved
-};
 
 /// A copy that a program left behind which did not end properly.
 struct LeftoverProject {
@@ -53,7 +45,7 @@ public:
     ~ProjectAutosave() override;
 
     /// Replaces the copy. Of states that arrive while one is being written, the last one is next.
-    void write(AutosavedState state);
+    void write(ProjectState state);
     /// Removes the copy: the project was saved, or the user does not want to keep its changes.
     void discard();
     /// Waits until the copy is written.
@@ -80,9 +72,9 @@ private:
     int logs_ = 0;                 // how many there have been
     std::shared_ptr<Job> job_;     // that runs
     // Items are released in this thread: it changes blocks of them in place that nobody shares.
-    std::shared_ptr<const AutosavedState> written_; // that the log has; null: none
-    std::shared_ptr<const AutosavedState> writing_;
-    std::shared_ptr<const AutosavedState> next_;
+    std::shared_ptr<const ProjectState> written_; // that the log has; null: none
+    std::shared_ptr<const ProjectState> writing_;
+    std::shared_ptr<const ProjectState> next_;
     std::optional<AnnotationLog> log_;
     QThreadPool pool_;
 };

@@ -53,7 +53,7 @@ ProjectController::ProjectController(SessionController& session,
     autosave_timer_.setInterval(options.autosave_delay_ms);
     connect(&autosave_timer_, &QTimer::timeout, this, [this] {
         if (isModified()) {
-            autosave_.write(autosaved());
+            autosave_.write(state());
         }
     });
     connect(&session_.undoStack(), &QUndoStack::indexChanged, this, &ProjectController::noteChange);
@@ -67,7 +67,7 @@ ProjectController::ProjectController(SessionController& session,
 
 bool ProjectController::isModified() const
 {
-    return is_recovered_ || (!session_.undoStack().isClean() && !isNothingToKeep());
+    return is_recovered_ || isSaving() || (!session_.undoStack().isClean() && !isNothingToKeep());
 }
 
 // Everything was undone or removed, and there is no file that still has it.
@@ -90,17 +90,15 @@ void ProjectController::noteOpened()
 
 Project ProjectController::project() const
 {
-    Project project = autosaved().project;
-    project.annotations = annotating_.saved();
-    return project;
+    return wholeProject(state());
 }
 
-AutosavedState ProjectController::autosaved() const
+ProjectState ProjectController::state() const
 {
-    AutosavedState state{.project = projectOf(session_.session()),
-                         .layers = projectOrder(session_.session()),
-                         .annotations = annotating_.state().items,
-                         .file = file_.toStdString()};
+    ProjectState state{.project = projectOf(session_.session()),
+                       .layers = projectOrder(session_.session()),
+                       .annotations = annotating_.state().items,
+                       .file = file_.toStdString()};
     state.project.measurements = measuring_.saved();
     state.project.camera = camera_ ? camera_ : projectCamera(view_);
     state.project.others = others_;
@@ -144,69 +142,64 @@ void ProjectController::startNew()
     replace({}, {});
 }
 
-bool ProjectController::open(const QString& file)
+void ProjectController::read(const QString& file,
+                             const std::function<void(const ReadProject&)>& then)
 {
-    const QString path = QFileInfo(file).absoluteFilePath();
-    const auto project = readProject(path.toStdString(), options_.bundled);
-    if (!project) {
-        Q_EMIT failed(QString::fromStdString(project.error().message));
-        return false;
-    }
-    replace(*project, path);
-    Q_EMIT opened(path);
-    return true;
-}
-
-bool ProjectController::save()
-{
-    return saveAs(file_);
-}
-
-bool ProjectController::saveAs(const QString& file)
-{
-    QString path = QFileInfo(file).absoluteFilePath();
-    if (QFileInfo(path).suffix().isEmpty()) {
-        path += QStringLiteral(".mvproj");
-    }
-    const Status status = writeProject(project(), path.toStdString(), options_.bundled);
-    if (!status) {
-        Q_EMIT failed(QString::fromStdString(status.error().message));
-        return false;
-    }
-    file_ = path;
-    is_recovered_ = false;
-    session_.undoStack().setClean();
-    noteChange();
-    Q_EMIT saved(path);
-    writeBeside(path);
-    return true;
-}
-
-ProjectController::~ProjectController()
-{
-    pool_.waitForDone(); // posted results are discarded with this object
-}
-
-// Files for other programs.
-void ProjectController::writeBeside(const QString& path)
-{
-    const QFileInfo project_file(path);
-    const auto file_for = [&project_file](const QString& ending) {
-        return project_file.dir().filePath(project_file.completeBaseName() + ending).toStdString();
-    };
-    auto measurements = measuring_.named();
-    auto annotations = annotating_.annotations();
-    if (measurements.empty() && annotations.empty()) {
-        Q_EMIT written({path});
-        return;
-    }
-    ++writing_;
+    const QFileInfo info(file);
+    const QString path = info.absoluteFilePath();
     //: In the status bar: %1 is a file
-    const auto monitor = work_.begin(*this, tr("Writing %1").arg(project_file.fileName()), path);
-    pool_.start([this, path, monitor, measurements = std::move(measurements),
-                 annotations = std::move(annotations),
-                 measurements_file = file_for(QStringLiteral("-measurements.gpkg")),
-                 annotations_file = file_for(QStringLiteral("-annotations.gpkg"))] {
+    const auto monitor = work_.begin(*this, tr("Reading %1").arg(info.fileName()), path);
+    readings_.push_back(monitor);
+    pool_.start([this, path, monitor, then, bundled = options_.bundled] {
+        auto project = std::make_shared<const Result<Project>>(
+            readProject(path.toStdString(), bundled, *monitor));
+        QMetaObject::invokeMethod(
+            this, [this, path, monitor, then, project] { takeRead(monitor, path, *project, then); },
+            Qt::QueuedConnection);
+    });
+}
+
+void ProjectController::takeRead(const std::shared_ptr<JobMonitor>& monitor,
+                                 const QString& file,
+                                 const Result<Project>& project,
+                                 const std::function<void(const ReadProject&)>& then)
+{
+    std::erase(readings_, monitor);
+    if (project) {
+        then({.file = file, .project = *project});
+    } else if (project.error().code != ErrorCode::Canceled) {
+        Q_EMIT failed(QString::fromStdString(project.error().message));
+    }
+    work_.end(monitor);
+    Q_EMIT idle();
+}
+
+void ProjectController::open(const ReadProject& read)
+{
+    replace(read.project, read.file);
+    Q_EMIT opened(read.file);
+}
+
+void ProjectController::save(const std::function<void()>& then)
+{
+    saveAs(file_, then);
+}
+
+// What the files of one save are made of. Runs on the pool's thread.
+struct ProjectController::Saving {
+    std::shared_ptr<const ProjectState> state;
+    std::vector<NamedMeasurement> measurements;
+    std::filesystem::path path;
+    std::filesystem::path bundled;
+    std::shared_ptr<JobMonitor> monitor;
+
+    std::filesystem::path fileBeside(const char* ending) const
+    {
+        return path.parent_path() / (path.stem().string() + ending);
+    }
+    // Files for other programs.
+    Beside writeBeside(std::vector<Annotation> annotations) const
+    {
         Beside beside;
         const auto write = [&](const std::vector<FeatureCollection>& features,
                                const std::string& file) -> std::optional<Error> {
@@ -220,18 +213,99 @@ void ProjectController::writeBeside(const QString& path)
             beside.files.insert(beside.files.end(), files.begin(), files.end());
             return std::nullopt;
         };
-        beside.measurements = write(measurementFeatures(measurements), measurements_file);
-        beside.annotations =
-            write(annotationFeatures(annotations, FeatureLayers::ByShape), annotations_file);
+        beside.measurements =
+            write(measurementFeatures(measurements), fileBeside("-measurements.gpkg").string());
+        beside.annotations = write(annotationFeatures(annotations, FeatureLayers::ByShape),
+                                   fileBeside("-annotations.gpkg").string());
+        return beside;
+    }
+};
+
+void ProjectController::saveAs(const QString& file, const std::function<void()>& then)
+{
+    QString path = QFileInfo(file).absoluteFilePath();
+    if (QFileInfo(path).suffix().isEmpty()) {
+        path += QStringLiteral(".mvproj");
+    }
+    //: In the status bar: %1 is a file
+    const QString text = tr("Writing %1").arg(QFileInfo(path).fileName());
+    ++saving_;
+    ++writing_;
+    // Later changes are changes since this save. If it fails, there is no saved state.
+    session_.undoStack().setClean();
+    Saving saving{.state = std::make_shared<const ProjectState>(state()),
+                  .measurements = measuring_.named(),
+                  .path = path.toStdString(),
+                  .bundled = options_.bundled,
+                  .monitor = work_.begin(*this, text, path)};
+    pool_.start([this, path, then, saving = std::move(saving)]() mutable {
+        constexpr double kProjectShare = 0.5; // of the time
+        Project project = wholeProject(*saving.state);
+        Status status = Done{};
+        {
+            const JobPart part(*saving.monitor, 0.0, kProjectShare);
+            status = writeProject(project, saving.path, saving.bundled, *saving.monitor);
+        }
+        const bool is_saved = static_cast<bool>(status);
         QMetaObject::invokeMethod(
             this,
-            [this, path, monitor, beside] {
+            [this, path, status, then, state = std::move(saving.state)] {
+                takeSaved(path, status, then);
+            },
+            Qt::QueuedConnection);
+        Beside beside;
+        if (is_saved) {
+            const JobPart part(*saving.monitor, kProjectShare, 1.0);
+            std::vector<Annotation> annotations;
+            annotations.reserve(project.annotations.size());
+            for (ProjectAnnotation& drawn : project.annotations) {
+                annotations.push_back(std::move(drawn.annotation));
+            }
+            project = {};
+            beside = saving.writeBeside(std::move(annotations));
+        }
+        QMetaObject::invokeMethod(
+            this,
+            [this, path, is_saved, beside, monitor = saving.monitor] {
                 --writing_;
                 work_.end(monitor);
-                reportBeside(path, beside);
+                if (is_saved) {
+                    reportBeside(path, beside);
+                }
             },
             Qt::QueuedConnection);
     });
+}
+
+void ProjectController::takeSaved(const QString& path,
+                                  const Status& status,
+                                  const std::function<void()>& then)
+{
+    --saving_;
+    if (status) {
+        file_ = path;
+        is_recovered_ = false;
+    } else {
+        session_.undoStack().resetClean();
+    }
+    noteChange();
+    if (status) {
+        Q_EMIT saved(path);
+        if (then) {
+            then();
+        }
+    } else if (status.error().code != ErrorCode::Canceled) {
+        Q_EMIT failed(QString::fromStdString(status.error().message));
+    }
+    Q_EMIT idle();
+}
+
+ProjectController::~ProjectController()
+{
+    for (const auto& monitor : readings_) {
+        monitor->cancel();
+    }
+    pool_.waitForDone(); // posted results are discarded with this object
 }
 
 void ProjectController::reportBeside(const QString& path, const Beside& beside)
@@ -276,7 +350,7 @@ void ProjectController::autosaveNow()
 {
     autosave_timer_.stop();
     if (isModified()) {
-        autosave_.write(autosaved());
+        autosave_.write(state());
         autosave_.wait();
     }
 }

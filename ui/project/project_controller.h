@@ -10,8 +10,11 @@
 #include <QThreadPool>
 #include <QTimer>
 
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,8 +33,15 @@ struct ProjectOptions {
     int autosave_delay_ms = 5000;            // after a change
 };
 
+/// A project file that was read.
+struct ReadProject {
+    QString file;
+    Project project;
+};
+
 /// Reads and writes the project of the session, the measurements and the annotations. Every change
 /// that can be undone is a change of the project; the camera is saved too, but is not a change.
+/// Files are read and written in the background, one at a time, with progress, and can be canceled.
 /// Lives in the GUI thread; all that it is made of outlives its last call.
 class ProjectController final : public QObject {
     Q_OBJECT
@@ -44,28 +54,33 @@ public:
                       FileWork& work,
                       const ProjectOptions& options,
                       QObject* parent = nullptr);
-    /// Waits for the GeoPackages of the last save().
+    /// Waits for what is being written.
     ~ProjectController() override;
 
     /// The path of the project file; empty if it was never saved.
     const QString& file() const noexcept { return file_; }
-    /// Whether closing would lose something. A session that was never saved and in which maps were
-    /// only opened is not modified.
+    /// Whether closing would lose something, or it is still being saved. A session that was never
+    /// saved and in which maps were only opened is not modified.
     bool isModified() const;
     /// The session, the measurements and the camera as they would be saved.
     Project project() const;
 
     /// Replaces the session by an empty one.
     void startNew();
-    /// Replaces the session by that of the file. Emits failed() and changes nothing if the file
-    /// cannot be read.
-    bool open(const QString& file);
-    /// To file(), which is not empty. Emits failed() if it cannot be written. Measurements and
-    /// annotations are also written next to it as GeoPackages for other programs, in the
-    /// background; these are never read.
-    bool save();
+    /// Reads a project file for open(). Calls `then` with it, or emits failed().
+    void read(const QString& file, const std::function<void(const ReadProject&)>& then);
+    /// Replaces the session by that of the file.
+    void open(const ReadProject& read);
+    /// To file(), which is not empty, as the project is now. Emits saved() and calls `then` once it
+    /// is on the disk, or emits failed(). Measurements and annotations are then also written next
+    /// to it as GeoPackages for other programs; these are never read.
+    void save(const std::function<void()>& then = {});
     /// To another file, which becomes file(). Adds the extension if there is none.
-    bool saveAs(const QString& file);
+    void saveAs(const QString& file, const std::function<void()>& then = {});
+    /// A project file is being written.
+    bool isSaving() const noexcept { return saving_ > 0; }
+    /// A project file is being read.
+    bool isReading() const noexcept { return !readings_.empty(); }
 
     /// The latest copy that a crash left behind; empty if there is none.
     std::optional<LeftoverProject> leftover() const;
@@ -77,7 +92,7 @@ public:
     /// Writes the copy now and waits for it.
     void autosaveNow();
 
-    /// The GeoPackages are being written.
+    /// The project file or the GeoPackages next to it are being written.
     bool isWriting() const noexcept { return writing_ > 0; }
 
 Q_SIGNALS:
@@ -89,9 +104,17 @@ Q_SIGNALS:
     void written(const QStringList& files);
     /// "FILE: WHY"
     void failed(const QString& problem);
+    /// isSaving() or isReading() has ended.
+    void idle();
 
 private:
-    void writeBeside(const QString& path);
+    struct Saving;
+
+    void takeRead(const std::shared_ptr<JobMonitor>& monitor,
+                  const QString& file,
+                  const Result<Project>& project,
+                  const std::function<void(const ReadProject&)>& then);
+    void takeSaved(const QString& path, const Status& status, const std::function<void()>& then);
     // What became of the files next to a project.
     struct Beside {
         std::optional<Error> measurements;
@@ -99,7 +122,7 @@ private:
         std::vector<std::filesystem::path> files; // that are written
     };
     void reportBeside(const QString& path, const Beside& beside);
-    AutosavedState autosaved() const;
+    ProjectState state() const;
     void replace(const Project& project, const QString& file);
     bool isNothingToKeep() const;
     void noteOpened();
@@ -119,7 +142,9 @@ private:
     ProjectAutosave autosave_;
     QTimer autosave_timer_;
     FileWork& work_;
-    int writing_ = 0;
+    std::vector<std::shared_ptr<JobMonitor>> readings_;
+    int saving_ = 0;   // project files
+    int writing_ = 0;  // the files next to them as well
     QThreadPool pool_; // of one thread: a later save overwrites an earlier one
 };
 

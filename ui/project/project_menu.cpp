@@ -66,7 +66,7 @@ ProjectMenu::ProjectMenu(const Parts& parts, QObject* parent)
             [this] { saveThen([this] { parts_.project.startNew(); }); });
     connect(open_, &QAction::triggered, this, &ProjectMenu::chooseProject);
     connect(save_, &QAction::triggered, this,
-            [this] { parts_.project.file().isEmpty() ? saveAs({}) : void(parts_.project.save()); });
+            [this] { parts_.project.file().isEmpty() ? saveAs({}) : parts_.project.save(); });
     connect(save_as_, &QAction::triggered, this, [this] { saveAs({}); });
     connect(recent_, &RecentFiles::chosen, this, [this](const QString& file) { open(file); });
     connect(&parts_.project, &ProjectController::opened, recent_, &RecentFiles::add);
@@ -85,6 +85,12 @@ void ProjectMenu::saveThen(const std::function<void()>& next)
 {
     if (!hasQuestion()) {
         next();
+        return;
+    }
+    if (parts_.project.isSaving()) {
+        connect(
+            &parts_.project, &ProjectController::idle, this, [this, next] { saveThen(next); },
+            Qt::SingleShotConnection);
         return;
     }
     auto* box = new QMessageBox(&parts_.window);
@@ -108,8 +114,8 @@ void ProjectMenu::saveThen(const std::function<void()>& next)
         } else if (answer == QMessageBox::Save) {
             if (parts_.project.file().isEmpty()) {
                 saveAs(next);
-            } else if (parts_.project.save()) {
-                next();
+            } else {
+                parts_.project.save(next);
             }
         }
     });
@@ -144,11 +150,8 @@ void ProjectMenu::saveAs(const std::function<void()>& next)
                            //: The name of a new project's file
                            : tr("project") + QStringLiteral(".mvproj"));
     dialog->setAttribute(Qt::WA_DeleteOnClose);
-    connect(dialog, &QFileDialog::fileSelected, this, [this, next](const QString& file) {
-        if (parts_.project.saveAs(file) && next) {
-            next();
-        }
-    });
+    connect(dialog, &QFileDialog::fileSelected, this,
+            [this, next](const QString& file) { parts_.project.saveAs(file, next); });
     dialog->open();
 }
 
@@ -165,10 +168,11 @@ void ProjectMenu::chooseProject()
 
 void ProjectMenu::open(const QString& project, const QStringList& maps)
 {
-    saveThen([this, project, maps] {
-        if (parts_.project.open(project)) {
+    parts_.project.read(project, [this, maps](const ReadProject& read) {
+        saveThen([this, maps, read] {
+            parts_.project.open(read);
             parts_.session.open(maps);
-        }
+        });
     });
 }
 

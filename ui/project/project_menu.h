@@ -37,11 +37,11 @@ public:
     explicit ProjectMenu(const Parts& parts, QObject* parent = nullptr);
 
     /// Runs `next` once nothing would be lost: at once if there are no changes, or after the user
-    /// has saved or dropped them. Never if the user cancels.
+    /// has saved or dropped them. Never if the user cancels, or saving fails.
     void saveThen(const std::function<void()>& next);
     /// Whether saveThen() would ask.
     bool hasQuestion() const;
-    /// Opens a project, and then maps on top of it.
+    /// Reads a project, opens it once nothing would be lost, and then opens maps on top of it.
     void open(const QString& project, const QStringList& maps = {});
     /// Asks whether to restore what a crash left behind, if anything.
     void offerRecovery();

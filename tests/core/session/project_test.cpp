@@ -667,4 +667,22 @@ TEST(Project, LayersThatArriveInAnyOrderHaveTheOrderOfTheProject)
     EXPECT_EQ(order, "1234");
 }
 
+TEST(Project, CanceledReadingAndWritingChangeNothing)
+{
+    const TempFolder folder;
+    const fs::path file = folder.file("a.mvproj");
+    constexpr std::size_t kMany = 1000; // more than is read between two looks at the monitor
+    Project project;
+    project.annotations.assign(
+        kMany, {.annotation = {.name = std::string(100, 'a'), .vertices = {MapPoint{1.0, 2.0}}}});
+    ASSERT_TRUE(writeProject(project, file, {}));
+    JobMonitor monitor;
+    monitor.cancel();
+    EXPECT_EQ(readProject(file, {}, monitor).error().code, ErrorCode::Canceled);
+    EXPECT_EQ(writeProject({}, file, {}, monitor).error().code, ErrorCode::Canceled);
+    const auto read = readProject(file, {});
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->annotations.size(), kMany);
+}
+
 } // namespace marsview

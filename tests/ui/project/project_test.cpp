@@ -3,6 +3,7 @@
 #include "core/session/project.h"
 #include "tests/support/temp_folder.h"
 #include "tests/ui/map_window.h"
+#include "tests/ui/project_files.h"
 #include "ui/commands/window_commands.h"
 #include "ui/controllers/annotation_controller.h"
 #include "ui/controllers/recent_files.h"
@@ -65,7 +66,7 @@ protected:
     {
         window_->open(file);
         return waitFor([this] {
-            return !window_->controller().isBusy() &&
+            return !window_->commands().project.isReading() && !window_->controller().isBusy() &&
                    (shownLayers(window_->session()).empty() || view().isPictureComplete());
         });
     }
@@ -104,7 +105,7 @@ TEST_F(ProjectWindowTest, OpensWhatWasSavedWithCameraAndLooks)
     camera.distance_m *= 0.5;
     view().setCamera(camera);
     EXPECT_TRUE(window_->isWindowModified());
-    ASSERT_TRUE(window_->commands().project.saveAs(path("a"))); // the extension is added
+    ASSERT_TRUE(saveProject(window_->commands().project, path("a"))); // the extension is added
     EXPECT_FALSE(window_->isWindowModified());
     EXPECT_TRUE(window_->windowTitle().startsWith(QStringLiteral("\u2068a\u2069[*]")) ||
                 window_->windowTitle().startsWith(QStringLiteral("a[*]")))
@@ -134,7 +135,7 @@ TEST_F(ProjectWindowTest, OpensWhatWasSavedWithCameraAndLooks)
 TEST_F(ProjectWindowTest, UndoingToTheSavedStateIsNoChange)
 {
     makeChangedWindow();
-    ASSERT_TRUE(window_->commands().project.saveAs(path("a.mvproj")));
+    ASSERT_TRUE(saveProject(window_->commands().project, path("a.mvproj")));
     window_->controller().setExaggeration(7.0);
     EXPECT_TRUE(window_->isWindowModified());
     window_->undoStack().undo();
@@ -175,11 +176,11 @@ TEST_F(ProjectWindowTest, ClosingWithChangesAsks)
 TEST_F(ProjectWindowTest, ClosingSavesOnRequest)
 {
     makeChangedWindow();
-    ASSERT_TRUE(window_->commands().project.saveAs(path("a.mvproj")));
+    ASSERT_TRUE(saveProject(window_->commands().project, path("a.mvproj")));
     window_->controller().setExaggeration(9.0);
     window_->close();
     answer("unsavedChanges", QMessageBox::Save);
-    EXPECT_FALSE(window_->isVisible());
+    EXPECT_TRUE(waitFor([this] { return !window_->isVisible(); }));
     const auto project = readProject(folder_.file("a.mvproj"), {});
     ASSERT_TRUE(project) << project.error().message;
     EXPECT_EQ(project->layers.front().exaggeration, 9.0);
@@ -194,14 +195,50 @@ TEST_F(ProjectWindowTest, ClosingAnUnsavedSessionAsksForAFile)
     ASSERT_NE(dialog, nullptr);
     dialog->selectFile(path("b.mvproj"));
     Q_EMIT dialog->fileSelected(path("b.mvproj"));
+    EXPECT_TRUE(waitFor([this] { return !window_->isVisible(); }));
     EXPECT_TRUE(QFile::exists(path("b.mvproj")));
-    EXPECT_FALSE(window_->isVisible());
+}
+
+TEST_F(ProjectWindowTest, ClosingWhileSavingWaitsForTheFile)
+{
+    makeChangedWindow();
+    window_->commands().project.saveAs(path("a.mvproj"));
+    window_->close();
+    EXPECT_TRUE(window_->isVisible());
+    EXPECT_TRUE(waitFor([this] { return !window_->isVisible(); })) << "no question";
+    EXPECT_TRUE(readProject(folder_.file("a.mvproj"), {}));
+}
+
+TEST_F(ProjectWindowTest, ChangesMadeWhileSavingAreUnsaved)
+{
+    makeChangedWindow();
+    ProjectController& project = window_->commands().project;
+    project.saveAs(path("a.mvproj"));
+    window_->controller().setExaggeration(9.0);
+    ASSERT_TRUE(waitFor([&] { return !project.isSaving(); }));
+    EXPECT_TRUE(window_->isWindowModified());
+    const auto written = readProject(folder_.file("a.mvproj"), {});
+    ASSERT_TRUE(written) << written.error().message;
+    EXPECT_EQ(written->layers.front().exaggeration, 3.5);
+    window_->undoStack().undo();
+    EXPECT_FALSE(window_->isWindowModified());
+}
+
+TEST_F(ProjectWindowTest, FailedSavingStaysUnsaved)
+{
+    makeChangedWindow();
+    ProjectController& project = window_->commands().project;
+    QSignalSpy failures(&project, &ProjectController::failed);
+    EXPECT_FALSE(saveProject(project, path("no such folder/a.mvproj")));
+    EXPECT_EQ(failures.count(), 1);
+    EXPECT_TRUE(window_->isWindowModified());
+    EXPECT_TRUE(project.file().isEmpty());
 }
 
 TEST_F(ProjectWindowTest, ClosingWithoutChangesDoesNotAsk)
 {
     makeChangedWindow();
-    ASSERT_TRUE(window_->commands().project.saveAs(path("a.mvproj")));
+    ASSERT_TRUE(saveProject(window_->commands().project, path("a.mvproj")));
     window_->close();
     EXPECT_FALSE(window_->isVisible());
 }
@@ -209,7 +246,7 @@ TEST_F(ProjectWindowTest, ClosingWithoutChangesDoesNotAsk)
 TEST_F(ProjectWindowTest, NewProjectIsEmpty)
 {
     makeChangedWindow();
-    ASSERT_TRUE(window_->commands().project.saveAs(path("a.mvproj")));
+    ASSERT_TRUE(saveProject(window_->commands().project, path("a.mvproj")));
     window_->commands().project_menu.newProject()->trigger();
     EXPECT_TRUE(window_->session().layers.empty());
     EXPECT_TRUE(window_->commands().project.file().isEmpty());
@@ -226,7 +263,7 @@ TEST_F(ProjectWindowTest, MissingLayersKeepTheirSettingsAndCanBeLocated)
     ASSERT_TRUE(openAndWait(*window_, path("data/one.asc")));
     ASSERT_TRUE(openAndWait(*window_, path("data/two.asc")));
     window_->controller().setStretch(window_->session().layers[0].id, fixedStretch(1.0, 2.0));
-    ASSERT_TRUE(window_->commands().project.saveAs(path("a.mvproj")));
+    ASSERT_TRUE(saveProject(window_->commands().project, path("a.mvproj")));
     const Project before = saved();
     window_.reset();
     ASSERT_TRUE(QFile::rename(path("data/two.asc"), path("elsewhere.asc")));
@@ -237,7 +274,7 @@ TEST_F(ProjectWindowTest, MissingLayersKeepTheirSettingsAndCanBeLocated)
     EXPECT_EQ(window_->session().layers.size(), 1U);
     EXPECT_FALSE(window_->isWindowModified());
     EXPECT_EQ(saved().layers, before.layers);
-    ASSERT_TRUE(window_->commands().project.save());
+    ASSERT_TRUE(saveProject(window_->commands().project, window_->commands().project.file()));
     const auto again = readProject(folder_.file("a.mvproj"), {});
     ASSERT_TRUE(again);
     EXPECT_EQ(again->layers, before.layers);
@@ -267,22 +304,22 @@ TEST_F(ProjectWindowTest, DamagedProjectChangesNothing)
     QSignalSpy failures(window_.get(), &MainWindow::openFailed);
     folder_.write("bad.mvproj", R"({"format": "MarsView project", "version": 1, "layers": [)");
     window_->open(path("bad.mvproj"));
-    ASSERT_EQ(failures.count(), 1);
+    ASSERT_TRUE(waitFor([&] { return failures.count() == 1; }));
     EXPECT_TRUE(failures[0][0].toString().contains(QStringLiteral("damaged project")));
     EXPECT_EQ(window_->session(), before);
     folder_.write("new.mvproj", R"({"format": "MarsView project", "version": 99})");
     window_->open(path("new.mvproj"));
-    ASSERT_EQ(failures.count(), 2);
+    ASSERT_TRUE(waitFor([&] { return failures.count() == 2; }));
     EXPECT_TRUE(failures[1][0].toString().contains(QStringLiteral("newer version of MarsView")));
 }
 
 TEST_F(ProjectWindowTest, SavingWhileLayersLoadLosesNone)
 {
     makeChangedWindow();
-    ASSERT_TRUE(window_->commands().project.saveAs(path("a.mvproj")));
+    ASSERT_TRUE(saveProject(window_->commands().project, path("a.mvproj")));
     const Project before = saved();
     window_->open(path("a.mvproj"));
-    EXPECT_TRUE(window_->controller().isBusy());
+    ASSERT_TRUE(waitFor([this] { return window_->controller().isBusy(); }));
     EXPECT_EQ(saved().layers, before.layers);
     EXPECT_EQ(saved().camera, before.camera);
     window_->controller().cancel();
@@ -293,7 +330,7 @@ TEST_F(ProjectWindowTest, SavingWhileLayersLoadLosesNone)
 TEST_F(ProjectWindowTest, CrashIsFollowedByTheOfferToRestore)
 {
     makeChangedWindow();
-    ASSERT_TRUE(window_->commands().project.saveAs(path("a.mvproj")));
+    ASSERT_TRUE(saveProject(window_->commands().project, path("a.mvproj")));
     window_->controller().setExaggeration(8.0);
     window_->commands().project.autosaveNow();
     const Project before = saved();
@@ -326,7 +363,7 @@ TEST_F(ProjectWindowTest, CrashIsFollowedByTheOfferToRestore)
     EXPECT_EQ(window_->commands().project.file(), path("a.mvproj"));
     EXPECT_TRUE(window_->isWindowModified());
     EXPECT_FALSE(fs::exists(kept));
-    ASSERT_TRUE(window_->commands().project.save());
+    ASSERT_TRUE(saveProject(window_->commands().project, window_->commands().project.file()));
     EXPECT_FALSE(window_->isWindowModified());
     const auto leftover = window_->commands().project.leftover();
     EXPECT_FALSE(leftover) << leftover->copy;
@@ -344,7 +381,7 @@ TEST_F(ProjectWindowTest, AutosaveFollowsAChangeAndGoesWithItsUndo)
         return count;
     };
     ASSERT_TRUE(waitFor([&] { return copy_count() == 1; }));
-    ASSERT_TRUE(window_->commands().project.saveAs(path("a.mvproj")));
+    ASSERT_TRUE(saveProject(window_->commands().project, path("a.mvproj")));
     EXPECT_EQ(copy_count(), 0);
     window_->controller().setExaggeration(5.0);
     window_->commands().project.autosaveNow();
@@ -432,7 +469,7 @@ TEST_F(ProjectWindowTest, OpeningMapsAloneIsNotAChange)
     EXPECT_TRUE(window_->isWindowModified());
     ASSERT_TRUE(openAndWait(*window_, maps_.moon()));
     EXPECT_TRUE(window_->isWindowModified()) << "the exaggeration would still be lost";
-    ASSERT_TRUE(window_->commands().project.saveAs(path("a.mvproj")));
+    ASSERT_TRUE(saveProject(window_->commands().project, path("a.mvproj")));
     ASSERT_TRUE(openAndWait(*window_, maps_.moon("more")));
     EXPECT_TRUE(window_->isWindowModified()) << "the file does not have the new layer";
 }

@@ -2,6 +2,7 @@
 #include "tests/support/shared_data.h"
 #include "tests/support/temp_folder.h"
 #include "tests/ui/map_window.h"
+#include "tests/ui/project_files.h"
 #include "ui/commands/window_commands.h"
 #include "ui/controllers/annotation_controller.h"
 #include "ui/controllers/measure_controller.h"
@@ -325,7 +326,7 @@ TEST_F(ReportTest, TheTitleIsThatOfTheProjectUntilAnotherIsTyped)
     ASSERT_TRUE(openAndWait(*window_, maps_.mars()));
     window_->annotating()->begin(FeatureShape::Point);
     window_->annotating()->addPointAt({10.0, 10.0});
-    ASSERT_TRUE(window_->commands().project.saveAs(path("Gale crater.mvproj")));
+    ASSERT_TRUE(saveProject(window_->commands().project, path("Gale crater.mvproj")));
     ASSERT_TRUE(waitFor([this] { return !window_->commands().project.isWriting(); }));
     window_->commands().reports.action()->trigger();
     QDialog* dialog = window_->commands().reports.dialog();

@@ -2,6 +2,7 @@
 #include "tests/support/shared_data.h"
 #include "tests/support/temp_folder.h"
 #include "tests/ui/map_window.h"
+#include "tests/ui/project_files.h"
 #include "ui/commands/window_commands.h"
 #include "ui/project/project_controller.h"
 #include "ui/views/saved_views.h"
@@ -315,7 +316,7 @@ TEST_F(SavedViewsTest, AProjectKeepsThem)
     save(QStringLiteral("second"));
     const std::vector<SavedView> before = saved();
     ASSERT_TRUE(
-        window_->commands().project.saveAs(QString::fromStdString(folder.file("a.mvproj"))));
+        saveProject(window_->commands().project, QString::fromStdString(folder.file("a.mvproj"))));
     EXPECT_FALSE(window_->isWindowModified());
     window_->controller().renameView(saved()[0].id, QStringLiteral("x"));
     EXPECT_TRUE(window_->isWindowModified());
@@ -323,9 +324,9 @@ TEST_F(SavedViewsTest, AProjectKeepsThem)
 
     makeWindow(kWithPanels);
     window_->open(QString::fromStdString(folder.file("a.mvproj")));
+    ASSERT_TRUE(waitFor([this] { return names() == listOf({"first", "second"}); }));
     ASSERT_TRUE(
         waitFor([this] { return !window_->controller().isBusy() && view().isPictureComplete(); }));
-    ASSERT_EQ(names(), listOf({"first", "second"}));
     for (std::size_t i = 0; i < 2; ++i) {
         EXPECT_EQ(saved()[i].camera, before[i].camera);
         EXPECT_EQ(saved()[i].exaggeration, before[i].exaggeration);

@@ -2,6 +2,7 @@
 
 #include "tests/support/run_program.h"
 #include "tests/ui/map_window.h"
+#include "tests/ui/project_files.h"
 #include "ui/commands/window_commands.h"
 #include "ui/controllers/contact_sounds.h"
 #include "ui/controllers/measure_controller.h"
@@ -231,7 +232,8 @@ TEST_F(NoticesTest, ASampleInASavedProjectStays)
 {
     window_->openSample(maps_.mars("sample"));
     ASSERT_TRUE(waitUntilSettled(*window_));
-    ASSERT_TRUE(window_->commands().project.saveAs(maps_.path(QStringLiteral("kept.mvproj"))));
+    ASSERT_TRUE(
+        saveProject(window_->commands().project, maps_.path(QStringLiteral("kept.mvproj"))));
     ASSERT_TRUE(openAndWait(*window_, maps_.moon()));
     EXPECT_EQ(window_->session().layers.size(), 2U);
 }
