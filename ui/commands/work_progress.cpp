@@ -69,10 +69,16 @@ void WorkProgress::followFiles()
     connect(&parts_.files, &FileWork::progressed, this,
             [this](const QString& text, const QString& file, double share) {
                 parts_.status.showFileWork(text, file, share);
+                if (parts_.session.session().layers.empty()) { // a project comes
+                    parts_.view.setHint(text);
+                }
                 showCancel();
             });
     connect(&parts_.files, &FileWork::ended, this, [this] {
         parts_.status.endFileWork();
+        if (!parts_.session.isBusy()) {
+            parts_.view.setHint({});
+        }
         showCancel();
     });
     connect(&parts_.files, &FileWork::idle, this, &WorkProgress::settleIfIdle);
