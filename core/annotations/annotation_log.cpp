@@ -86,8 +86,8 @@ Error AnnotationLog::cannotWrite() const
             fmt::format("{}: cannot be written: {}", path_.string(), std::strerror(errno))};
 }
 
-Result<std::vector<LoggedAnnotation>> readAnnotationLog(const std::filesystem::path& path,
-                                                        std::uint64_t bytes)
+Result<std::vector<LoggedAnnotation>>
+readAnnotationLog(const std::filesystem::path& path, std::uint64_t bytes, JobMonitor& monitor)
 {
     const auto damaged = [&path](const std::string& why) {
         return Error{ErrorCode::Damaged, fmt::format("{}: {}", path.string(), why)};
@@ -98,6 +98,10 @@ Result<std::vector<LoggedAnnotation>> readAnnotationLog(const std::filesystem::p
     for (std::string line; at < bytes; at += line.size() + 1) {
         if (!std::getline(file, line) || file.eof()) {
             return damaged("shorter than it was");
+        }
+        monitor.report(static_cast<double>(at) / static_cast<double>(bytes));
+        if (monitor.isCanceled()) {
+            return Error{ErrorCode::Canceled, path.string() + ": reading was canceled"};
         }
         if (at == 0) {
             if (line + "\n" != kFirstLine) {

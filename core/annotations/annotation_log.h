@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/annotations/annotation.h"
+#include "core/base/job_monitor.h"
 #include "core/base/result.h"
 
 #include <cstddef>
@@ -56,9 +57,9 @@ private:
     std::size_t lines_ = 0;
 };
 
-/// What the first `bytes` of a log leave, by ascending id. Damaged where it is shorter, or not a
-/// log up to there.
-Result<std::vector<LoggedAnnotation>> readAnnotationLog(const std::filesystem::path& path,
-                                                        std::uint64_t bytes);
+/// What the first `bytes` of a log leave, by ascending id: seconds for a million. Damaged where it
+/// is shorter, or not a log up to there; Canceled if the monitor says so.
+Result<std::vector<LoggedAnnotation>>
+readAnnotationLog(const std::filesystem::path& path, std::uint64_t bytes, JobMonitor& monitor);
 
 } // namespace marsview

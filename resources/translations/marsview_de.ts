@@ -4657,6 +4657,11 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
         <translation>Das Projekt ist gespeichert, aber nicht das GeoPackage mit seinen Anmerkungen: %1</translation>
     </message>
     <message>
+        <source>Reading the project</source>
+        <extracomment>In the status bar, of a project that was never saved</extracomment>
+        <translation>Das Projekt wird gelesen</translation>
+    </message>
+    <message>
         <source>Reading %1</source>
         <extracomment>In the status bar: %1 is a file</extracomment>
         <translation>%1 wird gelesen</translation>

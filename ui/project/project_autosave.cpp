@@ -158,15 +158,17 @@ bool ProjectAutosave::begin()
 
 void ProjectAutosave::write(ProjectState state)
 {
-    if (begin()) {
-        next_ = std::make_shared<const ProjectState>(std::move(state));
-        start();
-    }
+    next_ = std::make_shared<const ProjectState>(std::move(state));
+    start();
 }
 
 void ProjectAutosave::start()
 {
     if (job_ || !next_) {
+        return;
+    }
+    if (!begin()) {
+        next_.reset();
         return;
     }
     writing_ = std::exchange(next_, nullptr);
@@ -199,6 +201,11 @@ void ProjectAutosave::finish()
     if (!job->is_written) {
         log_.reset(); // what it has is not known
     }
+    if (std::exchange(is_discarding_, false)) {
+        removeCopy();
+    } else if (job->is_written) {
+        Q_EMIT copied();
+    }
     start();
 }
 
@@ -213,7 +220,14 @@ void ProjectAutosave::wait()
 void ProjectAutosave::discard()
 {
     next_.reset();
-    wait();
+    is_discarding_ = job_ != nullptr;
+    if (!is_discarding_) {
+        removeCopy();
+    }
+}
+
+void ProjectAutosave::removeCopy()
+{
     if (copy_.empty()) {
         return;
     }
@@ -296,13 +310,13 @@ void ProjectAutosave::removeLogsWithoutCopy(const std::set<fs::path>& known) con
     }
 }
 
-Result<Project> ProjectAutosave::wholeProject(const LeftoverProject& leftover)
+Result<Project> ProjectAutosave::wholeProject(const LeftoverProject& leftover, JobMonitor& monitor)
 {
     Project project = leftover.project;
     if (leftover.log.empty()) {
         return project;
     }
-    auto logged = readAnnotationLog(leftover.log, leftover.log_bytes);
+    auto logged = readAnnotationLog(leftover.log, leftover.log_bytes, monitor);
     if (!logged) {
         return logged.error();
     }

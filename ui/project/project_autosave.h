@@ -46,21 +46,27 @@ public:
 
     /// Replaces the copy. Of states that arrive while one is being written, the last one is next.
     void write(ProjectState state);
-    /// Removes the copy: the project was saved, or the user does not want to keep its changes.
+    /// Removes the copy, once it is written if it is being written: the project was saved, or the
+    /// user does not want to keep its changes.
     void discard();
     /// Waits until the copy is written.
     void wait();
 
     /// Copies of programs that do not run any more, the latest first. Damaged ones are skipped.
     std::vector<LeftoverProject> leftovers() const;
-    /// With the annotations. Reads their log, which takes seconds for a million.
-    static Result<Project> wholeProject(const LeftoverProject& leftover);
+    /// With the annotations. Reads their log, which takes seconds for a million. Any thread.
+    static Result<Project> wholeProject(const LeftoverProject& leftover, JobMonitor& monitor);
     /// Removes such a copy.
     static void remove(const LeftoverProject& leftover);
+
+Q_SIGNALS:
+    /// A copy was written.
+    void copied();
 
 private:
     struct Job;
 
+    void removeCopy();
     bool begin();
     void start();
     void finish();
@@ -71,6 +77,7 @@ private:
     std::optional<FileLock> lock_; // shows other programs that this one is running
     int logs_ = 0;                 // how many there have been
     std::shared_ptr<Job> job_;     // that runs
+    bool is_discarding_ = false;   // when it has run
     // Items are released in this thread: it changes blocks of them in place that nobody shares.
     std::shared_ptr<const ProjectState> written_; // that the log has; null: none
     std::shared_ptr<const ProjectState> writing_;

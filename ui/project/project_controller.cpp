@@ -145,33 +145,43 @@ void ProjectController::startNew()
 void ProjectController::read(const QString& file,
                              const std::function<void(const ReadProject&)>& then)
 {
-    const QFileInfo info(file);
-    const QString path = info.absoluteFilePath();
-    //: In the status bar: %1 is a file
-    const auto monitor = work_.begin(*this, tr("Reading %1").arg(info.fileName()), path);
-    readings_.push_back(monitor);
-    pool_.start([this, path, monitor, then, bundled = options_.bundled] {
-        auto project = std::make_shared<const Result<Project>>(
-            readProject(path.toStdString(), bundled, *monitor));
-        QMetaObject::invokeMethod(
-            this, [this, path, monitor, then, project] { takeRead(monitor, path, *project, then); },
-            Qt::QueuedConnection);
-    });
+    const QString path = QFileInfo(file).absoluteFilePath();
+    readSoon(
+        path,
+        [path = path.toStdString(), bundled = options_.bundled](JobMonitor& monitor) {
+            return readProject(path, bundled, monitor);
+        },
+        then);
 }
 
-void ProjectController::takeRead(const std::shared_ptr<JobMonitor>& monitor,
-                                 const QString& file,
-                                 const Result<Project>& project,
+// On the pool's thread.
+void ProjectController::readSoon(const QString& file,
+                                 const std::function<Result<Project>(JobMonitor&)>& read,
                                  const std::function<void(const ReadProject&)>& then)
 {
-    std::erase(readings_, monitor);
-    if (project) {
-        then({.file = file, .project = *project});
-    } else if (project.error().code != ErrorCode::Canceled) {
-        Q_EMIT failed(QString::fromStdString(project.error().message));
-    }
-    work_.end(monitor);
-    Q_EMIT idle();
+    const QString text = file.isEmpty()
+                             //: In the status bar, of a project that was never saved
+                             ? tr("Reading the project")
+                             //: In the status bar: %1 is a file
+                             : tr("Reading %1").arg(QFileInfo(file).fileName());
+    const auto monitor = work_.begin(*this, text, file);
+    readings_.push_back(monitor);
+    pool_.start([this, file, monitor, read, then] {
+        const auto project = std::make_shared<const Result<Project>>(read(*monitor));
+        QMetaObject::invokeMethod(
+            this,
+            [this, file, monitor, then, project] {
+                std::erase(readings_, monitor);
+                if (*project) {
+                    then({.file = file, .project = **project});
+                } else if (project->error().code != ErrorCode::Canceled) {
+                    Q_EMIT failed(QString::fromStdString(project->error().message));
+                }
+                work_.end(monitor);
+                Q_EMIT idle();
+            },
+            Qt::QueuedConnection);
+    });
 }
 
 void ProjectController::open(const ReadProject& read)
@@ -333,17 +343,20 @@ std::optional<LeftoverProject> ProjectController::leftover() const
 
 void ProjectController::recover(const LeftoverProject& leftover)
 {
-    const auto project = ProjectAutosave::wholeProject(leftover);
-    if (!project) {
-        Q_EMIT failed(QString::fromStdString(project.error().message));
-        return;
-    }
-    replace(*project, QString::fromStdString(leftover.file.string()));
-    is_recovered_ = true;
-    // The copy is removed only when another one has been written.
-    autosaveNow();
-    ProjectAutosave::remove(leftover);
-    Q_EMIT changed();
+    readSoon(
+        QString::fromStdString(leftover.file.string()),
+        [leftover](JobMonitor& monitor) {
+            return ProjectAutosave::wholeProject(leftover, monitor);
+        },
+        [this, leftover](const ReadProject& read) {
+            replace(read.project, read.file);
+            is_recovered_ = true;
+            connect(
+                &autosave_, &ProjectAutosave::copied, this,
+                [leftover] { ProjectAutosave::remove(leftover); }, Qt::SingleShotConnection);
+            autosave_.write(state());
+            Q_EMIT changed();
+        });
 }
 
 void ProjectController::autosaveNow()

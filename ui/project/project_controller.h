@@ -84,8 +84,8 @@ public:
 
     /// The latest copy that a crash left behind; empty if there is none.
     std::optional<LeftoverProject> leftover() const;
-    /// Replaces the session by such a copy, with unsaved changes. Emits failed() if its annotations
-    /// cannot be read.
+    /// Reads such a copy and replaces the session by it, with unsaved changes. Removes the copy
+    /// once there is another one. Emits failed() if its annotations cannot be read.
     void recover(const LeftoverProject& leftover);
     /// Removes the copy: the project was saved, or its changes are not to be kept.
     void discardAutosave() { autosave_.discard(); }
@@ -110,9 +110,8 @@ Q_SIGNALS:
 private:
     struct Saving;
 
-    void takeRead(const std::shared_ptr<JobMonitor>& monitor,
-                  const QString& file,
-                  const Result<Project>& project,
+    void readSoon(const QString& file,
+                  const std::function<Result<Project>(JobMonitor&)>& read,
                   const std::function<void(const ReadProject&)>& then);
     void takeSaved(const QString& path, const Status& status, const std::function<void()>& then);
     // What became of the files next to a project.

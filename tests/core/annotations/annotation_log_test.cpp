@@ -79,28 +79,34 @@ TEST(AnnotationLog, KeepsEveryStateThatWasCommitted)
         states.emplace_back(*bytes, valuesOf(known));
     }
     EXPECT_EQ(log->lines(), 300U);
+    JobMonitor monitor;
     for (const std::uint64_t cut : {std::uint64_t{0}, std::uint64_t{3}}) {
         fs::resize_file(path, fs::file_size(path) - cut);
         for (std::size_t i = 0; i + (cut > 0 ? 1 : 0) < states.size(); ++i) {
-            const auto found = readAnnotationLog(path, states[i].first);
+            const auto found = readAnnotationLog(path, states[i].first, monitor);
             ASSERT_TRUE(found) << found.error().message;
             EXPECT_EQ(*found, states[i].second);
         }
     }
-    const auto cut = readAnnotationLog(path, states.back().first);
+    const auto cut = readAnnotationLog(path, states.back().first, monitor);
     ASSERT_FALSE(cut);
     EXPECT_EQ(cut.error().code, ErrorCode::Damaged);
     EXPECT_THAT(cut.error().message, HasSubstr("shorter than it was"));
+    monitor.cancel();
+    EXPECT_EQ(readAnnotationLog(path, states.front().first, monitor).error().code,
+              ErrorCode::Canceled);
 }
 
 TEST(AnnotationLog, RefusesOtherFiles)
 {
     const TempFolder folder;
+    JobMonitor monitor;
     const std::string other = folder.write("b.annotations", "MarsView annotations 2\n{\"id\":1}\n");
-    EXPECT_THAT(readAnnotationLog(other, 32).error().message, HasSubstr("not a log"));
+    EXPECT_THAT(readAnnotationLog(other, 32, monitor).error().message, HasSubstr("not a log"));
     const std::string line = folder.write("c.annotations", "MarsView annotations 1\n{\"id\":-1}\n");
-    EXPECT_THAT(readAnnotationLog(line, 33).error().message, HasSubstr("damaged at byte 23"));
-    EXPECT_FALSE(readAnnotationLog(folder.path() / "none", 10));
+    EXPECT_THAT(readAnnotationLog(line, 33, monitor).error().message,
+                HasSubstr("damaged at byte 23"));
+    EXPECT_FALSE(readAnnotationLog(folder.path() / "none", 10, monitor));
     EXPECT_FALSE(AnnotationLog::create(folder.path() / "no/such/folder.annotations"));
 }
 

@@ -362,7 +362,7 @@ TEST_F(ProjectWindowTest, CrashIsFollowedByTheOfferToRestore)
     EXPECT_EQ(saved().layers, before.layers);
     EXPECT_EQ(window_->commands().project.file(), path("a.mvproj"));
     EXPECT_TRUE(window_->isWindowModified());
-    EXPECT_FALSE(fs::exists(kept));
+    EXPECT_TRUE(waitFor([&] { return !fs::exists(kept); })) << "there is another one";
     ASSERT_TRUE(saveProject(window_->commands().project, window_->commands().project.file()));
     EXPECT_FALSE(window_->isWindowModified());
     const auto leftover = window_->commands().project.leftover();
@@ -382,7 +382,7 @@ TEST_F(ProjectWindowTest, AutosaveFollowsAChangeAndGoesWithItsUndo)
     };
     ASSERT_TRUE(waitFor([&] { return copy_count() == 1; }));
     ASSERT_TRUE(saveProject(window_->commands().project, path("a.mvproj")));
-    EXPECT_EQ(copy_count(), 0);
+    EXPECT_TRUE(waitFor([&] { return copy_count() == 0; }));
     window_->controller().setExaggeration(5.0);
     window_->commands().project.autosaveNow();
     EXPECT_EQ(copy_count(), 1);
@@ -438,7 +438,8 @@ TEST_F(ProjectWindowTest, AutosaveAppendsWhatChangedToALog)
     makeWindow(kSmall, asking());
     const auto found = [this]() -> std::optional<Project> {
         const auto leftover = window_->commands().project.leftover();
-        const auto read = leftover ? ProjectAutosave::wholeProject(*leftover)
+        JobMonitor monitor;
+        const auto read = leftover ? ProjectAutosave::wholeProject(*leftover, monitor)
                                    : Result<Project>(Error{ErrorCode::NotFound, ""});
         return read ? std::optional(*read) : std::nullopt;
     };
@@ -447,8 +448,8 @@ TEST_F(ProjectWindowTest, AutosaveAppendsWhatChangedToALog)
     fs::copy_file(older, copy, fs::copy_options::overwrite_existing);
     EXPECT_EQ(found(), before);
     window_->commands().project.recover(*window_->commands().project.leftover());
+    ASSERT_TRUE(waitFor([&] { return !fs::exists(copy); })) << "there is another one";
     EXPECT_EQ(saved().annotations, before.annotations);
-    EXPECT_FALSE(fs::exists(copy));
     EXPECT_FALSE(fs::exists(log));
 }
 
