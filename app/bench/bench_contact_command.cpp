@@ -9,6 +9,7 @@
 #include "app/console/map_options.h"
 #include "app/console/number_checks.h"
 #include "app/console/output_file.h"
+#include "app/console/scene_option.h"
 #include "app/console/text_output.h"
 #include "core/base/parallel.h"
 #include "core/session/open_map.h"
@@ -49,10 +50,12 @@ struct BenchContactOptions {
     std::string sample_type = "float32";
     std::vector<std::string> models;
     std::string goals = "both";
-    bool is_on_body = false;
+    SceneKind scene = SceneKind::Flat;
     ContactBenchOptions bench;
     std::string plot;
     bool is_json = false;
+
+    bool isOnBody() const { return scene == SceneKind::Body; }
 };
 
 // The terrain under the hand.
@@ -214,7 +217,7 @@ void printJson(const BenchContactOptions& options,
                        {"core_count", std::thread::hardware_concurrency()},
                        {"clock_ns", result.clock_ns},
                        {"terrain", terrain},
-                       {"scene", options.is_on_body ? "body" : "flat"},
+                       {"scene", sceneName(options.scene)},
                        {"repeats", options.bench.repeat_count},
                        {"reference_piece_cells", options.bench.piece_cells},
                        {"reference_unfinished", result.unfinished_count},
@@ -294,7 +297,7 @@ void printForPeople(const BenchContactOptions& options,
                     processorName(), std::thread::hardware_concurrency(), result.clock_ns));
     printLine(fmt::format(
         "{}{}: {} triangles, {:.4g} bytes of samples and {:.4g} of hierarchy a triangle",
-        ground.name, options.is_on_body ? ", on its body" : "", ground.triangleCount(),
+        ground.name, options.isOnBody() ? ", on its body" : "", ground.triangleCount(),
         ground.perTriangle(ground.samples().bytes()), ground.perTriangle(ground.hierarchy_bytes)));
     printLine(fmt::format(
         "a cell is {} m; the ideal's motion is cut into {:.4g} cell; best of {} "
@@ -335,7 +338,7 @@ Plot plotOf(const BenchContactOptions& options,
     const auto name =
         ground.map ? std::filesystem::path(ground.name).filename().string() : ground.name;
     plot.note =
-        fmt::format("{}{}; {} triangles; {}", name, options.is_on_body ? ", on its body" : "",
+        fmt::format("{}{}; {} triangles; {}", name, options.isOnBody() ? ", on its body" : "",
                     ground.triangleCount(), processorName());
     plot.x_label = "mean time per update, µs; speeds in cells per update at the ends of each line";
     plot.y_label = "mean distance from the ideal proxy, cells";
@@ -380,7 +383,7 @@ Status runBenchContact(const BenchContactOptions& given)
         std::sort(values->begin(), values->end());
         values->erase(std::unique(values->begin(), values->end()), values->end());
     }
-    if (options.is_on_body && options.map.path.empty()) {
+    if (options.isOnBody() && options.map.path.empty()) {
         return Error{ErrorCode::Invalid, "--scene: the fractal has no body; name a map"};
     }
     Ground ground;
@@ -397,7 +400,7 @@ Status runBenchContact(const BenchContactOptions& given)
     {
         LongJob job("measuring");
         const BenchSurfaceMaker surfaces =
-            options.is_on_body
+            options.isOnBody()
                 ? bodyBenchSurfaces(ground.filled, ground.map->georeference(), job.monitor())
                 : flatBenchSurfaces(ground.filled, ground.frame);
         Result<ContactBenchResult> measured = benchContact(surfaces, options.bench, job.monitor());
@@ -457,13 +460,7 @@ void addBenchContactCommand(CLI::App& bench, CommandAction& run)
         ->type_name("FILE")
         ->transform(fileName());
     options->map.addOverridesTo(*command);
-    command
-        ->add_option_function<std::string>(
-            "--scene",
-            [options](const std::string& scene) { options->is_on_body = scene == "body"; },
-            "flat: the map's CRS laid out in the plane; body: the map lies on its body")
-        ->default_str("flat")
-        ->check(oneOf({"flat", "body"}));
+    addSceneOption(*command, options->scene);
     command->add_option("--size", options->size, "columns and rows of the fractal")
         ->capture_default_str()
         ->check(wholeNumberFrom(16, 65536));

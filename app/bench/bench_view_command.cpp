@@ -5,6 +5,7 @@
 #include "app/console/machine.h"
 #include "app/console/number_checks.h"
 #include "app/console/quantile.h"
+#include "app/console/scene_option.h"
 #include "app/console/text_output.h"
 #include "core/session/sample_map.h"
 
@@ -460,18 +461,9 @@ void addBenchViewCommand(CLI::App& bench, CommandAction& run)
         ->check(exaggerationFactor());
     command->add_flag("--full", options->bench.is_full,
                       "compare with pictures of every sample even of large maps");
-    command
-        ->add_option_function<std::string>(
-            "--scene",
-            [options](const std::string& scene) {
-                options->bench.scene = scene == "body" ? SceneKind::Body : SceneKind::Flat;
-            },
-            "flat: the map is laid out in the plane; body: it lies on its body, where the errors "
-            "of pictures at rest and their colors are left out (null in JSON): only the flat map "
-            "has a reference for them")
-        ->type_name("SCENE")
-        ->default_str("flat")
-        ->check(oneOf({"flat", "body"}));
+    addSceneOption(*command, options->bench.scene,
+                   "; the errors of pictures at rest and their colors are then left out (null in "
+                   "JSON), since only the flat map has a reference for them");
     command->add_flag("--json", options->is_json, "print JSON, with every frame");
     command->callback([options, &run] { run = [options] { return runBenchView(*options); }; });
 }

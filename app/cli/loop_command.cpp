@@ -10,6 +10,7 @@
 #include "app/console/long_job.h"
 #include "app/console/number_checks.h"
 #include "app/console/output_file.h"
+#include "app/console/scene_option.h"
 #include "app/console/text_output.h"
 #include "core/base/nearest_word.h"
 #include "core/files/file_address.h"
@@ -43,7 +44,7 @@ namespace {
 struct LoopOptions {
     MapOptions map;
     std::string device;
-    std::string scene = "flat";
+    SceneKind scene = SceneKind::Flat;
     LoopMapOptions loop;
     std::string model{contactModelName(kContactModelDefault)};
     double seconds = 10.0;
@@ -203,7 +204,7 @@ LoopWatch::Clock::time_point watchedUntil(double seconds)
 
 Status runLoop(const LoopOptions& options)
 {
-    if (options.scene == "body") {
+    if (options.scene == SceneKind::Body) {
         return Error{ErrorCode::Invalid,
                      "--scene: devices touch the flat map only; leave out "
                      "--scene body, or trace goals with trace --scene body"};
@@ -358,12 +359,7 @@ void addLoopCommand(CLI::App& app, CommandAction& run)
     for (const ContactModelKind kind : kContactModelKinds) {
         names.emplace_back(contactModelName(kind));
     }
-    command
-        ->add_option("--scene", options->scene,
-                     "flat: the map's CRS laid out in the plane; devices do not touch maps on "
-                     "their body yet")
-        ->capture_default_str()
-        ->check(oneOf({"flat", "body"}));
+    addSceneOption(*command, options->scene, ", which devices do not touch yet");
     command->add_option("--model", options->model, "contact model")
         ->capture_default_str()
         ->check(oneOf(names));

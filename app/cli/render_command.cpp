@@ -5,6 +5,7 @@
 #include "app/console/output_file.h"
 #include "app/console/picture.h"
 #include "app/console/scene.h"
+#include "app/console/scene_option.h"
 #include "core/files/picture_file.h"
 #include "core/raster/output_check.h"
 
@@ -34,7 +35,7 @@ struct RenderOptions {
     std::string ramp;
     std::vector<double> light_deg{315.0, 45.0};
     bool has_contours = false;
-    bool is_on_body = false;
+    SceneKind scene = SceneKind::Flat;
 };
 
 Status runRender(const RenderOptions& options)
@@ -49,8 +50,7 @@ Status runRender(const RenderOptions& options)
         return viewport.error();
     }
     const ColorRamp* ramp = options.ramp.empty() ? nullptr : colorRampNamed(options.ramp);
-    Result<Scene> scene =
-        openScene(options.map, ramp, {}, options.is_on_body ? SceneKind::Body : SceneKind::Flat);
+    Result<Scene> scene = openScene(options.map, ramp, {}, options.scene);
     if (!scene) {
         return std::move(scene).error();
     }
@@ -143,14 +143,7 @@ void addRenderCommand(CLI::App& app, CommandAction& run)
         ->capture_default_str()
         ->check(finiteNumber());
     command->add_flag("--contours", options->has_contours, "draw contour lines");
-    command
-        ->add_option_function<std::string>(
-            "--scene",
-            [options](const std::string& scene) { options->is_on_body = scene == "body"; },
-            "flat: the map is laid out in the plane; body: it lies on its body")
-        ->type_name("SCENE")
-        ->default_str("flat")
-        ->check(oneOf({"flat", "body"}));
+    addSceneOption(*command, options->scene);
     command->callback([options, &run] { run = [options] { return runRender(*options); }; });
 }
 

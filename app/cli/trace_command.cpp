@@ -7,6 +7,7 @@
 #include "app/console/long_job.h"
 #include "app/console/number_checks.h"
 #include "app/console/output_file.h"
+#include "app/console/scene_option.h"
 #include "app/console/text_output.h"
 #include "core/raster/output_check.h"
 #include "haptics/trace/goal_file.h"
@@ -36,7 +37,7 @@ struct TraceOptions {
     std::optional<std::string> model; // these three: default from the recording, else the program's
     std::optional<double> radius_m;
     std::optional<double> exaggeration;
-    bool is_on_body = false;
+    SceneKind scene = SceneKind::Flat;
     bool has_timing = false;
     std::string summary;
     std::string output;
@@ -216,7 +217,7 @@ nlohmann::ordered_json summaryOf(const TraceOptions& options,
                                  const std::vector<TraceUpdate>& updates)
 {
     nlohmann::ordered_json summary = withSchema({{"file", options.map.path}});
-    summary["scene"] = options.is_on_body ? "body" : "flat";
+    summary["scene"] = sceneName(options.scene);
     summary.update(touchJson(touches.front()));
     if (touches.size() > 1) {
         nlohmann::ordered_json parts = nlohmann::ordered_json::array();
@@ -235,7 +236,7 @@ nlohmann::ordered_json summaryOf(const TraceOptions& options,
 
 Result<TraceSubject> openMesh(const TraceOptions& options, JobMonitor& monitor)
 {
-    if (options.is_on_body) {
+    if (options.scene == SceneKind::Body) {
         return Error{
             ErrorCode::Invalid,
             fmt::format("{}: a mesh has no body; leave out --scene body", options.map.path)};
@@ -259,7 +260,7 @@ openSubject(const TraceOptions& options, const GoalRecording& recording, JobMoni
     if (isMesh(options.map.path)) {
         return openMesh(options, monitor);
     }
-    return options.is_on_body
+    return options.scene == SceneKind::Body
                ? bodySubject(options.map, options.exaggeration.value_or(1.0), monitor)
                : mapSubject(options.map, recording, monitor);
 }
@@ -276,7 +277,8 @@ Status runTrace(const TraceOptions& options)
     if (!text) {
         return text.error();
     }
-    const GoalColumns columns = options.is_on_body ? GoalColumns::Geographic : GoalColumns::Map;
+    const GoalColumns columns =
+        options.scene == SceneKind::Body ? GoalColumns::Geographic : GoalColumns::Map;
     const Result<GoalRecording> recording =
         readGoalRecording(*text, options.goals == "-" ? "--goals" : options.goals, columns);
     if (!recording) {
@@ -366,14 +368,9 @@ void addTraceCommand(CLI::App& app, CommandAction& run)
         ->add_option("--exaggeration", options->exaggeration,
                      "vertical exaggeration; default from the recording, else 1")
         ->check(exaggerationFactor());
-    command
-        ->add_option_function<std::string>(
-            "--scene",
-            [options](const std::string& scene) { options->is_on_body = scene == "body"; },
-            "flat: the map's CRS laid out in the plane; body: the map lies on its body, and goals "
-            "have the header lon,lat,z: degrees east, planetocentric degrees north and meters "
-            "along the normal; default flat")
-        ->check(oneOf({"flat", "body"}));
+    addSceneOption(*command, options->scene,
+                   ", and goals have the header lon,lat,z: degrees east, planetocentric degrees "
+                   "north and meters along the normal");
     command->add_flag("--timing", options->has_timing, "add a column ns, the time of each update");
     command->add_option("--summary", options->summary, "JSON file for totals, means and times")
         ->type_name("FILE")

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/console/map_options.h"
+#include "app/console/scene_option.h"
 #include "core/session/map.h"
 #include "core/view/navigation.h"
 #include "ui/render/egl_context.h"
@@ -41,12 +42,6 @@ struct Scene {
     /// The camera moved within the limits of navigation and above the terrain.
     OrbitCamera
     bounded(const OrbitCamera& camera, double with_exaggeration, Ground which = Ground::Now) const;
-};
-
-/// Where maps lie.
-enum class SceneKind {
-    Flat,
-    Body,
 };
 
 /// A renderer without a map; `notify` is TerrainRenderer's. Call it first, since it fails early.
