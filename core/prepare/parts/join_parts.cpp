@@ -124,10 +124,13 @@ private:
         return Done{};
     }
 
+    // `error` may name a file of the part itself.
     Error ofPart(std::size_t part, const char* ending, const Error& error) const
     {
-        return {error.code, fmt::format("{}: {}; prepare part {} again", map_.file(part, ending),
-                                        error.message, part)};
+        const std::string where = error.message.starts_with(map_.file(part, ""))
+                                      ? std::string()
+                                      : map_.file(part, ending) + ": ";
+        return {error.code, fmt::format("{}{}; prepare part {} again", where, error.message, part)};
     }
 
     Status mergeSurveysAndTiles()
@@ -220,8 +223,9 @@ private:
         for (std::size_t part = 1; part <= map_.parts; ++part) {
             Result<CheckpointReader> state = openPartState(map_, part, kPartErrors);
             const Result<FileBytes> fills = FileBytes::open(map_.file(part, kPartFills));
-            std::uint64_t bytes = 0;
-            const bool is_there = state && fills && state->get(bytes) && bytes == fills->size();
+            FileMark mark;
+            const bool is_there = state && fills && mark.restore(*state) &&
+                                  mark == FileMark::of(map_.file(part, kPartFills));
             Status done = is_there ? mergeErrors(*state, *errors_, source_->layout(),
                                                  map_.rowsOf(part), *fills)
                                    : measure(part);
@@ -238,7 +242,7 @@ private:
         const std::string path = map_.file(part, kPartRaster);
         const auto tiles = openPartTiles(map_, path);
         if (!tiles) {
-            return tiles.error();
+            return ofPart(part, kPartRaster, tiles.error());
         }
         const PartRows rows = map_.rowsOf(part);
         TileReaders readers(**tiles, levelThreads(source_->layout()));
@@ -247,7 +251,8 @@ private:
         };
         const auto done =
             readers.eachRow({.first = rows.first, .end = rows.end}, measure_row, monitor_);
-        if (!done && done.error().code == ErrorCode::Invalid) {
+        if (!done && (done.error().code == ErrorCode::Invalid ||
+                      done.error().code == ErrorCode::Unreadable)) {
             return ofPart(part, kPartRaster, {ErrorCode::Damaged, "is damaged"});
         }
         return done ? Status(Done{}) : Status(done.error());
@@ -282,16 +287,18 @@ private:
                              .skeleton_bytes = 0,
                              .files = {&shared_->tiles()},
                              .tiles = {},
-                             .names = {shared_path_}};
+                             .names = {shared_path_},
+                             .remedies = {std::string()}};
         std::vector<TiffTiles> files;
         for (std::size_t part = 1; part <= map_.parts; ++part) {
             Result<TiffTiles> tiles =
                 TiffTiles::open(map_.file(part, kPartRaster), TiffTiles::Access::Read);
             if (!tiles) {
-                return std::move(tiles).error();
+                return ofPart(part, kPartRaster, tiles.error());
             }
             files.push_back(std::move(tiles).value());
             stream.names.push_back(map_.file(part, kPartRaster));
+            stream.remedies.push_back(fmt::format("; prepare part {} again", part));
         }
         for (const TiffTiles& file : files) {
             stream.files.push_back(&file);

@@ -1,10 +1,13 @@
 #include "core/prepare/parts/part_state.h"
 
+#include "core/base/deflate.h"
+#include "core/files/file_bytes.h"
 #include "core/levels/level_file_format.h"
 #include "core/prepare/disk_room.h"
 #include "core/prepare/tiled_geotiff.h"
 #include "core/raster/source_identity.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
 #include <system_error>
@@ -14,7 +17,7 @@ namespace marsview {
 namespace {
 
 // To be increased with every change of the files.
-constexpr int kVersion = 2;
+constexpr int kVersion = 3;
 
 } // namespace
 
@@ -87,11 +90,40 @@ Result<CheckpointReader> openPartState(const PartedMap& map, std::size_t part, c
     return std::move(*reader);
 }
 
+FileMark FileMark::of(const std::string& path)
+{
+    constexpr std::uint64_t kPiece = std::uint64_t{1} << 22U;
+    const Result<FileBytes> file = FileBytes::open(path);
+    if (!file) {
+        return {};
+    }
+    FileMark mark{.bytes = file->size(), .checksum = 0};
+    for (std::uint64_t at = 0; at < mark.bytes; at += kPiece) {
+        const auto piece = file->read(at, std::min(kPiece, mark.bytes - at));
+        if (!piece) {
+            return {};
+        }
+        mark.checksum = crc32Of({piece->data(), piece->size()}, mark.checksum);
+    }
+    return mark;
+}
+
+void FileMark::save(CheckpointWriter& to) const
+{
+    to.put(bytes);
+    to.put(checksum);
+}
+
+bool FileMark::restore(CheckpointReader& from)
+{
+    return from.get(bytes) && from.get(checksum);
+}
+
 void PartTiles::save(CheckpointWriter& to) const
 {
     to.put(raster_bytes);
-    to.put(levels_bytes);
-    to.put(means_bytes);
+    levels.save(to);
+    means.save(to);
     to.putArray(checksums);
     edges.save(to);
     to.putArray(sums);
@@ -100,7 +132,7 @@ void PartTiles::save(CheckpointWriter& to) const
 
 bool PartTiles::restore(CheckpointReader& from)
 {
-    return from.get(raster_bytes) && from.get(levels_bytes) && from.get(means_bytes) &&
+    return from.get(raster_bytes) && levels.restore(from) && means.restore(from) &&
            from.getAny(checksums) && edges.restore(from) && from.getAny(sums) &&
            from.getAny(counts);
 }
@@ -109,9 +141,16 @@ bool PartTiles::areOnDisk(const PartedMap& map, std::size_t part) const
 {
     std::error_code ignored;
     return bytesOnDisk(map.file(part, kPartRaster)) == raster_bytes &&
-           bytesOnDisk(map.file(part, kPartLevels)) == levels_bytes &&
-           bytesOnDisk(map.file(part, kPartMeans)) == means_bytes &&
+           bytesOnDisk(map.file(part, kPartLevels)) == levels.bytes &&
+           bytesOnDisk(map.file(part, kPartMeans)) == means.bytes &&
            std::filesystem::exists(map.file(part, kPartBorder), ignored);
+}
+
+bool PartTiles::areIntact(const PartedMap& map, std::size_t part) const
+{
+    return areOnDisk(map, part) && openPartState(map, part, kPartBorder) &&
+           FileMark::of(map.file(part, kPartLevels)) == levels &&
+           FileMark::of(map.file(part, kPartMeans)) == means;
 }
 
 Result<std::shared_ptr<const GeotiffTileSource>> openPartTiles(const PartedMap& map,

@@ -63,11 +63,23 @@ Error notOfThisPart();
 /// Without an error if the file does not exist.
 void removePartFile(const std::string& path);
 
+/// Size and CRC-32 of a file; zeros if it does not exist or cannot be read.
+struct FileMark {
+    std::uint64_t bytes = 0;
+    std::uint32_t checksum = 0;
+
+    /// Reads the whole file.
+    static FileMark of(const std::string& path);
+    void save(CheckpointWriter& to) const;
+    bool restore(CheckpointReader& from);
+    bool operator==(const FileMark&) const = default;
+};
+
 /// What the first pass leaves for the file to be joined, at the beginning of its state.
 struct PartTiles {
     std::uint64_t raster_bytes = 0;
-    std::uint64_t levels_bytes = 0;
-    std::uint64_t means_bytes = 0;
+    FileMark levels;
+    FileMark means;
     std::vector<std::uint32_t> checksums; // of encoded tiles, in the order of forEachTileRow()
     OverviewEdges edges;
     std::vector<std::uint64_t> sums; // of OverviewBuilder::sumsOf()
@@ -81,6 +93,8 @@ struct PartTiles {
     bool restore(CheckpointReader& from);
     /// Whether the part's other files have their size.
     bool areOnDisk(const PartedMap& map, std::size_t part) const;
+    /// Whether they also have their content, the raster apart. Reads these files.
+    bool areIntact(const PartedMap& map, std::size_t part) const;
 };
 
 /// Calls `function(level, tile_row)` for the rows of tiles that a part completes, in the order of

@@ -58,18 +58,34 @@ public:
         , new_raster_(map.file(part, "new.tif"))
     {}
 
+    // Whether the first pass is complete and its files are intact, except for tiles of the raster.
     bool isSurveyed() const
     {
         Result<CheckpointReader> state = openPartState(map_, part_, kPartSurvey);
         PartTiles tiles(map_);
-        return state && tiles.restore(*state) && tiles.areOnDisk(map_, part_);
+        return state && tiles.restore(*state) && tiles.areIntact(map_, part_);
     }
 
     bool isMeasured() const
     {
         Result<CheckpointReader> state = openPartState(map_, part_, kPartErrors);
-        std::uint64_t bytes = 0;
-        return state && state->get(bytes) && bytesOnDisk(map_.file(part_, kPartFills)) == bytes;
+        FileMark fills;
+        return state && fills.restore(*state) &&
+               FileMark::of(map_.file(part_, kPartFills)) == fills;
+    }
+
+    // Whether the tiles of the raster match the checksums of the first pass. Reads them all.
+    bool hasIntactTiles() const
+    {
+        Result<CheckpointReader> state = openPartState(map_, part_, kPartSurvey);
+        PartTiles tiles(map_);
+        if (!state || !tiles.restore(*state)) {
+            return false;
+        }
+        const Result<TileRowWriter> file =
+            TileRowWriter::open(map_.file(part_, kPartRaster), map_.info);
+        const auto found = file ? checksums(*file) : file.error();
+        return found && *found == tiles.checksums;
     }
 
     Status copy(PartTiles& tiles)
@@ -114,7 +130,12 @@ public:
         if (Status flushed = writer->tiles().flush(); !flushed) {
             return flushed;
         }
-        return keepChecksums(*writer, tiles);
+        auto found = checksums(*writer);
+        if (!found) {
+            return std::move(found).error();
+        }
+        tiles.checksums = std::move(found).value();
+        return Done{};
     }
 
     Status survey(PartTiles& tiles)
@@ -161,14 +182,14 @@ public:
             return writingState(levels);
         }
         (*writer)->keep();
-        tiles.levels_bytes = bytesOnDisk(levels + ".part");
+        tiles.levels = FileMark::of(levels + ".part");
         tiles.raster_bytes = bytesOnDisk(new_raster_);
         CheckpointWriter border(map_.file(part_, kPartBorder));
         beginPartState(border, map_);
         if (!saveBorder(border, pass, layout, rows_) || !border.finish()) {
             return writingState(map_.file(part_, kPartBorder));
         }
-        tiles.means_bytes = bytesOnDisk(map_.file(part_, kPartMeans));
+        tiles.means = FileMark::of(map_.file(part_, kPartMeans));
         CheckpointWriter to(map_.file(part_, kPartSurvey));
         beginPartState(to, map_);
         tiles.save(to);
@@ -203,23 +224,28 @@ public:
     void discard() const { removePartFile(new_raster_); }
 
 private:
-    Status keepChecksums(const TileRowWriter& writer, PartTiles& tiles) const
+    // Of the encoded tiles that the part has alone.
+    Result<std::vector<std::uint32_t>> checksums(const TileRowWriter& file) const
     {
+        std::vector<std::uint32_t> found;
         Status read = Done{};
         forEachTileRow(map_, rows_, [&](std::size_t level, std::size_t row) {
             if (!rows_.hasMeans(level, row, map_.tileRows())) {
                 return;
             }
-            forEachTileOfRow(writer, level, row, [&](std::size_t page, std::size_t tile) {
-                const auto encoded = writer.tiles().encoded(page, tile);
+            forEachTileOfRow(file, level, row, [&](std::size_t page, std::size_t tile) {
+                const auto encoded = file.tiles().encoded(page, tile);
                 if (!encoded) {
                     read = encoded.error();
                     return;
                 }
-                tiles.checksums.push_back(crc32Of(*encoded));
+                found.push_back(crc32Of(*encoded));
             });
         });
-        return read;
+        if (!read) {
+            return std::move(read).error();
+        }
+        return found;
     }
 
     Status measureRows(const TileSource& source, const LevelSurvey& survey)
@@ -254,7 +280,7 @@ private:
         }
         CheckpointWriter to(map_.file(part_, kPartErrors));
         beginPartState(to, map_);
-        to.put(bytesOnDisk(fills));
+        FileMark::of(fills).save(to);
         saveErrors(to, pass, layout, rows_);
         return to.finish() ? Status(Done{}) : Status(writingState(map_.file(part_, kPartErrors)));
     }
@@ -271,37 +297,63 @@ private:
 constexpr double kCopyingShare = 0.7;
 constexpr double kSurveyEnd = 0.8;
 
-Status makePart(Part& part, const PartedMap& map, PartReport& report, JobMonitor& monitor)
+Status copyAndSurvey(Part& part, const PartedMap& map, PartReport& report, JobMonitor& monitor)
 {
-    if (!part.isSurveyed()) {
-        const Clock::time_point start = Clock::now();
-        PartTiles tiles(map);
-        {
-            const JobPart copying(monitor, 0.0, kCopyingShare);
-            if (Status copied = part.copy(tiles); !copied) {
-                return copied;
-            }
+    const Clock::time_point start = Clock::now();
+    PartTiles tiles(map);
+    {
+        const JobPart copying(monitor, 0.0, kCopyingShare);
+        if (Status copied = part.copy(tiles); !copied) {
+            return copied;
         }
-        report.copy_seconds = secondsSince(start);
-        const JobPart surveying(monitor, kCopyingShare, kSurveyEnd);
-        if (Status surveyed = part.survey(tiles); !surveyed) {
-            return surveyed;
-        }
-        report.is_copied = true;
-        report.level_seconds = secondsSince(start) - report.copy_seconds;
     }
+    report.copy_seconds = secondsSince(start);
+    const JobPart surveying(monitor, kCopyingShare, kSurveyEnd);
+    Status surveyed = part.survey(tiles);
+    report.is_copied = surveyed.has_value();
+    report.level_seconds = secondsSince(start) - report.copy_seconds;
+    return surveyed;
+}
+
+// Measures a part that has been surveyed, unless that is done or other parts are awaited.
+enum class Measuring : std::uint8_t { Done, NothingToDo };
+
+Result<Measuring>
+measureIfDue(Part& part, const PartedMap& map, PartReport& report, JobMonitor& monitor)
+{
     report.awaited = absentParts(map);
     report.is_measured = part.isMeasured();
     if (!report.awaited.empty() || report.is_measured) {
         monitor.report(1.0);
-        return Done{};
+        return Measuring::NothingToDo;
     }
     const Clock::time_point start = Clock::now();
     const JobPart measuring(monitor, kSurveyEnd, 1.0);
     Status measured = part.measure();
     report.is_measured = measured.has_value();
     report.level_seconds += secondsSince(start);
-    return measured;
+    if (!measured) {
+        return std::move(measured).error();
+    }
+    return Measuring::Done;
+}
+
+Status makePart(Part& part, const PartedMap& map, PartReport& report, JobMonitor& monitor)
+{
+    if (part.isSurveyed()) {
+        const Result<Measuring> measured = measureIfDue(part, map, report, monitor);
+        // Measuring finds damaged tiles too. What is run again without need is checked here.
+        const bool is_final =
+            measured ? *measured == Measuring::Done : measured.error().code == ErrorCode::Canceled;
+        if (is_final || part.hasIntactTiles()) {
+            return measured ? Status(Done{}) : Status(measured.error());
+        }
+    }
+    if (Status copied = copyAndSurvey(part, map, report, monitor); !copied) {
+        return copied;
+    }
+    const Result<Measuring> measured = measureIfDue(part, map, report, monitor);
+    return measured ? Status(Done{}) : Status(measured.error());
 }
 
 } // namespace

@@ -34,8 +34,9 @@ struct PartReport {
 
 /// Copies the part's rows of tiles and makes the first pass over them, then, once all parts have
 /// got so far, the second pass. Work that is complete is kept: call it again for the second pass,
-/// which joinParts() otherwise makes. A part may be killed, repeated, and made in any order; the
-/// source is read once. On all cores; not for the GUI thread. Errors name the file.
+/// which joinParts() otherwise makes. A part may be killed, repeated, and made in any order. Its
+/// own files are compared with their checksums and made again if they are damaged; without damage
+/// the source is read once. On all cores; not for the GUI thread. Errors name the file.
 Result<PartReport> preparePart(const OpenRaster& raster, const PartJob& job, JobMonitor& monitor);
 
 } // namespace marsview

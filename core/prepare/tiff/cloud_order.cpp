@@ -81,7 +81,8 @@ Status orderForCloud(const std::string& from, const std::string& to, JobMonitor&
                       .skeleton_bytes = std::numeric_limits<std::uint64_t>::max(),
                       .files = {&*tiles},
                       .tiles = {},
-                      .names = {from}};
+                      .names = {from},
+                      .remedies = {}};
     for (const std::vector<std::size_t>& level : pagesFromCoarsest(tiles->pages())) {
         const TiffPage& page = tiles->pages()[level.front()];
         for (std::size_t row = 0; row < page.tile_rows; ++row) {

@@ -261,13 +261,14 @@ Status streamTiff(const TiffStreamJob& job, ByteStream& to, JobMonitor& monitor)
         }
         const Result<std::vector<std::byte>> encoded =
             job.files[tile.file]->encoded(tile.page, tile.tile);
+        const char* remedy = job.remedies.empty() ? "" : job.remedies[tile.file].c_str();
         if (!encoded) {
-            return encoded.error();
+            return Error{encoded.error().code, encoded.error().message + remedy};
         }
         if (tile.is_checked && crc32Of(*encoded) != tile.checksum) {
             return Error{ErrorCode::Damaged,
-                         fmt::format("{}: tile {} of page {} is damaged", job.names[tile.file],
-                                     tile.tile, tile.page)};
+                         fmt::format("{}: tile {} of page {} is damaged{}", job.names[tile.file],
+                                     tile.tile, tile.page, remedy)};
         }
         if (Status written = to.write(*encoded); !written) {
             return written;

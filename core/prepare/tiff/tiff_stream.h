@@ -51,6 +51,7 @@ struct TiffStreamJob {
     std::vector<const TiffTiles*> files; // from the same skeleton
     std::vector<StreamedTile> tiles;     // all tiles, in the order of the new file
     std::vector<std::string> names;      // of the files, for messages
+    std::vector<std::string> remedies;   // what to do if a file is damaged; as many, or none
 };
 
 /// Writes the skeleton, with its directories filled, and then the tiles. Memory: 16 bytes for each

@@ -272,10 +272,50 @@ TEST_F(Parts, AreNamedIfTheyAreMissingDamagedOrOfAnotherSource)
     const auto damaged = join(source, 5);
     ASSERT_FALSE(damaged);
     EXPECT_THAT(damaged.error().message, HasSubstr("2-of-5.tif"));
+    EXPECT_THAT(damaged.error().message, HasSubstr("prepare part 2 again"));
     EXPECT_FALSE(fs::exists(out()));
 
     const std::string other = test::writeVrt(folder_, "other", recipeOf<std::int16_t>(700, 3301));
     EXPECT_THAT(join(other, 5).error().message, HasSubstr("was made from another source"));
+}
+
+// A disk or a network may change bytes and keep the size. Each file of a part is damaged in turn.
+TEST_F(Parts, AreMadeAgainWhereTheirFilesAreDamaged)
+{
+    // With voids, for fills.
+    std::vector<float> holes = terrain<float>(900, 1100);
+    for (std::size_t i = 0; i < holes.size(); ++i) {
+        const bool is_void = i / 900 > 300 && i / 900 < 800 && i % 900 < 500;
+        holes[i] = is_void ? std::numeric_limits<float>::quiet_NaN() : holes[i];
+    }
+    const std::string source = test::writeVrt(folder_, "map", test::recipeFor(900, holes));
+    constexpr std::size_t kBlocks = 500; // others are on the disk
+    const auto make = [&](std::size_t number) {
+        JobMonitor monitor;
+        return preparePart(
+            *openRaster({.path = source}),
+            {.folder = partsFolder(), .part = number, .parts = 2, .mean_blocks_max = kBlocks},
+            monitor);
+    };
+    for (const std::size_t number : {1U, 2U, 1U, 2U}) {
+        ASSERT_TRUE(make(number));
+    }
+    const std::string name = partsFolder() + "/1-of-2.";
+    for (const char* ending : {"tif", "levels", "survey", "means", "border", "fills", "errors"}) {
+        const std::string whole = test::readFile(name + ending);
+        ASSERT_FALSE(whole.empty()) << ending;
+        std::string damaged = whole;
+        const std::size_t at = whole.size() * 3 / 4;
+        damaged[at] = static_cast<char>(damaged[at] ^ 1);
+        std::ofstream(name + ending, std::ios::binary) << damaged;
+        const auto again = make(1);
+        ASSERT_TRUE(again) << again.error().message;
+        EXPECT_TRUE(again->is_measured) << ending;
+        const std::string of_measuring = "fills errors";
+        EXPECT_EQ(again->is_copied, of_measuring.find(ending) == std::string::npos) << ending;
+        EXPECT_TRUE(test::readFile(name + ending) == whole) << ending;
+    }
+    EXPECT_FALSE(make(1)->is_copied);
 }
 
 // Otherwise the parts of a large map would read as much as all of them have.
