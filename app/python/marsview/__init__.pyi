@@ -36,14 +36,14 @@ class Map:
         """Rows and columns."""
 
     @overload
-    def elevation(self, lon: float, lat: float) -> float: ...
+    def elevation(self, lon: float, lat: float) -> float: ...  # type: ignore[misc]
     @overload
     def elevation(self, lon: ArrayLike, lat: ArrayLike) -> NDArray[float64]:
         """Elevation of the surface in meters; NaN outside the map and in voids. Degrees east and
         north, broadcast against each other; latitudes of the kind that info names."""
 
     @overload
-    def elevation_map(self, x: float, y: float) -> float: ...
+    def elevation_map(self, x: float, y: float) -> float: ...  # type: ignore[misc]
     @overload
     def elevation_map(self, x: ArrayLike, y: ArrayLike) -> NDArray[float64]:
         """The same at coordinates in the CRS of the map."""
