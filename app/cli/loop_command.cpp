@@ -19,6 +19,7 @@
 #include "haptics/drivers/built_in_drivers.h"
 #include "haptics/drivers/record_driver.h"
 #include "haptics/drivers/replay_driver.h"
+#include "haptics/interaction/body_frame.h"
 #include "haptics/loop/rt_scope.h"
 #include "haptics/trace/session_recorder.h"
 
@@ -44,7 +45,6 @@ namespace {
 struct LoopOptions {
     MapOptions map;
     std::string device;
-    SceneKind scene = SceneKind::Flat;
     LoopMapOptions loop;
     std::string model{contactModelName(kContactModelDefault)};
     double seconds = 10.0;
@@ -102,6 +102,13 @@ WorkspaceFrame
 frameFor(const LoopOptions& options, const LoopMap& map, const DeviceCapabilities& device)
 {
     const WorkspaceBox reach = reachWithin(device.workspace);
+    if (map.mesh) {
+        std::optional<double> width_m;
+        if (options.across_cells) {
+            width_m = *options.across_cells * map.cell_m;
+        }
+        return frameForBodyMap(map.mesh, map.opened->georeference(), reach, width_m);
+    }
     WorkspaceFrame frame = frameForMap(map.box, reach);
     if (options.across_cells) {
         frame.scene_per_meter = *options.across_cells * map.cell_m / (reach.high.x - reach.low.x);
@@ -204,10 +211,10 @@ LoopWatch::Clock::time_point watchedUntil(double seconds)
 
 Status runLoop(const LoopOptions& options)
 {
-    if (options.scene == SceneKind::Body) {
+    if (options.loop.scene == SceneKind::Body && isReplay(options.device)) {
         return Error{ErrorCode::Invalid,
-                     "--scene: devices touch the flat map only; leave out "
-                     "--scene body, or trace goals with trace --scene body"};
+                     "--device: recordings are replayed on the flat map only; leave out --scene "
+                     "body, or repeat a recording on the body with trace --scene body"};
     }
     FilesInUse files{
         .maps = {options.map.path},
@@ -247,10 +254,11 @@ Status runLoop(const LoopOptions& options)
     loop_options.thread.lead =
         std::chrono::nanoseconds(static_cast<std::int64_t>(options.lead_us * 1e3));
     ServoLoop loop(std::move(device).value(), loop_options);
+    const GoalColumns goals = map->mesh ? GoalColumns::Geographic : GoalColumns::Map;
     std::unique_ptr<SessionRecorder> recorder;
     if (!options.record.empty()) {
         Result<std::unique_ptr<SessionRecorder>> begun =
-            SessionRecorder::begin(loop, options.record);
+            SessionRecorder::begin(loop, options.record, 0, goals);
         if (!begun) {
             return std::move(begun).error();
         }
@@ -264,9 +272,17 @@ Status runLoop(const LoopOptions& options)
         LoopSettings settings;
         settings.map = map->map;
         settings.stiffness_n_per_m = options.stiffness_n_per_m;
-        FollowedView view(reachWithin(loop.device().workspace));
-        view.setMap(followedMap(*map, options.loop.exaggeration));
-        view.beginAt(frameFor(options, *map, loop.device()), settings);
+        const WorkspaceBox reach = reachWithin(loop.device().workspace);
+        std::optional<FollowedView> view; // in the plane
+        if (map->mesh) {
+            settings.frame = frameFor(options, *map, loop.device());
+            settings.frame_number = 1;
+            boundBodyZoom(map->mesh->positions().ellipsoid(), map->cell_m, reach, settings.modes);
+        } else {
+            view.emplace(reach);
+            view->setMap(followedMap(*map, options.loop.exaggeration));
+            view->beginAt(frameFor(options, *map, loop.device()), settings);
+        }
         loop.set(settings);
         constexpr std::chrono::milliseconds kLook{16};
         const LoopWatch::Clock::time_point give_up = watchedUntil(options.seconds);
@@ -274,8 +290,8 @@ Status runLoop(const LoopOptions& options)
                LoopWatch::Clock::now() < give_up) {
             std::this_thread::sleep_for(kLook);
             const LoopState state = loop.state();
-            if (!isReplay(options.device) &&
-                view.follow(state.seen_frame, state.frame_number, state.mode, settings)) {
+            if (view && !isReplay(options.device) &&
+                view->follow(state.seen_frame, state.frame_number, state.mode, settings)) {
                 loop.set(settings);
             }
             watch.look(loop, LoopWatch::Clock::now());
@@ -291,6 +307,7 @@ Status runLoop(const LoopOptions& options)
     }
     const Status verdict = watch.verdict(options.device);
     LoopReport report{.file = options.map.path,
+                      .scene = sceneName(options.loop.scene),
                       .device_uri = options.device,
                       .device_name = loop.device().name,
                       .model = options.model,
@@ -306,13 +323,15 @@ Status runLoop(const LoopOptions& options)
 #else
     (void)allocations_before;
 #endif
-    report.feeder = map->touch->statistics();
+    if (map->touch) {
+        report.feeder = map->touch->statistics();
+    }
     const Status recorded = recorder ? recorder->finish() : Done{};
     if (recorder) {
         report.recorded = recorder->updates();
     }
     if (!options.flight.empty()) {
-        if (Status written = saveFlight(loop.flight(), options.flight); !written) {
+        if (Status written = saveFlight(loop.flight(), options.flight, goals); !written) {
             return written;
         }
     }
@@ -359,7 +378,9 @@ void addLoopCommand(CLI::App& app, CommandAction& run)
     for (const ContactModelKind kind : kContactModelKinds) {
         names.emplace_back(contactModelName(kind));
     }
-    addSceneOption(*command, options->scene, ", which devices do not touch yet");
+    addSceneOption(*command, options->loop.scene,
+                   ", which is touched as a ball; recordings are then in longitude, latitude and "
+                   "elevation");
     command->add_option("--model", options->model, "contact model")
         ->capture_default_str()
         ->check(oneOf(names));

@@ -3,9 +3,39 @@
 #include "core/base/check.h"
 #include "core/session/open_map.h"
 
+#include <fmt/format.h>
 #include <utility>
 
 namespace marsview {
+namespace {
+
+Status putOnBody(const MapOptions& map,
+                 const LoopMapOptions& options,
+                 JobMonitor& monitor,
+                 LoopMap& result)
+{
+    if (!result.opened->filled()) {
+        return Error{ErrorCode::TooLarge,
+                     fmt::format("{}: is kept in tiles; only a map in memory can be touched on its "
+                                 "body, raise MARSVIEW_HELD_MB or reduce the map",
+                                 map.path)};
+    }
+    const Georeference& georeference = result.opened->georeference();
+    auto mesh =
+        BodyMesh::build(result.opened->filled(), georeference, options.exaggeration, monitor);
+    if (!mesh) {
+        return Error{mesh.error().code, fmt::format("{}: {}", map.path, mesh.error().message)};
+    }
+    result.mesh = std::move(mesh).value();
+    result.cell_m = 0.5 * (georeference.pixelWidthMeters() + georeference.pixelHeightMeters());
+    result.map =
+        makeServoMap({result.opened, &georeference}, result.mesh,
+                     {.kind = options.kind,
+                      .contact = {.radius_m = options.radius_m.value_or(0.5 * result.cell_m)}});
+    return Done{};
+}
+
+} // namespace
 
 Result<LoopMap>
 openLoopMap(const MapOptions& map, const LoopMapOptions& options, JobMonitor& monitor)
@@ -16,6 +46,12 @@ openLoopMap(const MapOptions& map, const LoopMapOptions& options, JobMonitor& mo
     }
     LoopMap result;
     result.opened = std::move(opened).value();
+    if (options.scene == SceneKind::Body) {
+        if (Status put = putOnBody(map, options, monitor, result); !put) {
+            return std::move(put).error();
+        }
+        return result;
+    }
     const Georeference& georeference = result.opened->georeference();
     const Heightfield& heightfield = result.opened->heightfield();
     const SceneFrame& frame = georeference.sceneFrame();

@@ -101,6 +101,7 @@ Json asJson(const LoopReport& report)
     const LoopStatistics& s = report.statistics;
     const LoopCounts& c = report.state.counts;
     Json json = {{"file", report.file},
+                 {"scene", report.scene},
                  {"device", report.device_uri},
                  {"device_name", report.device_name},
                  {"model", report.model},

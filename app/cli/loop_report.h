@@ -14,6 +14,7 @@ namespace marsview {
 
 struct LoopReport {
     std::string file;
+    std::string scene = "flat"; // or "body"
     std::string device_uri;
     std::string device_name;
     std::string model;

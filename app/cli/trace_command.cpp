@@ -254,15 +254,33 @@ Result<TraceSubject> openMesh(const TraceOptions& options, JobMonitor& monitor)
     return meshSubject(options.map, options.exaggeration.value_or(1.0), monitor);
 }
 
+// The triangles of a body contain the exaggeration.
+Result<TraceSubject>
+openBody(const TraceOptions& options, const GoalRecording& recording, JobMonitor& monitor)
+{
+    double exaggeration = options.exaggeration.value_or(1.0);
+    if (!options.exaggeration && !recording.parts.empty()) {
+        exaggeration = recording.parts.front().exaggeration;
+        for (const GoalPart& part : recording.parts) {
+            if (part.exaggeration != exaggeration) {
+                return Error{ErrorCode::Invalid,
+                             fmt::format("{}: has another exaggeration from line {} on; split it "
+                                         "there, or give one for all with --exaggeration",
+                                         options.goals, part.line)};
+            }
+        }
+    }
+    return bodySubject(options.map, recording, exaggeration, monitor);
+}
+
 Result<TraceSubject>
 openSubject(const TraceOptions& options, const GoalRecording& recording, JobMonitor& monitor)
 {
     if (isMesh(options.map.path)) {
         return openMesh(options, monitor);
     }
-    return options.scene == SceneKind::Body
-               ? bodySubject(options.map, options.exaggeration.value_or(1.0), monitor)
-               : mapSubject(options.map, recording, monitor);
+    return options.scene == SceneKind::Body ? openBody(options, recording, monitor)
+                                            : mapSubject(options.map, recording, monitor);
 }
 
 Status runTrace(const TraceOptions& options)

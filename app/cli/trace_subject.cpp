@@ -93,8 +93,10 @@ meshSubject(const MapOptions& options, double exaggeration, JobMonitor& monitor)
     return subject;
 }
 
-Result<TraceSubject>
-bodySubject(const MapOptions& options, double exaggeration, JobMonitor& monitor)
+Result<TraceSubject> bodySubject(const MapOptions& options,
+                                 const GoalRecording& recording,
+                                 double exaggeration,
+                                 JobMonitor& monitor)
 {
     const Result<std::shared_ptr<const Map>> opened =
         openMap(options.spec(), defaultMapResources(), monitor);
@@ -113,14 +115,12 @@ bodySubject(const MapOptions& options, double exaggeration, JobMonitor& monitor)
     if (!mesh) {
         return Error{mesh.error().code, fmt::format("{}: {}", options.path, mesh.error().message)};
     }
-    const GridPoint middle{0.5 * static_cast<double>(georeference.columns() - 1),
-                           0.5 * static_cast<double>(georeference.rows() - 1)};
-    const auto place = georeference.toGeographic(middle);
-    const BodyGoalFrame frame((*mesh)->positions().ellipsoid(), exaggeration,
-                              place ? place->longitude : Angle::degrees(0.0));
+    const BodyGoalFrame frame =
+        bodyGoalFrame(georeference, (*mesh)->positions().ellipsoid(), exaggeration);
     TraceSubject subject;
     subject.map = map;
     subject.is_on_body = true;
+    subject.is_recorded_on = isRecordedOn(recording, georeference);
     subject.radius_m = (georeference.pixelWidthMeters() + georeference.pixelHeightMeters()) / 4.0;
     subject.make = [surface = BodySurface(*mesh), frame](const TraceTouch& touch) {
         return Toucher{.model = makeContactModel(touch.kind, surface, {.radius_m = touch.radius_m}),

@@ -56,8 +56,10 @@ meshSubject(const MapOptions& options, double exaggeration, JobMonitor& monitor)
 
 /// The map on its body; the errors of BodyMesh are added to those of opening. `exaggeration`
 /// applies to all models over the subject.
-Result<TraceSubject>
-bodySubject(const MapOptions& options, double exaggeration, JobMonitor& monitor);
+Result<TraceSubject> bodySubject(const MapOptions& options,
+                                 const GoalRecording& recording,
+                                 double exaggeration,
+                                 JobMonitor& monitor);
 
 /// A tiled map has the tiles of the recording, if that was made on such a map.
 Result<TraceSubject>

@@ -2,8 +2,6 @@
 
 #include "core/base/check.h"
 
-#include <GeographicLib/Geocentric.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -291,16 +289,7 @@ VertexRing BodyMesh::ring(std::uint32_t vertex,
 
 ScenePoint BodyMesh::highAbove(const ScenePoint& point) const noexcept
 {
-    const Ellipsoid& body = positions_.ellipsoid();
-    const GeographicLib::Geocentric frame(body.equatorial_m, body.flattening());
-    double latitude_deg = 0.0;
-    double longitude_deg = 0.0;
-    double height_m = 0.0;
-    frame.Reverse(point.x, point.y, point.z, latitude_deg, longitude_deg, height_m);
-    const double latitude = Angle::degrees(latitude_deg).radians();
-    const double longitude = Angle::degrees(longitude_deg).radians();
-    const Vec3 up{std::cos(latitude) * std::cos(longitude),
-                  std::cos(latitude) * std::sin(longitude), std::sin(latitude)};
+    const auto [up, height_m] = verticalAt(positions_.ellipsoid(), point);
     // Above the highest sample by more than the rounding of coordinates.
     const double rise_m = highest_m_ - height_m + 1e-3 * std::abs(highest_m_) + 1.0;
     return point + up * std::max(rise_m, 1.0);

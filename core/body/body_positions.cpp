@@ -2,6 +2,8 @@
 
 #include "core/base/check.h"
 
+#include <GeographicLib/Geocentric.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -57,6 +59,20 @@ BodyPositions::Foot footOf(const Ellipsoid& ellipsoid, const GeographicPoint& pl
     return {{across_m * cosine * to_meridian, across_m * cosine * east,
              across_m * ratio * ratio * sine},
             {cosine * to_meridian, cosine * east, sine}};
+}
+
+BodyVertical verticalAt(const Ellipsoid& ellipsoid, const Vec3& point) noexcept
+{
+    const GeographicLib::Geocentric frame(ellipsoid.equatorial_m, ellipsoid.flattening());
+    double latitude_deg = 0.0;
+    double longitude_deg = 0.0;
+    double height_m = 0.0;
+    frame.Reverse(point.x, point.y, point.z, latitude_deg, longitude_deg, height_m);
+    const double latitude = Angle::degrees(latitude_deg).radians();
+    const double longitude = Angle::degrees(longitude_deg).radians();
+    return {{std::cos(latitude) * std::cos(longitude), std::cos(latitude) * std::sin(longitude),
+             std::sin(latitude)},
+            height_m};
 }
 
 class BodyPositions::Maker {

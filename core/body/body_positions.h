@@ -116,4 +116,12 @@ private:
 /// The foot point of a place on an ellipsoid, and the normal there.
 BodyPositions::Foot footOf(const Ellipsoid& ellipsoid, const GeographicPoint& place) noexcept;
 
+/// The ellipsoid's normal through a point in the body-fixed frame, of length 1, and the height of
+/// the point along it. Rounding errors only.
+struct BodyVertical {
+    Vec3 up;
+    double height_m = 0.0;
+};
+BodyVertical verticalAt(const Ellipsoid& ellipsoid, const Vec3& point) noexcept;
+
 } // namespace marsview

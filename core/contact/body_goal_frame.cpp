@@ -28,7 +28,7 @@ ScenePoint BodyGoalFrame::toScene(const TracePoint& goal) const noexcept
     return foot.surface_m + foot.normal * (goal.z * exaggeration_);
 }
 
-TracePoint BodyGoalFrame::fromScene(const ScenePoint& point) const
+TracePoint BodyGoalFrame::fromScene(const ScenePoint& point) const noexcept
 {
     const GeographicLib::Geocentric frame(ellipsoid_.equatorial_m, ellipsoid_.flattening());
     double latitude_deg = 0.0;
@@ -38,6 +38,14 @@ TracePoint BodyGoalFrame::fromScene(const ScenePoint& point) const
     return {middle_deg_ + std::remainder(longitude_deg - middle_deg_, 360.0),
             ellipsoid_.planetocentric(Angle::degrees(latitude_deg)).degrees(),
             height_m / exaggeration_};
+}
+
+BodyGoalFrame
+bodyGoalFrame(const Georeference& map, const Ellipsoid& ellipsoid, double exaggeration)
+{
+    const auto place = map.toGeographic(
+        {0.5 * static_cast<double>(map.columns() - 1), 0.5 * static_cast<double>(map.rows() - 1)});
+    return {ellipsoid, exaggeration, place ? place->longitude : Angle::degrees(0.0)};
 }
 
 } // namespace marsview

@@ -118,14 +118,14 @@ void Stylus::deepen(double factor)
         std::clamp(reach_.depth_points * factor, kStylusDepthMin, kStylusDepthMax);
 }
 
-std::unique_ptr<MapContactModel> Stylus::makeModel()
+std::shared_ptr<MapContactModel> Stylus::makeModel()
 {
     const SceneMap& map = ground_.maps()[at_.index];
     if (!touch_) {
         touch_ = std::make_unique<TouchMap>(map);
     }
     const std::shared_ptr<ServoMap> made = touch_->make(kind_, exaggeration_);
-    return made ? std::move(made->model) : nullptr;
+    return made ? std::shared_ptr<MapContactModel>(made, made->map_model) : nullptr;
 }
 
 ScenePoint Stylus::aimedGround() const

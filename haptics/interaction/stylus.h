@@ -46,7 +46,7 @@ public:
     const std::optional<StylusPose>& pose() const noexcept { return pose_; }
 
 private:
-    std::unique_ptr<MapContactModel> makeModel();
+    std::shared_ptr<MapContactModel> makeModel();
     void letGo();
     ScenePoint aimedGround() const;
     void press(const ScenePoint& goal);
@@ -62,7 +62,7 @@ private:
     double point_m_ = 1.0;
     ContactModelKind kind_ = kContactModelDefault;
     std::unique_ptr<TouchMap> touch_;        // for the map aimed at, from the first touch on
-    std::unique_ptr<MapContactModel> model_; // on touch_; while in contact
+    std::shared_ptr<MapContactModel> model_; // on touch_; while in contact
     std::optional<StylusPose> pose_;
 };
 

@@ -55,7 +55,9 @@ WorkspaceFrame frameAround(const Vec3& low, const Vec3& high, Angle turn, const 
 
 ScenePoint WorkspaceFrame::toScene(const WorkspacePoint& point) const noexcept
 {
-    return place + differenceToScene(point - anchor);
+    const Vec3 along = point - anchor;
+    return body_axes ? place + differenceToScene(along)
+                     : place + turnedBy(along, turn) * scene_per_meter;
 }
 
 WorkspacePoint WorkspaceFrame::toWorkspace(const ScenePoint& point) const noexcept
@@ -65,12 +67,13 @@ WorkspacePoint WorkspaceFrame::toWorkspace(const ScenePoint& point) const noexce
 
 Vec3 WorkspaceFrame::differenceToWorkspace(const Vec3& scene_m) const noexcept
 {
-    return turnedBy(scene_m, -turn) * (1.0 / scene_per_meter);
+    const Vec3 along = body_axes ? body_axes->inverse() * scene_m : turnedBy(scene_m, -turn);
+    return along * (1.0 / scene_per_meter);
 }
 
 Vec3 WorkspaceFrame::differenceToScene(const Vec3& workspace_m) const noexcept
 {
-    return turnedBy(workspace_m, turn) * scene_per_meter;
+    return (body_axes ? *body_axes * workspace_m : turnedBy(workspace_m, turn)) * scene_per_meter;
 }
 
 WorkspaceFrame WorkspaceFrame::panned(const Vec3& shift) const noexcept
@@ -85,11 +88,19 @@ WorkspaceFrame WorkspaceFrame::zoomed(const WorkspacePoint& fixed, double factor
     return {.anchor = fixed,
             .place = toScene(fixed),
             .scene_per_meter = scene_per_meter / factor,
-            .turn = turn};
+            .turn = turn,
+            .body_axes = body_axes};
 }
 
 WorkspaceFrame WorkspaceFrame::turned(const WorkspacePoint& fixed, Angle angle) const noexcept
 {
+    if (body_axes) {
+        return {.anchor = fixed,
+                .place = toScene(fixed),
+                .scene_per_meter = scene_per_meter,
+                .body_axes =
+                    (*body_axes * Rotation::by({0.0, 0.0, -angle.radians()})).orthonormal()};
+    }
     return {.anchor = fixed,
             .place = toScene(fixed),
             .scene_per_meter = scene_per_meter,
@@ -102,10 +113,15 @@ WorkspaceFrame WorkspaceFrame::moved(const WorkspaceFrame& from,
     if (*this == from) {
         return to;
     }
-    return {.anchor = anchor,
-            .place = to.toScene(from.toWorkspace(place)),
-            .scene_per_meter = scene_per_meter * to.scene_per_meter / from.scene_per_meter,
-            .turn = turn + to.turn + -from.turn};
+    WorkspaceFrame result{.anchor = anchor,
+                          .place = to.toScene(from.toWorkspace(place)),
+                          .scene_per_meter =
+                              scene_per_meter * to.scene_per_meter / from.scene_per_meter,
+                          .turn = turn + to.turn + -from.turn};
+    if (body_axes && from.body_axes && to.body_axes) {
+        result.body_axes = (*to.body_axes * from.body_axes->inverse() * *body_axes).orthonormal();
+    }
+    return result;
 }
 
 SceneMotion WorkspaceFrame::motionFrom(const WorkspaceFrame& from) const noexcept
@@ -129,7 +145,9 @@ bool WorkspaceFrame::isSound() const noexcept
 {
     const double sum = anchor.x + anchor.y + anchor.z + place.x + place.y + place.z +
                        scene_per_meter + turn.radians();
-    return std::isfinite(sum) && scene_per_meter > 0.0;
+    return std::isfinite(sum) && scene_per_meter > 0.0 &&
+           (!body_axes ||
+            (isFinite(body_axes->x) && isFinite(body_axes->y) && isFinite(body_axes->z)));
 }
 
 WorkspaceFrame frameForView(const OrbitCamera& camera,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/base/angle.h"
+#include "core/base/rotation.h"
 #include "core/geo/frames.h"
 #include "core/view/camera.h"
 #include "core/view/footprint.h"
@@ -9,16 +10,21 @@
 #include "haptics/device/recorded_tick.h"
 #include "haptics/device/workspace.h"
 
+#include <optional>
+
 namespace marsview {
 
-/// A similarity: translation, scale, and rotation about the vertical. The nearest point of a
-/// surface is thus the same in both, and forces are stiffness times workspace distance. A small
-/// value; all functions except frameForView are for any thread, including the servo thread.
+/// A similarity: translation, scale, and rotation, in the plane about the vertical. The nearest
+/// point of a surface is thus the same in both, and forces are stiffness times workspace distance.
+/// A small value; all functions except frameForView are for any thread, including the servo thread.
 struct WorkspaceFrame {
     WorkspacePoint anchor{};      // this point of the workspace
     ScenePoint place{};           // maps to this point
     double scene_per_meter = 1.0; // scene meters per workspace meter; > 0
     Angle turn{}; // from the workspace's axes to the scene's, counterclockwise seen from above
+    /// On a body, whose scene is the body-fixed frame: turns the workspace's axes to the scene's;
+    /// `turn` is then 0.
+    std::optional<Rotation> body_axes{};
 
     bool operator==(const WorkspaceFrame&) const = default;
 
@@ -36,9 +42,9 @@ struct WorkspaceFrame {
     /// The frame after the scene has moved in the workspace as it does from `from` to `to`: `to`,
     /// if this frame is `from`.
     WorkspaceFrame moved(const WorkspaceFrame& from, const WorkspaceFrame& to) const noexcept;
-    /// The motion of the camera that this frame's motion from `from` is.
+    /// The motion of the camera that this frame's motion from `from` is. In the plane.
     SceneMotion motionFrom(const WorkspaceFrame& from) const noexcept;
-    /// The frame after that motion.
+    /// The frame after that motion. In the plane.
     WorkspaceFrame after(const SceneMotion& motion) const noexcept;
     /// Whether all numbers are finite and the scale is valid.
     bool isSound() const noexcept;

@@ -1,5 +1,6 @@
 #include "haptics/loop/haptic_tick.h"
 
+#include "core/body/body_positions.h"
 #include "haptics/device/time_between.h"
 
 #include <algorithm>
@@ -125,6 +126,7 @@ private:
         const bool is_limit = state_.has_frame && settings_.frame_origin == FrameOrigin::Limit;
         if (is_limit) {
             state_.modes.pan.velocity_m_per_s = {};
+            state_.body_modes.spin_rad_per_s = {};
         }
         if (input_.recorded != nullptr) {
             state_.has_hand = false; // the recorded goal does not depend on the view
@@ -146,6 +148,9 @@ private:
 
     void takeMap() noexcept
     {
+        if (map_ != nullptr && isOnBody() != state_.frame.body_axes.has_value()) {
+            map_ = nullptr; // until its frame comes
+        }
         const std::uint64_t serial = map_ != nullptr ? map_->serial : 0;
         if (serial == state_.map_serial) {
             return;
@@ -174,7 +179,7 @@ private:
         }
         WorkspacePoint at = input_.sample.position;
         if (input_.recorded != nullptr && map_ != nullptr) {
-            at = state_.frame.toWorkspace(map_->frame.toScene(input_.recorded->goal));
+            at = state_.frame.toWorkspace(map_->surface->toScene(input_.recorded->goal));
         } else {
             note(ageReason());
             if (!isFinite(asVector(at)) || isBeyond(input_.device->workspace, at) ||
@@ -249,19 +254,18 @@ private:
         const WorkspaceFrame seen = state_.seen_frame;
         moveAsRecorded();
         const double clearance_m = clearance();
-        const ModeStep mode = stepModes(modeOptions(),
-                                        {.hand = state_.hand,
-                                         .hand_shift = shift_m_,
-                                         .twist_change_rad = twist_change_rad_,
-                                         .is_grabbing = is_grabbing,
-                                         .is_in_contact = state_.contact.is_in_contact,
-                                         .free_share = share,
-                                         .stiffness_n_per_m = stiffness,
-                                         .surface_force_n = state_.surface_force_n,
-                                         .clearance_m = clearance_m,
-                                         .frame = state_.frame},
-                                        state_.modes, dt_s_);
+        const ModeStep mode = stepMode({.hand = state_.hand,
+                                        .hand_shift = shift_m_,
+                                        .twist_change_rad = twist_change_rad_,
+                                        .is_grabbing = is_grabbing,
+                                        .is_in_contact = state_.contact.is_in_contact,
+                                        .free_share = share,
+                                        .stiffness_n_per_m = stiffness,
+                                        .surface_force_n = state_.surface_force_n,
+                                        .clearance_m = clearance_m,
+                                        .frame = state_.frame});
         result_.has_changed_mode = mode.has_changed_mode;
+        bool has_moved = true;
         if (mode.has_moved_map && mode.frame.isSound()) {
             const WorkspaceFrame before = state_.frame;
             state_.frame = mode.frame;
@@ -271,11 +275,13 @@ private:
         } else if (settings_.fit && !isHolding(state_.modes.mode) &&
                    !state_.contact.is_in_contact && input_.recorded == nullptr) {
             fitWorkspace();
+        } else {
+            has_moved = false;
         }
         if (!isHolding(state_.modes.mode) && input_.recorded == nullptr) {
-            lowerIntoReach();
+            lowerIntoReach(has_moved ? clearance() : clearance_m);
         }
-        if (!(state_.seen_frame == seen)) {
+        if (!(state_.seen_frame == seen) && !isOnBody()) {
             result_.motion = state_.seen_frame.motionFrom(seen);
         }
         refreshTerrain(stiffness);
@@ -303,6 +309,15 @@ private:
         result_.damping_n_s_per_m = passive.damping_n_s_per_m;
         forces.force_n = forces.force_n + (passive.force_n - force_n);
         return forces;
+    }
+
+    bool isOnBody() const noexcept { return map_->surface->body() != nullptr; }
+
+    ModeStep stepMode(const ModeInput& input) noexcept
+    {
+        return isOnBody() ? stepBodyModes(modeOptions(), input, *map_->surface->body(),
+                                          state_.modes, state_.body_modes, dt_s_)
+                          : stepModes(modeOptions(), input, state_.modes, dt_s_);
     }
 
     // In a spring that exerts the force, and in a map that the hand has set in motion.
@@ -335,10 +350,10 @@ private:
     // A surface above the top of the workspace, where a flight or a glide has put it, cannot be
     // touched, and the hand below it never gets into free space: it sinks to the top. A surface
     // within the workspace rests in contact.
-    void lowerIntoReach() noexcept
+    void lowerIntoReach(double clearance_m) noexcept
     {
         const WorkspaceBox& reach = input_.device->workspace;
-        const double above_m = state_.hand.z - clearance() - reach.high.z;
+        const double above_m = surfaceZ(clearance_m) - reach.high.z;
         if (!(reach.low.z < reach.high.z) || !(above_m > 0.0)) { // also for NaN
             return;
         }
@@ -349,7 +364,7 @@ private:
 
     void moveAsRecorded() noexcept
     {
-        if (input_.recorded == nullptr || !input_.recorded->motion) {
+        if (input_.recorded == nullptr || !input_.recorded->motion || isOnBody()) {
             return;
         }
         const WorkspaceFrame moved = state_.seen_frame.after(*input_.recorded->motion);
@@ -372,9 +387,18 @@ private:
     // Of the hand over the terrain below it, in the workspace.
     double clearance() const noexcept
     {
-        const ScenePoint at = state_.frame.toScene(state_.hand);
-        return (at.z - map_->height(onGrid(map_->frame.frame().toGrid(at)))) /
+        return map_->surface->clearance(state_.frame.toScene(state_.hand)) /
                state_.frame.scene_per_meter;
+    }
+
+    // Of the surface straight below the hand, in the workspace.
+    double surfaceZ(double clearance_m) const noexcept
+    {
+        if (!isOnBody()) {
+            return state_.hand.z - clearance_m;
+        }
+        const Vec3 up = verticalAt(*map_->surface->body(), state_.frame.toScene(state_.hand)).up;
+        return state_.hand.z - clearance_m * dot(state_.frame.body_axes->z, up);
     }
 
     // Moves the map by `shift_m`, in the scene, back from where the hand has moved it.
@@ -409,20 +433,11 @@ private:
         if (!state_.is_on_map || isHolding(state_.modes.mode)) {
             return;
         }
-        const Vec3 was_m = beyondMap(before.toScene(state_.hand));
-        const Vec3 is_m = beyondMap(state_.frame.toScene(state_.hand));
+        const Vec3 was_m = map_->surface->beyondMap(before.toScene(state_.hand));
+        const Vec3 is_m = map_->surface->beyondMap(state_.frame.toScene(state_.hand));
         if (length(is_m) > length(was_m)) {
             moveBack(was_m - is_m, 0.0);
         }
-    }
-
-    // From the map to a point outside it, horizontally; zero over the map.
-    Vec3 beyondMap(const ScenePoint& at) const noexcept
-    {
-        const SceneFrame& frame = map_->frame.frame();
-        const GridPoint grid = frame.toGrid(at);
-        const GridPoint inside = onGrid(grid);
-        return inside == grid ? Vec3{} : at - frame.toScene(inside, at.z);
     }
 
     // After a release the force of the hold passes over to that of the surface.
@@ -446,8 +461,10 @@ private:
             return;
         }
         ServoTerrain& terrain = *map_->terrain;
-        const GridPoint at = onGrid(map_->frame.frame().toGrid(
-            state_.has_touched ? state_.contact.proxy : state_.frame.toScene(state_.hand)));
+        const GridPoint at = onGrid(
+            map_->frame.georeference(),
+            map_->frame.frame().toGrid(state_.has_touched ? state_.contact.proxy
+                                                          : state_.frame.toScene(state_.hand)));
         const double per_s = dt_s_ > 0.0 && state_.has_touched ? 1.0 / dt_s_ : 0.0;
         const HandMotion motion{.at = at,
                                 .columns_per_s = (at.column - state_.at.column) * per_s,
@@ -462,22 +479,12 @@ private:
                                (std::max(stiffness, 1.0) * map_->frame.exaggeration())));
         terrain.resident().resetMisses();
         if (terrain.refresh(motion, dt_s_)) {
-            map_->model->terrainChanged();
+            map_->map_model->terrainChanged();
             result_.has_ground_changed = true;
         }
         if (terrain.silence(input_.now) > options_.terrain_age_max) {
             note(ForceOffReason::TerrainStale);
         }
-    }
-
-    GridPoint onGrid(const GridPoint& at) const noexcept
-    {
-        const Georeference& georeference = map_->frame.georeference();
-        const auto along = [](double value, std::size_t count) {
-            const auto last = static_cast<double>(count - 1);
-            return value >= 0.0 ? std::min(value, last) : 0.0; // also for NaN
-        };
-        return {along(at.column, georeference.columns()), along(at.row, georeference.rows())};
     }
 
     // Whether there is terrain below the hand. From inside, the edge of the map is a wall; beside
@@ -488,7 +495,7 @@ private:
             return true;
         }
         const ScenePoint at = state_.frame.toScene(state_.hand);
-        beyond_m_ = beyondMap(at);
+        beyond_m_ = map_->surface->beyondMap(at);
         result_.is_at_edge = !(beyond_m_ == Vec3{});
         if (!result_.is_at_edge) {
             is_entering_ = !state_.is_on_map && state_.has_touched;
@@ -500,7 +507,7 @@ private:
             state_.goal = at;
             state_.contact = {};
             state_.contact.proxy = at;
-            state_.proxy = map_->frame.fromScene(at);
+            state_.proxy = map_->surface->fromScene(at);
         }
         result_.is_at_edge = result_.is_at_edge && state_.is_on_map;
         return state_.is_on_map;
@@ -533,32 +540,26 @@ private:
         }
         edge_m_ = state_.frame.differenceToWorkspace(-beyond_m_);
         return state_.contact.is_in_contact
-                   ? state_.frame.differenceToWorkspace(state_.contact.proxy - clamped(state_.goal))
+                   ? state_.frame.differenceToWorkspace(state_.contact.proxy -
+                                                        map_->surface->overMap(state_.goal))
                    : Vec3{};
-    }
-
-    // The nearest point over the map.
-    ScenePoint clamped(const ScenePoint& goal) const noexcept
-    {
-        const SceneFrame& frame = map_->frame.frame();
-        return frame.toScene(onGrid(frame.toGrid(goal)), goal.z);
     }
 
     TracePoint aim() const noexcept
     {
-        return map_->frame.fromScene(clamped(state_.frame.toScene(state_.hand)));
+        return map_->surface->fromScene(map_->surface->overMap(state_.frame.toScene(state_.hand)));
     }
 
     // Recomputes the goal from what a recording stores, so that a replay gives the same result.
     void update(const TracePoint& goal) noexcept
     {
-        state_.goal = map_->frame.toScene(goal);
+        state_.goal = map_->surface->toScene(goal);
         state_.contact =
             is_rehearsal_ ? map_->model->rehearse(state_.goal) : map_->model->update(state_.goal);
         if (state_.contact.counters.refused == 0) {
             // In free space exactly the goal, as in `trace`.
-            state_.proxy = state_.contact.is_in_contact || map_->frame.isClamped(goal)
-                               ? map_->frame.fromScene(state_.contact.proxy)
+            state_.proxy = state_.contact.is_in_contact || map_->surface->isClamped(goal)
+                               ? map_->surface->fromScene(state_.contact.proxy)
                                : goal;
         }
         TickGoals& goals = result_.goals;
@@ -573,10 +574,10 @@ private:
     // Moves above all terrain and over to the new place: the result depends only on the goals.
     void putStraightAbove(const TracePoint& goal) noexcept
     {
-        constexpr double kAboveAllM = 1e6;
-        const TracePoint last = map_->frame.fromScene(map_->model->state().proxy);
-        update({last.x, last.y, kAboveAllM});
-        update({goal.x, goal.y, kAboveAllM});
+        const HighWay way = map_->surface->highWay(map_->model->state().proxy, goal);
+        for (std::size_t i = 0; i < way.count; ++i) {
+            update(way.goals[i]);
+        }
     }
 
     // Slightly below the last model's proxy, the new proxy is the nearest point of the surface.
@@ -645,8 +646,8 @@ private:
         result_.contact = state_.contact;
         result_.proxy = state_.proxy;
         if (map_ != nullptr && state_.has_hand &&
-            beyondMap(state_.frame.toScene(state_.hand)) == Vec3{}) {
-            result_.surface_z_m = state_.hand.z - clearance();
+            map_->surface->beyondMap(state_.frame.toScene(state_.hand)) == Vec3{}) {
+            result_.surface_z_m = surfaceZ(clearance());
         }
     }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "haptics/device/haptic_device.h"
+#include "haptics/interaction/body_modes.h"
 #include "haptics/interaction/hand_modes.h"
 #include "haptics/interaction/hand_view.h"
 #include "haptics/interaction/workspace_fit.h"
@@ -31,7 +32,8 @@ struct LoopSettings {
     /// exaggeration), the new map and the new frame must be in the same set(): a tick with only one
     /// of them would misplace the hand.
     std::shared_ptr<ServoMap> map;
-    WorkspaceFrame frame;           // applied when `frame_number` changes
+    /// Applied when `frame_number` changes. With body_axes if the map lies on its body.
+    WorkspaceFrame frame;
     std::uint64_t frame_number = 0; // otherwise the loop keeps the frame as its hand has moved it
     FrameOrigin frame_origin = FrameOrigin::View;
     std::optional<ViewBounds> view_bounds{};
@@ -119,10 +121,11 @@ struct TickState {
     bool has_touched = false;  // since this map was set
     bool is_on_map = false;    // the hand has been over the map, whose edge is a wall from inside
     ContactState contact;      // the last
-    TracePoint proxy{};        // the same in map coordinates
+    TracePoint proxy{};        // the same as in recordings
     ScenePoint goal{};
     GridPoint at{}; // of the proxy, in the last tick
     ModeState modes;
+    BodyModeState body_modes;   // of a map on its body
     Vec3 surface_force_n{};     // the last, on the hand
     Vec3 held_force_n{};        // the last, while the hand holds the map
     Vec3 release_n{};           // by which it differed from the surface force at the release
@@ -144,7 +147,7 @@ struct StepResult {
     WorkspacePoint hand{};
     ScenePoint goal{};
     ContactState contact;
-    std::optional<SceneMotion> motion{}; // of the map by the hand
+    std::optional<SceneMotion> motion{}; // of the map by the hand, in the plane
     bool is_at_edge = false;             // beyond the edge of the map, which holds the hand back
     bool has_pressed_point = false;      // LoopSettings::is_placing: the button went down
     bool has_released_point = false;     // and up again
@@ -155,7 +158,8 @@ struct StepResult {
     double damping_n_s_per_m = 0;     // added for passivity
     std::uint32_t missed_samples = 0; // terrain samples not available at full resolution
     bool has_ground_changed = false;  // the contact model was notified of a terrain change
-    /// Of the surface straight below or above the hand, in the workspace; NaN outside the map.
+    /// Of the surface straight below or above the hand, in the workspace; NaN outside the map. On a
+    /// body, along the local vertical.
     double surface_z_m = std::numeric_limits<double>::quiet_NaN();
 };
 

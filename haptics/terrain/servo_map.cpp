@@ -1,8 +1,11 @@
 #include "haptics/terrain/servo_map.h"
 
+#include "core/contact/body_goal_frame.h"
+#include "core/contact/body_surface.h"
 #include "core/contact/resident_heights.h"
 
 #include <atomic>
+#include <cmath>
 #include <utility>
 
 namespace marsview {
@@ -15,15 +18,109 @@ std::uint64_t nextSerial()
 }
 
 template <typename Surface>
-class HeightsOf final : public SurfaceHeights {
+class FlatTouch final : public TouchSurface {
 public:
-    explicit HeightsOf(Surface surface)
-        : surface_(std::move(surface))
+    FlatTouch(GoalFrame frame, Surface surface)
+        : frame_(std::move(frame))
+        , surface_(std::move(surface))
     {}
-    double height(const GridPoint& at) const noexcept override { return surface_.height(at); }
+
+    ScenePoint toScene(const TracePoint& goal) const noexcept override
+    {
+        return frame_.toScene(goal);
+    }
+    TracePoint fromScene(const ScenePoint& point) const noexcept override
+    {
+        return frame_.fromScene(point);
+    }
+    bool isClamped(const TracePoint& goal) const noexcept override
+    {
+        return frame_.isClamped(goal);
+    }
+    ScenePoint overMap(const ScenePoint& point) const noexcept override
+    {
+        return frame_.frame().toScene(below(point), point.z);
+    }
+    Vec3 beyondMap(const ScenePoint& point) const noexcept override
+    {
+        const SceneFrame& frame = frame_.frame();
+        const GridPoint grid = frame.toGrid(point);
+        const GridPoint inside = onGrid(frame_.georeference(), grid);
+        return inside == grid ? Vec3{} : point - frame.toScene(inside, point.z);
+    }
+    double clearance(const ScenePoint& point) const noexcept override
+    {
+        return point.z - surface_.height(below(point));
+    }
+    HighWay highWay(const ScenePoint& proxy, const TracePoint& goal) const noexcept override
+    {
+        constexpr double kAboveAllM = 1e6;
+        const TracePoint last = frame_.fromScene(proxy);
+        return {.goals = {{{last.x, last.y, kAboveAllM}, {goal.x, goal.y, kAboveAllM}}},
+                .count = 2};
+    }
+    const Ellipsoid* body() const noexcept override { return nullptr; }
 
 private:
+    GridPoint below(const ScenePoint& point) const noexcept
+    {
+        return onGrid(frame_.georeference(), frame_.frame().toGrid(point));
+    }
+
+    GoalFrame frame_;
     Surface surface_;
+};
+
+class BodyTouch final : public TouchSurface {
+public:
+    BodyTouch(const BodyGoalFrame& frame, BodySurface surface)
+        : frame_(frame)
+        , surface_(std::move(surface))
+    {}
+
+    ScenePoint toScene(const TracePoint& goal) const noexcept override
+    {
+        return frame_.toScene(goal);
+    }
+    TracePoint fromScene(const ScenePoint& point) const noexcept override
+    {
+        return frame_.fromScene(point);
+    }
+    bool isClamped(const TracePoint& /*goal*/) const noexcept override { return false; }
+    ScenePoint overMap(const ScenePoint& point) const noexcept override { return point; }
+    Vec3 beyondMap(const ScenePoint& /*point*/) const noexcept override { return {}; }
+    double clearance(const ScenePoint& point) const noexcept override
+    {
+        return clearanceOver(surface_, point);
+    }
+    // Between two points three radii from the center, less than a right angle apart, a straight
+    // path stays more than two radii from it.
+    HighWay highWay(const ScenePoint& proxy, const TracePoint& goal) const noexcept override
+    {
+        const double radius_m = frame_.ellipsoid().equatorial_m;
+        const double high_m = 2.0 * radius_m / frame_.exaggeration();
+        const TracePoint last = frame_.fromScene(proxy);
+        const TracePoint begin{last.x, last.y, high_m};
+        const TracePoint end{goal.x, goal.y, high_m};
+        const Vec3 from = frame_.toScene(begin);
+        const Vec3 to = frame_.toScene(end);
+        if (dot(from, to) > 0.0) {
+            return {.goals = {{begin, end}}, .count = 2};
+        }
+        constexpr double kOpposite = 1e-3;
+        Vec3 between = from + to;
+        if (length(between) < kOpposite * radius_m) {
+            between =
+                std::abs(from.z) < 0.5 * length(from) ? Vec3{0.0, 0.0, 1.0} : Vec3{1.0, 0.0, 0.0};
+        }
+        const TracePoint over = frame_.fromScene(normalized(between) * (3.0 * radius_m));
+        return {.goals = {{begin, over, end}}, .count = 3};
+    }
+    const Ellipsoid* body() const noexcept override { return &frame_.ellipsoid(); }
+
+private:
+    BodyGoalFrame frame_;
+    BodySurface surface_;
 };
 
 template <typename Surface>
@@ -32,10 +129,14 @@ std::shared_ptr<ServoMap> madeOf(const GoalFrame& frame,
                                  std::shared_ptr<ServoTerrain> terrain,
                                  const ServoMapOptions& options)
 {
+    std::unique_ptr<MapContactModel> model =
+        makeContactModel(options.kind, surface, options.contact);
+    MapContactModel* const map_model = model.get();
     return std::make_shared<ServoMap>(
         ServoMap{.frame = frame,
-                 .model = makeContactModel(options.kind, surface, options.contact),
-                 .heights = std::make_unique<HeightsOf<Surface>>(surface),
+                 .model = std::move(model),
+                 .map_model = map_model,
+                 .surface = std::make_unique<FlatTouch<Surface>>(frame, surface),
                  .terrain = std::move(terrain),
                  .kind = options.kind,
                  .radius_m = options.contact.radius_m,
@@ -59,6 +160,23 @@ std::shared_ptr<ServoMap> makeServoMap(const GoalFrame& frame,
 {
     const TiledHeightfieldSurface surface(terrain->terrain(), frame.frame(), frame.exaggeration());
     return madeOf(frame, surface, std::move(terrain), options);
+}
+
+std::shared_ptr<ServoMap> makeServoMap(const std::shared_ptr<const Georeference>& georeference,
+                                       const std::shared_ptr<const BodyMesh>& mesh,
+                                       const ServoMapOptions& options)
+{
+    const BodySurface surface(mesh);
+    const BodyGoalFrame frame =
+        bodyGoalFrame(*georeference, mesh->positions().ellipsoid(), mesh->exaggeration());
+    return std::make_shared<ServoMap>(
+        ServoMap{.frame = GoalFrame(georeference, mesh->exaggeration()),
+                 .model = makeContactModel(options.kind, surface, options.contact),
+                 .surface = std::make_unique<BodyTouch>(frame, surface),
+                 .kind = options.kind,
+                 .radius_m = options.contact.radius_m,
+                 .map_id = options.map_id,
+                 .serial = nextSerial()});
 }
 
 } // namespace marsview

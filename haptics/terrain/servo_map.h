@@ -1,38 +1,43 @@
 // A map as the servo thread uses it.
 #pragma once
 
+#include "core/body/body_mesh.h"
 #include "core/contact/contact_model.h"
 #include "core/contact/goal_frame.h"
 #include "core/terrain/filled_heightfield.h"
 #include "haptics/terrain/servo_terrain.h"
+#include "haptics/terrain/touch_surface.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 
 namespace marsview {
 
-/// Heights of the surface that a contact model touches. Servo thread.
-class SurfaceHeights {
-public:
-    virtual ~SurfaceHeights() = default;
-    /// In scene meters, with the exaggeration, at a grid position, which is clamped to the grid.
-    virtual double height(const GridPoint& at) const noexcept = 0;
-};
-
 /// Created and destroyed by any thread except the servo thread; used only by the servo thread.
 struct ServoMap {
-    GoalFrame frame;
-    std::unique_ptr<MapContactModel> model;
-    std::unique_ptr<const SurfaceHeights> heights; // of the same surface
-    std::shared_ptr<ServoTerrain> terrain;         // null if the map is in memory
-    ContactModelKind kind = kContactModelDefault;  // of the model
-    double radius_m = 1.0;                         // of the model's sphere, if it has one
-    std::uint64_t map_id = 0;                      // identifies the touched map
-    std::uint64_t serial = 0;                      // unique for each ServoMap
-    bool is_touched = false;                       // the model already has a proxy
-
-    double height(const GridPoint& at) const noexcept { return heights->height(at); }
+    GoalFrame frame; // in the plane; a recording on the body takes from it which map this is
+    std::unique_ptr<ContactModel> model;
+    MapContactModel* map_model = nullptr; // the same model; null on the body
+    std::unique_ptr<const TouchSurface> surface;
+    std::shared_ptr<ServoTerrain> terrain{};      // null if the map is in memory
+    ContactModelKind kind = kContactModelDefault; // of the model
+    double radius_m = 1.0;                        // of the model's sphere, if it has one
+    std::uint64_t map_id = 0;                     // identifies the touched map
+    std::uint64_t serial = 0;                     // unique for each ServoMap
+    bool is_touched = false;                      // the model already has a proxy
 };
+
+/// The nearest position on the grid of a map.
+inline GridPoint onGrid(const Georeference& map, const GridPoint& at) noexcept
+{
+    const auto along = [](double value, std::size_t count) {
+        const auto last = static_cast<double>(count - 1);
+        return value >= 0.0 ? std::min(value, last) : 0.0; // also for NaN
+    };
+    return {along(at.column, map.columns()), along(at.row, map.rows())};
+}
 
 struct ServoMapOptions {
     ContactModelKind kind = kContactModelDefault;
@@ -48,6 +53,11 @@ std::shared_ptr<ServoMap> makeServoMap(const GoalFrame& frame,
 /// terrain.
 std::shared_ptr<ServoMap> makeServoMap(const GoalFrame& frame,
                                        std::shared_ptr<ServoTerrain> terrain,
+                                       const ServoMapOptions& options);
+/// A map on its body, with the exaggeration of the mesh. Goals and proxies in recordings are
+/// longitude, latitude and elevation (BodyGoalFrame).
+std::shared_ptr<ServoMap> makeServoMap(const std::shared_ptr<const Georeference>& georeference,
+                                       const std::shared_ptr<const BodyMesh>& mesh,
                                        const ServoMapOptions& options);
 
 } // namespace marsview

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <fmt/format.h>
 #include <limits>
+#include <string_view>
 #include <utility>
 
 namespace marsview {
@@ -15,6 +16,16 @@ namespace {
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 } // namespace
+
+std::string sessionColumns(GoalColumns goals)
+{
+    std::string columns(kSessionColumns);
+    if (goals == GoalColumns::Geographic) {
+        constexpr std::string_view kMapGoal = "x,y";
+        columns.replace(0, kMapGoal.size(), "lon,lat");
+    }
+    return columns;
+}
 
 std::string sessionLine(const TickRecord& record, std::int64_t begin_ns)
 {
@@ -29,11 +40,13 @@ std::string sessionLine(const TickRecord& record, std::int64_t begin_ns)
                        asText(record.ground.radius_m), asText(record.ground.exaggeration));
 }
 
-Result<std::unique_ptr<SessionRecorder>>
-SessionRecorder::begin(ServoLoop& loop, const std::string& path, std::uint64_t first_serial)
+Result<std::unique_ptr<SessionRecorder>> SessionRecorder::begin(ServoLoop& loop,
+                                                                const std::string& path,
+                                                                std::uint64_t first_serial,
+                                                                GoalColumns goals)
 {
     Result<TraceFile> file = TraceFile::begin(
-        path, fmt::format("{},{},{}", kSessionColumns, kGroundColumn, kMotionColumn));
+        path, fmt::format("{},{},{}", sessionColumns(goals), kGroundColumn, kMotionColumn));
     if (!file) {
         return std::move(file).error();
     }
@@ -144,15 +157,16 @@ void SessionRecorder::addGround(std::uint32_t count)
     }
 }
 
-Status saveFlight(const FlightRecorder& flight, const std::string& path)
+Status saveFlight(const FlightRecorder& flight, const std::string& path, GoalColumns goals)
 {
-    return saveFlight(flight.records(), path);
+    return saveFlight(flight.records(), path, goals);
 }
 
-Status saveFlight(const std::vector<TickRecord>& records, const std::string& path)
+Status
+saveFlight(const std::vector<TickRecord>& records, const std::string& path, GoalColumns goals)
 {
     Result<TraceFile> file = TraceFile::begin(
-        path, fmt::format("{},hand_x,hand_y,hand_z,tick_us,surface_z", kSessionColumns));
+        path, fmt::format("{},hand_x,hand_y,hand_z,tick_us,surface_z", sessionColumns(goals)));
     if (!file) {
         return std::move(file).error();
     }

@@ -3,6 +3,7 @@
 
 #include "core/base/result.h"
 #include "haptics/loop/servo_loop.h"
+#include "haptics/trace/goal_file.h"
 #include "haptics/trace/trace_file.h"
 
 #include <cstdint>
@@ -24,6 +25,9 @@ inline constexpr std::string_view kSessionColumns =
     "x,y,z,time_s,tick,contact,proxy_x,proxy_y,proxy_z,force_x_n,force_y_n,force_z_n,mode,reason,"
     "map,part,model,radius_m,exaggeration";
 
+/// The same for goals of another kind: on the body, lon, lat and z.
+std::string sessionColumns(GoalColumns goals);
+
 /// One line including its line break; times are relative to `begin_ns`.
 std::string sessionLine(const TickRecord& record, std::int64_t begin_ns);
 
@@ -38,8 +42,10 @@ public:
     /// first update of a model: for a running loop, rebuild the map, pass its serial as
     /// `first_serial`, and set() it after this call has returned; updates before its first one are
     /// skipped. Pass 0 for a loop that has not touched anything: everything is recorded.
-    static Result<std::unique_ptr<SessionRecorder>>
-    begin(ServoLoop& loop, const std::string& path, std::uint64_t first_serial = 0);
+    static Result<std::unique_ptr<SessionRecorder>> begin(ServoLoop& loop,
+                                                          const std::string& path,
+                                                          std::uint64_t first_serial = 0,
+                                                          GoalColumns goals = GoalColumns::Map);
     ~SessionRecorder();
     SessionRecorder(const SessionRecorder&) = delete;
     SessionRecorder& operator=(const SessionRecorder&) = delete;
@@ -71,10 +77,14 @@ private:
 
 /// Saves a flight recorder's ticks in the same columns, plus the stylus position and the duration
 /// of each tick. Goals are nan for ticks without a contact update.
-Status saveFlight(const std::vector<TickRecord>& records, const std::string& path);
+Status saveFlight(const std::vector<TickRecord>& records,
+                  const std::string& path,
+                  GoalColumns goals = GoalColumns::Map);
 /// Any thread except the servo thread; the loop may run and is not disturbed. A window copies
 /// `flight.records()`, which takes a millisecond or two, and saves the copy on another thread, so
 /// that the loop may end in the meantime.
-Status saveFlight(const FlightRecorder& flight, const std::string& path);
+Status saveFlight(const FlightRecorder& flight,
+                  const std::string& path,
+                  GoalColumns goals = GoalColumns::Map);
 
 } // namespace marsview

@@ -472,18 +472,41 @@ TEST(LoopCommand, CountsAddressesThatNoDeviceCanHaveAsUsageErrors)
     EXPECT_THAT(refusal("polhem:left"), HasSubstr("unknown part \"left\""));
 }
 
-TEST(LoopCommand, SaysThatDevicesTouchTheFlatMapOnly)
+// The recording of a simulated hand that strokes, pulls and zooms the body.
+TEST(LoopCommand, OnTheBodyTraceRepeatsTheRecording)
 {
-    const ProgramOutput body =
-        runCli({"loop", bundledMars(), "--device", "null:", "--scene", "body"});
-    EXPECT_EQ(body.exit_status, 1);
-    EXPECT_EQ(body.err,
-              "marsview-cli: --scene: devices touch the flat map only; leave out --scene "
-              "body, or trace goals with trace --scene body\n");
-    EXPECT_EQ(runCli({"loop", bundledMars(), "--device", "null:", "--scene", "flat", "--seconds",
-                      "0.1", "--json"})
-                  .exit_status,
-              0);
+    const TempFolder folder;
+    const std::string recording = folder.file("body.csv");
+    const nlohmann::json report =
+        looped({"--scene", "body", "--device", "sim:grab_s=0.1,lift_s=0.15", "--across", "100",
+                "--seconds", "0.4", "--record", recording});
+    EXPECT_EQ(report.at("scene"), "body");
+    EXPECT_GT(report.at("in_contact"), 30);
+    const std::string summary = folder.file("summary.json");
+    const ProgramOutput traced = runCli(
+        {"trace", "--scene", "body", bundledMars(), "--goals", recording, "--summary", summary});
+    ASSERT_EQ(traced.exit_status, 0) << traced.err;
+    EXPECT_EQ(traced.err, "");
+    const nlohmann::json again = nlohmann::json::parse(readFile(summary));
+    EXPECT_GT(again.at("updates"), 300);
+    EXPECT_EQ(again.at("differing_updates"), 0);
+    EXPECT_EQ(runCli({"trace", bundledMars(), "--goals", recording}).exit_status, 1)
+        << "its goals are not those of the plane";
+}
+
+TEST(LoopCommand, RefusesOnTheBodyWhatNeedsThePlane)
+{
+    const TempFolder folder;
+    const std::string goals = folder.write("goals.csv", "x,y,z\n1,2,3\n");
+    const ProgramOutput replay =
+        runCli({"loop", bundledMars(), "--scene", "body", "--device", "replay:" + goals});
+    EXPECT_EQ(replay.exit_status, 1);
+    EXPECT_EQ(replay.err,
+              "marsview-cli: --device: recordings are replayed on the flat map only; leave out "
+              "--scene body, or repeat a recording on the body with trace --scene body\n");
+    const ProgramOutput round =
+        runCli({"loop", bundledMars(), "--device", "null:", "--scene", "round"});
+    EXPECT_EQ(round.exit_status, 2);
 }
 
 } // namespace

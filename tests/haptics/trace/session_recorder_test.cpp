@@ -30,7 +30,7 @@ namespace marsview::test {
 namespace {
 
 // The model's result for a goal, as a recording contains it.
-RecordedUpdate updateOf(MapContactModel& model, const GoalFrame& frame, const TracePoint& goal)
+RecordedUpdate updateOf(ContactModel& model, const GoalFrame& frame, const TracePoint& goal)
 {
     const ContactState state = model.update(frame.toScene(goal));
     const bool is_moved = state.is_in_contact || frame.isClamped(goal);

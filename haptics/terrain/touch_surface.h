@@ -1,0 +1,56 @@
+// The surface that a tick touches, whether its map is laid out in the plane or lies on its body.
+#pragma once
+
+#include "core/base/vec.h"
+#include "core/contact/goal_frame.h"
+#include "core/geo/body.h"
+#include "core/geo/frames.h"
+
+#include <array>
+#include <cstddef>
+
+namespace marsview {
+
+/// Goals in free space, in order.
+struct HighWay {
+    static constexpr std::size_t kMax = 3;
+    std::array<TracePoint, kMax> goals{};
+    std::size_t count = 0;
+};
+
+/// The scene is the frame in which the contact model works: that of GoalFrame in the plane, the
+/// body-fixed frame on a body. Servo thread; nothing here allocates.
+class TouchSurface {
+public:
+    virtual ~TouchSurface() = default;
+    TouchSurface(const TouchSurface&) = delete;
+    TouchSurface& operator=(const TouchSurface&) = delete;
+
+    /// Goals and proxies as in recordings, and the same in the scene.
+    virtual ScenePoint toScene(const TracePoint& goal) const noexcept = 0;
+    virtual TracePoint fromScene(const ScenePoint& point) const noexcept = 0;
+    /// Whether a model replaces the goal by a point on the border of the map.
+    virtual bool isClamped(const TracePoint& goal) const noexcept = 0;
+
+    /// The nearest point over the map, horizontally. On a body every point counts as over the map:
+    /// outside a map that does not go around the body there is nothing to touch, and no wall.
+    virtual ScenePoint overMap(const ScenePoint& point) const noexcept = 0;
+    /// From there to the point; zero over the map.
+    virtual Vec3 beyondMap(const ScenePoint& point) const noexcept = 0;
+
+    /// Of a point over the surface straight below or above it, along the local vertical, in scene
+    /// meters. On a body it is NaN where the map has no surface; in the plane the map continues
+    /// with its edge.
+    virtual double clearance(const ScenePoint& point) const noexcept = 0;
+
+    /// Leads from a proxy, above all of the terrain, to straight above a goal.
+    virtual HighWay highWay(const ScenePoint& proxy, const TracePoint& goal) const noexcept = 0;
+
+    /// On which the map lies, around the origin of the scene; null in the plane.
+    virtual const Ellipsoid* body() const noexcept = 0;
+
+protected:
+    TouchSurface() = default;
+};
+
+} // namespace marsview
