@@ -9,10 +9,10 @@ cmake --preset clang --log-level=WARNING
 appstreamcli validate --no-net build/clang/packaging/*.metainfo.xml
 cmake --build --preset clang --target format-check
 mypy --strict --cache-dir build/mypy app/python/marsview/*.pyi
-# flatpak-builder only warns of what it does not understand.
-manifest=$(flatpak-builder --state-dir build/flatpak --show-manifest packaging/flatpak/*.yml 2>&1 >/dev/null)
-[ -z "$manifest" ] || {
-    echo "$manifest" >&2
+# flatpak-builder only warns of what it does not understand, and makes a folder where it runs.
+warnings=$(cd build && flatpak-builder --show-manifest ../packaging/flatpak/*.yml 2>&1 >/dev/null)
+[ -z "$warnings" ] || {
+    echo "$warnings" >&2
     exit 1
 }
 # The spelling of English: without German texts, the letters behind & in menus, and \n.
