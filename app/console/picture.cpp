@@ -43,7 +43,12 @@ cameraFrom(const PictureOptions& options, const Scene& scene, double exaggeratio
         camera.target = georeference.sceneFrame().toScene(
             grid, std::isnan(height_m) ? 0.0 : height_m * exaggeration);
     }
-    camera.distance_m = options.distance_m.value_or(home_distance_m);
+    if (options.look_at || options.distance_m) {
+        camera.distance_m = options.distance_m.value_or(home_distance_m);
+    } else {
+        camera = homeCamera(scene.box(exaggeration), options.viewport,
+                            ViewDirection{.azimuth = camera.azimuth, .tilt = camera.tilt});
+    }
     return scene.bounded(camera, exaggeration, Scene::Ground::Waiting);
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -152,10 +153,19 @@ Fit fitBetween(std::span<const ScenePoint> points,
     return {.across = (positive - negative) / 2.0, .depth = -(positive + negative) / (2.0 * slope)};
 }
 
-// The distance along a line that goes north and down through the box to where it leaves the box.
+// The distance along a line that goes through the box to where it leaves the box.
 double exitFrom(const SceneBox& box, const ScenePoint& from, const Vec3& forward)
 {
-    return std::min((box.maximum.y - from.y) / forward.y, (box.minimum.z - from.z) / forward.z);
+    double exit = std::numeric_limits<double>::infinity();
+    const auto meet = [&exit](double minimum, double maximum, double at, double step) {
+        if (step != 0.0) {
+            exit = std::min(exit, ((step > 0.0 ? maximum : minimum) - at) / step);
+        }
+    };
+    meet(box.minimum.x, box.maximum.x, from.x, forward.x);
+    meet(box.minimum.y, box.maximum.y, from.y, forward.y);
+    meet(box.minimum.z, box.maximum.z, from.z, forward.z);
+    return exit;
 }
 
 struct HomeView {
@@ -163,16 +173,17 @@ struct HomeView {
     double spare_m = 0.0; // how much nearer the eye could be if only the picture's height counted
 };
 
-// From the south, with all of `points`, which lie in `box`, in the picture.
+// With all of `points`, which lie in `box`, in the picture.
 HomeView homeView(std::span<const ScenePoint> points,
                   const SceneBox& box,
                   const Viewport& viewport,
-                  Angle tilt,
+                  const ViewDirection& from,
                   Angle field_of_view)
 {
     OrbitCamera camera;
     camera.field_of_view = field_of_view;
-    camera.tilt = tilt;
+    camera.azimuth = from.azimuth;
+    camera.tilt = from.tilt;
     const CameraAxes axes = axesOf(camera);
     const double slope = std::tan(field_of_view.radians() / 2.0) / kHomeMargin;
     const Fit across = fitBetween(points, axes.right, axes.forward, slope * viewport.aspect());
@@ -278,7 +289,12 @@ OrbitCamera retargeted(OrbitCamera camera, double distance_m)
 
 OrbitCamera homeCamera(const SceneBox& box, const Viewport& viewport, Angle field_of_view)
 {
-    return homeView(box.corners(), box, viewport, kHomeTilt, field_of_view).camera;
+    return homeView(box.corners(), box, viewport, {}, field_of_view).camera;
+}
+
+OrbitCamera homeCamera(const SceneBox& box, const Viewport& viewport, const ViewDirection& from)
+{
+    return homeView(box.corners(), box, viewport, from, OrbitCamera{}.field_of_view).camera;
 }
 
 OrbitCamera
@@ -298,10 +314,11 @@ fillingCamera(std::span<const SceneBox> boxes, const Viewport& viewport, Angle f
     Angle high = kFillingTiltMax;
     for (int i = 0; i < kHalvings; ++i) {
         const Angle middle = (low + high) * 0.5;
-        const bool is_wide = homeView(points, all, viewport, middle, field_of_view).spare_m > 0.0;
+        const bool is_wide =
+            homeView(points, all, viewport, {.tilt = middle}, field_of_view).spare_m > 0.0;
         (is_wide ? high : low) = middle;
     }
-    return homeView(points, all, viewport, (low + high) * 0.5, field_of_view).camera;
+    return homeView(points, all, viewport, {.tilt = (low + high) * 0.5}, field_of_view).camera;
 }
 
 namespace {

@@ -86,6 +86,13 @@ OrbitCamera retargeted(OrbitCamera camera, double distance_m);
 OrbitCamera
 homeCamera(const SceneBox& box, const Viewport& viewport, Angle field_of_view = Angle::degrees(40));
 
+/// The same from any direction.
+struct ViewDirection {
+    Angle azimuth{};
+    Angle tilt = kHomeTilt;
+};
+OrbitCamera homeCamera(const SceneBox& box, const Viewport& viewport, const ViewDirection& from);
+
 /// Shows all of the boxes, parts of a map, from the south: as large as the picture has room for, at
 /// the tilt between 20° and 50° at which they fill it best. `boxes` must not be empty.
 OrbitCamera fillingCamera(std::span<const SceneBox> boxes,

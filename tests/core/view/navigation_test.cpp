@@ -41,6 +41,28 @@ TEST(HomeCamera, ShowsTheWholeBoxFromTheSouth)
     }
 }
 
+TEST(HomeCamera, ShowsTheWholeBoxFromEveryDirection)
+{
+    for (const double azimuth_deg : {0.0, 37.0, 90.0, 160.0, 180.0, -120.0}) {
+        for (const double tilt_deg : {0.0, 20.0, 60.0, 85.0}) {
+            const ViewDirection from{.azimuth = Angle::degrees(azimuth_deg),
+                                     .tilt = Angle::degrees(tilt_deg)};
+            const OrbitCamera camera = homeCamera(kBox, kViewport, from);
+            EXPECT_EQ(camera.azimuth, from.azimuth);
+            EXPECT_EQ(camera.tilt, from.tilt);
+            double widest = 0.0;
+            for (const ScenePoint& corner : kBox.corners()) {
+                const auto pixel = project(camera, kViewport, corner);
+                ASSERT_TRUE(pixel);
+                widest = std::max({widest, std::abs(pixel->x / kViewport.width - 0.5),
+                                   std::abs(pixel->y / kViewport.height - 0.5)});
+            }
+            EXPECT_GT(widest, 0.4) << azimuth_deg << "°, " << tilt_deg << "°";
+            EXPECT_LE(widest, 0.5) << azimuth_deg << "°, " << tilt_deg << "°";
+        }
+    }
+}
+
 // The box of `picture`, as shares of its sides, in which the boxes appear.
 struct Covered {
     double width = 0.0;
