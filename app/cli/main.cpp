@@ -12,7 +12,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <fcntl.h>
 #include <fstream>
+#include <iostream>
 #include <iterator>
 #include <new>
 #include <stdexcept>
@@ -33,6 +35,18 @@ void addVersionTo(CLI::App& app)
     app.set_version_flag("--version", MARSVIEW_VERSION);
     for (CLI::App* command : app.get_subcommands({})) {
         addVersionTo(*command);
+    }
+}
+
+// A file or socket that is opened later would take the number of a closed stream: results would be
+// written into it, and reading from it would not end. Input is then empty, and output fails.
+void replaceClosedStreams()
+{
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+        if (fcntl(stream, F_GETFD) < 0) {
+            const int replaced = open("/dev/null", O_RDONLY); // the lowest free number
+            (void)replaced;
+        }
     }
 }
 
@@ -66,6 +80,12 @@ int refuseUsage(const CLI::App& app,
                      marsview::commandName(app, arguments).c_str());
     }
     return kExitUsage;
+}
+
+int refuseOutput(marsview::ErrorForm form)
+{
+    marsview::printError("stdout: writing the result failed", kExitFailed, form);
+    return kExitFailed;
 }
 
 // "FOLDER [HELP]": manual pages and completions of this program, or of the one whose help is in the
@@ -133,6 +153,9 @@ int run(const std::vector<std::string>& arguments, marsview::ErrorForm form)
         app.parse(*words);
     } catch (const CLI::Success& help) {
         app.exit(help);
+        if (!std::cout.flush()) {
+            return refuseOutput(form);
+        }
         return EXIT_SUCCESS;
     } catch (const CLI::ParseError& error) {
         return refuseUsage(app, arguments, marsview::usageMessage(error), form);
@@ -145,8 +168,7 @@ int run(const std::vector<std::string>& arguments, marsview::ErrorForm form)
         return kExitFailed;
     }
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) { // or an earlier part of it
-        marsview::printError("stdout: writing the result failed", kExitFailed, form);
-        return kExitFailed;
+        return refuseOutput(form);
     }
     return EXIT_SUCCESS;
 }
@@ -155,6 +177,7 @@ int run(const std::vector<std::string>& arguments, marsview::ErrorForm form)
 
 int main(int argc, char** argv)
 {
+    replaceClosedStreams();
     std::set_terminate(endWithOneLine);
     marsview::ErrorForm form = marsview::ErrorForm::Line;
     try {

@@ -86,6 +86,21 @@ TEST(Program, FailsWhereItsResultCannotBeWritten)
     }
 }
 
+TEST(Program, DoesNotUseClosedStreams)
+{
+    const auto shell = [](const std::string& line) {
+        return runProgram({"timeout", "60", "sh", "-c", line, MARSVIEW_CLI, bundledMars()});
+    };
+    const ProgramOutput input = shell("\"$0\" sample \"$1\" --stdin <&-");
+    EXPECT_EQ(input.exit_status, 0) << input.err;
+    EXPECT_EQ(input.out, "");
+    for (const char* line : {"\"$0\" sample \"$1\" --pixel 0 0 >&-", "\"$0\" --help >&-"}) {
+        const ProgramOutput output = shell(line);
+        EXPECT_EQ(output.exit_status, 1) << line;
+        EXPECT_TRUE(output.err.ends_with("stdout: writing the result failed\n")) << output.err;
+    }
+}
+
 TEST(Program, NamesAnUnusableOverride)
 {
     for (const auto& [option, value] :
