@@ -78,7 +78,8 @@ std::optional<ScenePoint> findAround(const ScenePoint& center,
 {
     constexpr int kHeadings = 16;
     double radius_m = radius_min_m;
-    while (radius_m <= radius_max_m) {
+    // Elevations of 1e200 m, which only nodata has, make boxes of infinite size.
+    while (radius_m <= radius_max_m && std::isfinite(radius_m)) {
         for (int i = 0; i < kHeadings; ++i) {
             const double heading = 2.0 * std::numbers::pi * i / kHeadings;
             const ScenePoint p =

@@ -388,5 +388,16 @@ TEST(Constrained, IsNotConstrainedByHolesInTheTerrain)
     EXPECT_EQ(constrained(camera, limits, nothing), constrained(camera, limits, {}));
 }
 
+TEST(Constrained, EndsInABoxOfInfiniteSize)
+{
+    SceneBox box = kBox;
+    box.maximum.z = 1e200; // the square of the diagonal overflows
+    const NavigationLimits limits = navigationLimits(box, 30.0);
+    ASSERT_TRUE(std::isinf(limits.distance_max_m));
+    const auto nothing = [](double /*east_m*/, double /*north_m*/) { return std::nan(""); };
+    const OrbitCamera camera = constrained(someCamera(), limits, nothing);
+    EXPECT_TRUE(std::isfinite(camera.target.x) && std::isfinite(camera.target.y));
+}
+
 } // namespace
 } // namespace marsview
