@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <optional>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -87,9 +88,13 @@ public:
         while (at_ < given_.size()) {
             const std::string& word = given_[at_];
             if (word == "--") {
-                words_.insert(words_.end(), given_.begin() + static_cast<std::ptrdiff_t>(at_),
-                              given_.end());
-                positional_count_ += given_.size() - at_ - 1;
+                words_.push_back(word);
+                ++at_;
+                while (at_ < given_.size()) {
+                    if (auto error = takePositional()) {
+                        return *error;
+                    }
+                }
                 break;
             }
             if (looksLikeOption(word)) {
@@ -223,6 +228,9 @@ private:
             }
             words_.push_back(name);
             return std::nullopt;
+        }
+        if (option->get_items_expected_max() < kOpenListMin && !taken_.insert(option).second) {
+            return usage(name, "given twice");
         }
         if (value) {
             pending_.push_back(*value);
@@ -383,7 +391,8 @@ private:
     const Words& given_;
     std::size_t at_ = 0;
     std::size_t positional_count_ = 0;
-    Words pending_; // the value after an equals sign
+    std::set<const CLI::Option*> taken_; // those with a value
+    Words pending_;                      // the value after an equals sign
     Words words_;
 };
 

@@ -58,7 +58,7 @@ std::string nearestWord(std::string_view word, std::span<const std::string> know
             continue;
         }
         const std::string name = inLowerCase(candidate);
-        constexpr std::size_t kBeginningMin = 3;
+        constexpr std::size_t kBeginningMin = 2;
         const bool is_beginning = letters >= kBeginningMin && name.starts_with(typed);
         const std::size_t distance = is_beginning ? 1 : editDistance(typed, name);
         if (distance < least) {

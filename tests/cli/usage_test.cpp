@@ -59,6 +59,8 @@ TEST(Usage, NamesUnknownOptionsAndSuggestsTheNearest)
 {
     EXPECT_EQ(refusal({"info", bundledMars(), "--jsno"}),
               "marsview-cli: --jsno: unknown option of info. Did you mean \"--json\"?");
+    EXPECT_EQ(refusal({"info", bundledMars(), "--js"}),
+              "marsview-cli: --js: unknown option of info. Did you mean \"--json\"?");
     EXPECT_EQ(refusal({"render", bundledMars(), "-o", "x.png", "--exagerration=3"}),
               "marsview-cli: --exagerration: unknown option of render. Did you mean "
               "\"--exaggeration\"?");
@@ -66,6 +68,16 @@ TEST(Usage, NamesUnknownOptionsAndSuggestsTheNearest)
     EXPECT_THAT(refusal({"info", bundledMars(), "-x"}), HasSubstr("-x: unknown option of info"));
     EXPECT_THAT(refusal({"devices", "everything"}),
                 HasSubstr("everything: unexpected argument of devices"));
+}
+
+TEST(Usage, RefusesOptionsAfterTheDoubleDashAndOptionsThatAreGivenTwice)
+{
+    EXPECT_EQ(refusal({"sample", "--", bundledMars(), "--pixel", "1", "2"}),
+              "marsview-cli: --pixel: unexpected argument of sample");
+    EXPECT_EQ(refusal({"sample", bundledMars(), "--pixel", "1", "2", "--pixel=3,4"}),
+              "marsview-cli: --pixel: given twice");
+    EXPECT_EQ(refusal({"render", bundledMars(), "-o", "a.png", "--output", "b.png"}),
+              "marsview-cli: --output: given twice");
 }
 
 TEST(Usage, RefusesValuesOfTheWrongFormOrOutsideTheirRange)
