@@ -9,6 +9,7 @@
 #include "core/terrain/surface_reader.h"
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
 #include <fmt/format.h>
 #include <iostream>
@@ -40,6 +41,13 @@ struct Position {
     double first = 0.0;
     double second = 0.0;
 };
+
+// Null unless both are numbers.
+Json pairJson(double first, double second)
+{
+    return std::isfinite(first) && std::isfinite(second) ? Json::array({first, second})
+                                                         : Json(nullptr);
+}
 
 class Sampler {
 public:
@@ -114,14 +122,14 @@ private:
         json["map"] = nullptr;
         json["lonlat"] = nullptr;
         if (grid) {
-            json["pixel"] = {asJson(grid->column), asJson(grid->row)};
+            json["pixel"] = pairJson(grid->column, grid->row);
             const MapPoint map = georeference_.toMap(*grid);
-            json["map"] = {asJson(map.x), asJson(map.y)};
+            json["map"] = pairJson(map.x, map.y);
             if (const auto point = georeference_.toGeographic(*grid)) {
                 const Angle latitude = latitude_kind_ == LatitudeKind::Planetographic
                                            ? info_.crs->ellipsoid()->planetographic(point->latitude)
                                            : point->latitude;
-                json["lonlat"] = {asJson(point->longitude.degrees()), asJson(latitude.degrees())};
+                json["lonlat"] = pairJson(point->longitude.degrees(), latitude.degrees());
             }
         }
         json["latitude_kind"] =

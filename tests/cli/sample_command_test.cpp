@@ -212,7 +212,10 @@ TEST(SampleCommand, PrintsOneLineForEveryLineOfItsInput)
     const ProgramOutput json =
         runCli({"sample", bundledMars(), "--pixel", "--stdin", "--json"}, "1 2\n\n");
     EXPECT_EQ(std::count(json.out.begin(), json.out.end(), '\n'), 2);
-    EXPECT_TRUE(nlohmann::json::parse(json.out.substr(json.out.find('\n')))["height"].is_null());
+    const auto empty = nlohmann::json::parse(json.out.substr(json.out.find('\n')));
+    for (const char* field : {"height", "pixel", "map", "lonlat"}) {
+        EXPECT_TRUE(empty[field].is_null()) << field;
+    }
 }
 
 } // namespace marsview::test
