@@ -186,6 +186,10 @@ Status sampleStdin(Sampler& sampler)
                                      "per line",
                                      number, kLineBytesMax)};
         }
+        constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+        if (number == 1 && line.starts_with(kByteOrderMark)) {
+            line.erase(0, kByteOrderMark.size());
+        }
         const std::optional<Position> position = parsePosition(line);
         if (!position) {
             constexpr std::size_t kQuotedMax = 60;

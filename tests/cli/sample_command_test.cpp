@@ -218,4 +218,14 @@ TEST(SampleCommand, PrintsOneLineForEveryLineOfItsInput)
     }
 }
 
+TEST(SampleCommand, ReadsInputThatBeginsWithAByteOrderMark)
+{
+    const std::vector<std::string> command{"sample", bundledMars(), "--pixel", "--stdin"};
+    const ProgramOutput output = runCli(command,
+                                        "\xEF\xBB\xBF"
+                                        "5,6\r\n7,8\r\n");
+    EXPECT_EQ(output.exit_status, 0) << output.err;
+    EXPECT_EQ(output.out, runCli(command, "5 6\n7 8\n").out);
+}
+
 } // namespace marsview::test
