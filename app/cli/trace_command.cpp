@@ -393,7 +393,7 @@ void addTraceCommand(CLI::App& app, CommandAction& run)
     command->add_option("--summary", options->summary, "JSON file for totals, means and times")
         ->type_name("FILE")
         ->transform(fileName());
-    command->add_option("-o,--output", options->output, "CSV file to write, default stdout")
+    command->add_option("-o,--output", options->output, "CSV file to write; default and -: stdout")
         ->type_name("FILE")
         ->transform(fileName());
     command->callback([options, &run] {

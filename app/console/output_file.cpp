@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
@@ -42,6 +43,12 @@ Status writeOutputFile(const std::string& path, std::string_view text)
                                  path, reason)};
     };
     std::error_code none;
+    if (path == "-") {
+        return std::fwrite(text.data(), 1, text.size(), stdout) == text.size() &&
+                       std::fflush(stdout) == 0
+                   ? Status(Done{})
+                   : Error{ErrorCode::Unreadable, "stdout: writing the result failed"};
+    }
     const fs::file_status status = fs::status(path, none);
     const bool is_new = status.type() == fs::file_type::not_found;
     if (!is_new && status.type() != fs::file_type::regular) {

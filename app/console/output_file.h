@@ -20,9 +20,9 @@ private:
     void (*before_)(int);
 };
 
-/// Writes `text` to `path`, completely or not at all. A regular file is written under another name
-/// in the same folder and then renamed; pipes and devices are written directly. Ctrl-C is ignored
-/// during the call. Unreadable, with the system's reason, on failure.
+/// Writes `text` to `path`, completely or not at all; "-" is standard output. A regular file is
+/// written under another name in the same folder and then renamed; pipes and devices are written
+/// directly. Ctrl-C is ignored during the call. Unreadable, with the system's reason, on failure.
 Status writeOutputFile(const std::string& path, std::string_view text);
 
 } // namespace marsview

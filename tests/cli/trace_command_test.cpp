@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -379,6 +380,10 @@ TEST(TraceCommand, WritesFilesWithTimesAndASummary)
         EXPECT_GT(json["ns"][quantile], 0.0);
         EXPECT_LE(json["ns"][quantile], json["ns"]["max"]);
     }
+    const ProgramOutput printed = runCli({"trace", bundledMountain(), "--goals", goals});
+    const ProgramOutput asked = runCli({"trace", bundledMountain(), "--goals", goals, "-o", "-"});
+    EXPECT_EQ(asked.out, printed.out) << "a minus sign is standard output";
+    EXPECT_FALSE(std::filesystem::exists("-"));
 }
 
 TEST(TraceCommand, RunsEveryModel)
