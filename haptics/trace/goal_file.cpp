@@ -33,6 +33,17 @@ bool isHeader(const TableWords& words, GoalColumns columns)
            fmt::format("{},{},{}", words[0], words[1], words[2]) == headerOf(columns);
 }
 
+// Lists of goals may have blanks in place of commas, and a comma at the end.
+void splitAsGoals(std::string_view line, TableWords& words)
+{
+    constexpr std::size_t kColumns = 3;
+    if (words.size() == 1) {
+        splitAtBlanks(line, words);
+    } else if (words.size() == kColumns + 1 && words.back().empty()) {
+        words.pop_back();
+    }
+}
+
 // Parses a line of three columns, or more if `has_more`.
 std::optional<TracePoint> parseGoal(const TableWords& words, bool has_more)
 {
@@ -81,6 +92,9 @@ readGoalRecording(const std::string& text, const std::string& name, GoalColumns 
             continue;
         }
         splitWords(line, words);
+        if (!reader) {
+            splitAsGoals(line, words);
+        }
         const auto refused = [&](std::string_view why) {
             return Error{ErrorCode::Invalid, fmt::format("{}: line {} {}", name, number, why)};
         };
@@ -98,8 +112,9 @@ readGoalRecording(const std::string& text, const std::string& name, GoalColumns 
         }
         const std::optional<TracePoint> goal = parseGoal(words, has_more_columns);
         if (!goal) {
-            return refused(fmt::format("is \"{}\"; three numbers separated by commas are needed",
-                                       quotedWord(line)));
+            return refused(
+                fmt::format("is \"{}\"; three numbers separated by commas or blanks are needed",
+                            quotedWord(line)));
         }
         if (reader) {
             if (const std::string problem = reader->read(words, number, recording);

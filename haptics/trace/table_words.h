@@ -1,6 +1,7 @@
-// Splits a line of a table at its commas.
+// Splits a line of a table at its commas or blanks.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,6 +32,17 @@ inline void splitWords(std::string_view line, TableWords& words)
             return;
         }
         line.remove_prefix(comma + 1);
+    }
+}
+
+/// As splitWords, for lines without commas: splits at blanks.
+inline void splitAtBlanks(std::string_view line, TableWords& words)
+{
+    words.clear();
+    for (line = trimmed(line); !line.empty(); line = trimmed(line)) {
+        const std::size_t blank = std::min(line.find_first_of(" \t"), line.size());
+        words.push_back(line.substr(0, blank));
+        line.remove_prefix(blank);
     }
 }
 

@@ -302,7 +302,10 @@ TEST(TraceCommand, ReadsGoalsWrittenByEditorsAndSpreadsheets)
         traced(bundledMountain(), "x,y,z\n560000,5116000,1000\n560100,5116050,900\n");
     for (const char* text : {"x,y,z\r\n560000,5116000,1000\r\n560100,5116050,900\r\n",
                              "\xef\xbb\xbfx,y,z\n560000,5116000,1000\n560100,5116050,900",
-                             "x, y, z\n 560000 ,\t5116000, 1e3\n\n+560100,5116050.0,900\n\n"}) {
+                             "x, y, z\n 560000 ,\t5116000, 1e3\n\n+560100,5116050.0,900\n\n",
+                             "x y z\n560000  5116000\t1000\n560100 5116050 900 \r\n",
+                             "x,y,z\n560000 5116000 1000\n560100,5116050,900,\n",
+                             "x,y,z,\n560000,5116000,1000,\n560100,5116050,900,\n"}) {
         const std::vector<Row> rows = traced(bundledMountain(), text);
         ASSERT_EQ(rows.size(), plain.size());
         for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -327,7 +330,8 @@ TEST(TraceCommand, NamesTheLineThatItCannotRead)
           Case{"x,y,z\n1,2,3,4\n", "line 2", "1,2,3,4"},
           Case{"x,y,z\n\n1,two,3\n", "line 3", "1,two,3"},
           Case{"x,y,z\n1,2,3 4\n", "line 2", "1,2,3 4"}, Case{"1,2,3\n", "line 1", "x,y,z"},
-          Case{"x,y,z\n1,,3\n", "line 2", "1,,3"}}) {
+          Case{"x,y,z\n1,,3\n", "line 2", "1,,3"}, Case{"x,y,z\n1,2,\n", "line 2", "1,2,"},
+          Case{"x,y,z\n1,2,3,,\n", "line 2", "1,2,3,,"}, Case{"x,y,z\n1 2\n", "line 2", "1 2"}}) {
         const std::string goals = folder.write("goals.csv", bad.text);
         const ProgramOutput output = runCli({"trace", bundledMountain(), "--goals", goals});
         EXPECT_EQ(output.exit_status, 1);
