@@ -166,6 +166,12 @@ std::optional<std::size_t> differingCount(const TraceOptions& options,
     return count;
 }
 
+// For messages.
+std::string goalsName(const TraceOptions& options)
+{
+    return options.goals == "-" ? std::string("--goals") : options.goals;
+}
+
 // Notices about the goals; empty if there are none.
 std::string noticeOf(const TraceOptions& options,
                      const GoalRecording& recording,
@@ -189,6 +195,15 @@ std::string noticeOf(const TraceOptions& options,
                 "is outside the map, and all its goals are clamped to the map's edge");
         }
     }
+    const auto refused =
+        std::count_if(updates.begin(), updates.end(),
+                      [](const TraceUpdate& update) { return update.state.counters.refused != 0; });
+    if (refused > 0) {
+        remarks.push_back(
+            fmt::format("has {} of {} goals that are not numbers or too far away; "
+                        "the proxy stayed where it was",
+                        refused, updates.size()));
+    }
     if (const auto count = differingCount(options, recording, updates); count && *count > 0) {
         remarks.push_back(
             fmt::format("has {} of {} updates with different results now; was the "
@@ -196,7 +211,7 @@ std::string noticeOf(const TraceOptions& options,
                         *count, updates.size()));
     }
     return remarks.empty() ? std::string()
-                           : fmt::format("{}: {}", options.goals, fmt::join(remarks, "; it "));
+                           : fmt::format("{}: {}", goalsName(options), fmt::join(remarks, "; it "));
 }
 
 nlohmann::ordered_json touchJson(const TraceTouch& touch)
@@ -297,8 +312,7 @@ Status runTrace(const TraceOptions& options)
     }
     const GoalColumns columns =
         options.scene == SceneKind::Body ? GoalColumns::Geographic : GoalColumns::Map;
-    const Result<GoalRecording> recording =
-        readGoalRecording(*text, options.goals == "-" ? "--goals" : options.goals, columns);
+    const Result<GoalRecording> recording = readGoalRecording(*text, goalsName(options), columns);
     if (!recording) {
         return recording.error();
     }

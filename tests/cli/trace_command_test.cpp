@@ -294,6 +294,10 @@ TEST(TraceCommand, ClampsGoalsOutsideTheMapAndRefusesInvalidOnes)
     EXPECT_EQ(json["refused_updates"], 4);
     EXPECT_EQ(json["updates"], 8);
     EXPECT_EQ(json["contact_updates"], 7);
+    const ProgramOutput output =
+        runCli({"trace", dem, "--goals", "-"}, "x,y,z\n500600,5199400,-500\nnan,5199400,-500\n");
+    EXPECT_THAT(output.err, testing::StartsWith("marsview-cli: --goals: has 1 of 2 goals that are "
+                                                "not numbers or too far away"));
 }
 
 TEST(TraceCommand, ReadsGoalsWrittenByEditorsAndSpreadsheets)
