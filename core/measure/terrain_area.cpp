@@ -203,8 +203,11 @@ private:
             return;
         }
         coverage.forEach([&](double from, double to, double weight) {
-            constexpr double kRounding = 1e-6;
-            crosses_itself = crosses_itself || weight > 1.0 + kRounding || weight < -kRounding;
+            // Of a cell. Edges, which are curves, meet within their tolerance.
+            constexpr double kSliver = 1e-5;
+            if (to - from > kSliver) {
+                noteWeight(weight);
+            }
             addRegion({from, 0.0}, {to, 0.0}, weight);
         });
         for (const EdgePart& part : parts) {
@@ -239,11 +242,16 @@ private:
         }
     }
 
-    // Both triangles whole, in closed form; false if the base cuts one of them.
-    bool addWhole(double weight)
+    void noteWeight(double weight)
     {
         constexpr double kRounding = 1e-6;
         crosses_itself = crosses_itself || weight > 1.0 + kRounding || weight < -kRounding;
+    }
+
+    // Both triangles whole, in closed form; false if the base cuts one of them.
+    bool addWhole(double weight)
+    {
+        noteWeight(weight);
         const auto corners = [](const LinearOnCell& f, std::size_t triangle) {
             return std::array{f.at_corner, f.at_corner + (triangle == 0 ? f.per_u : f.per_v),
                               f.at_corner + f.per_u + f.per_v};

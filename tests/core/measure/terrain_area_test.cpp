@@ -373,6 +373,25 @@ TEST(TerrainArea, ReportsEdgesThatCross)
     EXPECT_NEAR(eight.covered_m2, eight.geodesic_m2, 1e-9);
 }
 
+TEST(TerrainArea, ReportsNoCrossingOfTriangles)
+{
+    MapMaker maker;
+    const auto map = maker.make({.columns = 300,
+                                 .rows = 200,
+                                 .transform = {-122.165, 0.00027, 0.0, 42.98, 0.0, -0.00027},
+                                 .srs = "EPSG:4326"},
+                                [](std::size_t, std::size_t) { return 1.0; });
+    MeasuredTerrain terrain = terrainOf(*map);
+    Random random(7);
+    for (int i = 0; i < 30; ++i) {
+        std::vector<GroundPosition> triangle;
+        for (int k = 0; k < 3; ++k) {
+            triangle.push_back({random.uniform(-122.16, -122.09), random.uniform(42.93, 42.975)});
+        }
+        EXPECT_FALSE(areaOf(terrain, triangle).crosses_itself) << "triangle " << i;
+    }
+}
+
 TEST(TerrainArea, IsTheSameOfFileTilesAndLevels)
 {
     const auto mars = loadedMap(bundledMars());
