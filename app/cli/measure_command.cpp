@@ -39,9 +39,9 @@ void printVoidNotice(const MeasureOptions& options, double void_m)
 {
     if (void_m > 0.0) {
         std::fprintf(stderr,
-                     "marsview-cli: %s: %s m of the line are outside the map or on nodata; "
+                     "marsview-cli: %s: %.6g m of the line are outside the map or on nodata; "
                      "the length along the terrain is unknown\n",
-                     asOneLine(options.map.path).c_str(), asText(void_m).c_str());
+                     asOneLine(options.map.path).c_str(), void_m);
     }
 }
 
