@@ -176,7 +176,7 @@ void MainWindow::makeCenter()
     layout->addWidget(view_, 0, 0);
     layout->addWidget(globe_, 0, 0);
     globe_->hide();
-    new GlobeOverlays(*globe_, *overlays_); // a child of the globe
+    globe_overlays_ = new GlobeOverlays(*globe_, *overlays_); // a child of the globe
     layout->addWidget(notice_bar_, 0, 0, Qt::AlignTop);
     notice_bar_->raise();
     connect(notice_bar_, &NoticeBar::coverChanged, this,
@@ -278,6 +278,9 @@ void MainWindow::placeMarks()
     overlays_->labels()->keepClearOf(*annotation_marks_);
     picture_saver_->addMarks(*annotation_marks_);
     picture_saver_->addMarks(*measure_marks_);
+    globe_overlays_->addMarks(*new MeasureMarks(*measure_, globe_),
+                              *new AnnotationMarks(*annotate_, globe_),
+                              {notice_bar_, new NameField(*annotate_, *globe_)});
 }
 
 // Points of one kind snap to those of both.

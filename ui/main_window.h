@@ -15,6 +15,7 @@ class AnnotationController;
 class AnnotationMarks;
 class AnnotationPanel;
 class GeoreferencingPanel;
+class GlobeOverlays;
 class GlobeView;
 class HapticsController;
 class HapticsPanel;
@@ -114,6 +115,7 @@ private:
     TerrainView* view_ = nullptr;
     GlobeView* globe_ = nullptr;
     MapOverlays* overlays_ = nullptr;
+    GlobeOverlays* globe_overlays_ = nullptr;
     SessionController* controller_ = nullptr;
     std::unique_ptr<WindowActions> actions_;
     NoticeBar* notice_bar_ = nullptr;

@@ -44,32 +44,6 @@ Vec3 squareTo(const Vec3& up)
 
 } // namespace
 
-Horizon::Horizon(const Ellipsoid& ellipsoid, double lowest_m)
-    : polar_scale_(ellipsoid.equatorial_m / ellipsoid.polar_m)
-{
-    const double depth_m = std::max(-lowest_m, 0.0) * std::max(polar_scale_, 1.0);
-    const double radius_m = std::max(ellipsoid.equatorial_m - depth_m, 0.0);
-    radius_square_ = radius_m * radius_m;
-}
-
-// The region behind a sphere is convex: within the cone of tangents through the eye, beyond the
-// plane in which they touch.
-bool Horizon::hides(const OrientedBox& box, const ScenePoint& eye) const noexcept
-{
-    const auto scaled = [this](const Vec3& p) { return Vec3{p.x, p.y, p.z * polar_scale_}; };
-    const Vec3 from = scaled(eye);
-    const double tangent_square = dot(from, from) - radius_square_;
-    if (tangent_square <= 0.0) {
-        return false;
-    }
-    const auto corners = box.corners();
-    return std::all_of(corners.begin(), corners.end(), [&](const ScenePoint& corner) {
-        const Vec3 way = scaled(corner) - from;
-        const double toward = -dot(way, from);
-        return toward > tangent_square && toward * toward > tangent_square * dot(way, way);
-    });
-}
-
 BodyNodes::BodyNodes(std::shared_ptr<const SurfaceAnalysis> analysis,
                      std::shared_ptr<const BodyGrid> grid)
     : analysis_(std::move(analysis))

@@ -3,6 +3,7 @@
 
 #include "core/base/oriented_box.h"
 #include "core/body/body_grid.h"
+#include "core/globe/horizon.h"
 #include "core/terrain/surface_analysis.h"
 #include "core/view/node_space.h"
 
@@ -10,21 +11,6 @@
 #include <unordered_map>
 
 namespace marsview {
-
-/// What is behind the horizon of a body: behind the ellipsoid, lowered so far that all terrain is
-/// above it.
-class Horizon {
-public:
-    /// `lowest_m`: the exaggerated height of the lowest terrain.
-    Horizon(const Ellipsoid& ellipsoid, double lowest_m);
-
-    /// True only if no point of the box can be seen.
-    bool hides(const OrientedBox& box, const ScenePoint& eye) const noexcept;
-
-private:
-    double polar_scale_;   // of z, which makes the ellipsoid a sphere
-    double radius_square_; // of the lowered sphere
-};
 
 /// Boxes in the direction of the ground. For one thread at a time, except diagonalM().
 class BodyNodes final : public NodeSpace {

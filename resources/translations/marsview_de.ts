@@ -2742,8 +2742,8 @@ y %2</translation>
 <context>
     <name>marsview::GlobeLabels</name>
     <message>
-        <source>Names</source>
-        <translation>Namen</translation>
+        <source>Names and graticule</source>
+        <translation>Namen und Gradnetz</translation>
     </message>
 </context>
 <context>

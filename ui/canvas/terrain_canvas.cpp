@@ -139,9 +139,7 @@ void TerrainCanvas::setFrameTarget(std::chrono::milliseconds target)
 
 void TerrainCanvas::setLines(std::vector<DrapedLine> lines, LineSet set)
 {
-    std::vector<DrapedLine>& shown = lines_[static_cast<std::size_t>(set)];
-    if (!lines.empty() || !shown.empty()) {
-        shown = std::move(lines);
+    if (lines_.set(std::move(lines), set)) {
         parts_.view.update();
     }
 }
@@ -173,14 +171,12 @@ Result<bool> TerrainCanvas::drawPart(const OrbitCamera& camera,
                          .width = part.width(),
                          .height = part.height()};
     const auto draw_lines = [&] {
-        for (const std::vector<DrapedLine>& set : lines_) {
-            line_renderer_->draw(set, {.camera = camera,
-                                       .viewport = viewport,
-                                       .clip = renderer_->clip(camera, style.exaggeration),
-                                       .pixels_per_point = static_cast<double>(viewport.height) /
-                                                           parts_.view.height(),
-                                       .part = area});
-        }
+        lines_.draw(*line_renderer_, {.camera = camera,
+                                      .viewport = viewport,
+                                      .clip = renderer_->clip(camera, style.exaggeration),
+                                      .pixels_per_point = static_cast<double>(viewport.height) /
+                                                          parts_.view.height(),
+                                      .part = area});
     };
     const auto drawn = marsview::drawPart(
         *renderer_,
@@ -269,18 +265,12 @@ void TerrainCanvas::report(const DrawReport& report)
 void TerrainCanvas::paintLines()
 {
     const OrbitCamera& camera = parts_.camera.camera();
-    const double scale = parts_.projection.pixelsPerPoint();
-    for (const std::vector<DrapedLine>& lines : lines_) {
-        const PixelArea area = areaOf(lines, camera, viewportOf(parts_.view), scale);
-        if (area.width > 0 && area.height > 0) {
-            renderer_->presentDepth(parts_.view.defaultFramebufferObject(), area);
-            line_renderer_->draw(lines,
-                                 {.camera = camera,
-                                  .viewport = viewportOf(parts_.view),
-                                  .clip = renderer_->clip(camera, parts_.scene.style.exaggeration),
-                                  .pixels_per_point = scale});
-        }
-    }
+    lines_.paint(*renderer_, *line_renderer_,
+                 {.camera = camera,
+                  .viewport = viewportOf(parts_.view),
+                  .clip = renderer_->clip(camera, parts_.scene.style.exaggeration),
+                  .pixels_per_point = parts_.projection.pixelsPerPoint()},
+                 parts_.view.defaultFramebufferObject());
 }
 
 void TerrainCanvas::paintCursor()

@@ -5,12 +5,12 @@
 #include "core/base/result.h"
 #include "haptics/interaction/stylus.h"
 #include "ui/canvas/camera_controller.h"
+#include "ui/canvas/line_sets.h"
 #include "ui/canvas/shown_scene.h"
 #include "ui/canvas/touch_tool.h"
 #include "ui/canvas/view_projection.h"
 #include "ui/render/cursor_renderer.h"
 #include "ui/render/governed_picture.h"
-#include "ui/render/line_renderer.h"
 #include "ui/render/terrain_renderer.h"
 
 #include <QImage>
@@ -18,9 +18,7 @@
 #include <QString>
 #include <QTimer>
 
-#include <array>
 #include <chrono>
-#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -30,10 +28,6 @@ class QOpenGLWidget;
 class QRect;
 
 namespace marsview {
-
-/// Lines that are set together. The later ones are drawn over the others.
-enum class LineSet : std::uint8_t { Graticule, Overlays, Annotations, Measurements };
-inline constexpr std::size_t kLineSets = 4;
 
 /// Whether a picture shows the lines on the terrain.
 enum class PictureLines : std::uint8_t { Omitted, Drawn };
@@ -114,7 +108,7 @@ private:
     std::unique_ptr<GovernedPicture> picture_;
     std::unique_ptr<CursorRenderer> cursor_;
     std::unique_ptr<LineRenderer> line_renderer_;
-    std::array<std::vector<DrapedLine>, kLineSets> lines_;
+    LineSets lines_;
     std::chrono::milliseconds frame_target_{33};
     bool has_antialiasing_ = true;
     bool are_layers_sent_ = true;

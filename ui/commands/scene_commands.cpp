@@ -3,8 +3,12 @@
 #include "core/globe/body_navigation.h"
 #include "core/session/saved_view.h"
 #include "ui/canvas/terrain_view.h"
+#include "ui/controllers/annotation_controller.h"
 #include "ui/controllers/haptics/device_session.h"
+#include "ui/controllers/measure_controller.h"
 #include "ui/controllers/session_controller.h"
+#include "ui/controllers/vector_overlays.h"
+#include "ui/globe/globe_scene.h"
 #include "ui/globe/globe_view.h"
 #include "ui/panels/layer_model.h"
 #include "ui/window/status_readout.h"
@@ -44,28 +48,11 @@ bool isWhole(const TerrainView& view)
 
 SceneCommands::SceneCommands(const Parts& parts)
     : parts_(parts)
+    , globe_scene_(new GlobeScene(parts.globe, &parts.globe))
 {
     const WindowActions& actions = parts_.actions;
-    parts_.flat_actions += {actions.save_picture,
-                            actions.add_point,
-                            actions.finish_measurement,
-                            actions.remove_measurement,
-                            actions.remove_measurements,
-                            actions.open_vector,
-                            actions.vector_files->menuAction(),
-                            actions.stretch_to_view,
-                            actions.layer.go_to,
-                            actions.haptic_devices,
-                            actions.replay_touch};
-    parts_.flat_actions += {actions.add_annotation_point, actions.finish_annotation,
-                            actions.remove_annotations, actions.import_annotations};
-    parts_.flat_actions += actions.measure_kinds->actions() + actions.annotation_shapes->actions();
-    for (QAction* action : actions.tools->actions()) {
-        const Tool tool = static_cast<Tool>(action->data().toInt());
-        if (tool == Tool::Measure || tool == Tool::Annotate) {
-            parts_.flat_actions.append(action);
-        }
-    }
+    parts_.flat_actions += {actions.save_picture, actions.stretch_to_view, actions.layer.go_to,
+                            actions.haptic_devices, actions.replay_touch};
     parts_.globe.addActions(parts_.view.actions()); // their keys
     connectParts();
     showChoices();
@@ -242,17 +229,18 @@ void SceneCommands::setGlobeShown(bool is_shown)
     GlobeView& globe = parts_.globe;
     const bool has_focus = view.hasFocus() || globe.hasFocus();
     if (is_shown) {
-        if (view.tool() == Tool::Measure || view.tool() == Tool::Annotate) {
-            view.setTool(Tool::Pan);
-        }
         globe.setTool(view.tool());
         handToGlobe();
         follow();
+        drawOn(globe_scene_);
         view.hide();
+        view.setFocusProxy(&globe); // what begins there begins on the globe
         globe.show();
     } else {
         handToMap();
         globe.setTool(Tool::Pan); // lifts the stylus
+        drawOn(nullptr);
+        view.setFocusProxy(nullptr);
         globe.hide();
         globe.setLayers({});
         view.show();
@@ -274,6 +262,13 @@ void SceneCommands::setGlobeShown(bool is_shown)
     }
     parts_.readout.setPlace(std::nullopt);
     Q_EMIT shownChanged(is_shown);
+}
+
+void SceneCommands::drawOn(DrawingScene* scene)
+{
+    parts_.measuring.drawOn(scene);
+    parts_.annotating.drawOn(scene);
+    parts_.vector_files.drawOn(scene);
 }
 
 void SceneCommands::withhold(QAction& action)

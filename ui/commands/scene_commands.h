@@ -19,13 +19,18 @@ class QWidget;
 
 namespace marsview {
 
+class AnnotationController;
 class DeviceSession;
+class DrawingScene;
+class GlobeScene;
 class GlobeView;
 class MainToolBar;
 class LayerModel;
+class MeasureController;
 class SessionController;
 class StatusReadout;
 class TerrainView;
+class VectorOverlays;
 class WindowMessages;
 struct WindowActions;
 
@@ -49,6 +54,9 @@ public:
         const DeviceSession& device;
         StatusReadout& readout;
         WindowMessages& messages;
+        MeasureController& measuring;
+        AnnotationController& annotating;
+        VectorOverlays& vector_files;
         /// Further actions and widgets of the flat map alone.
         QList<QAction*> flat_actions;
         QList<QWidget*> flat_widgets;
@@ -76,6 +84,7 @@ private:
     void rememberHanded();
     void handToMap();
     void readOnGlobe();
+    void drawOn(DrawingScene* scene);
     void withhold(QAction& action);
     void release(QAction& action);
     /// Why the globe cannot be shown; empty where it can.
@@ -94,6 +103,7 @@ private:
     };
 
     Parts parts_;
+    GlobeScene* globe_scene_; // a child of the globe
     SceneChoice choice_ = SceneChoice::Automatic;
     bool is_globe_shown_ = false;
     bool is_withholding_ = false; // this changes an action, not its feature

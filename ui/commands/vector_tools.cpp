@@ -19,7 +19,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
 
 namespace marsview {
@@ -29,7 +28,6 @@ namespace {
 constexpr std::array<Rgb8, 6> kColors{Rgb8{255, 221, 64},  Rgb8{64, 220, 255}, Rgb8{255, 120, 200},
                                       Rgb8{150, 255, 100}, Rgb8{255, 150, 60}, Rgb8{200, 170, 255}};
 constexpr int kSwatchSide = 14;
-constexpr double kDistanceShare = 1.6; // of the extent, for all of it to be in sight
 
 } // namespace
 
@@ -173,7 +171,7 @@ void VectorTools::fillMenu()
             }
         });
         connect(menu->addAction(tr("&Go There")), &QAction::triggered, this,
-                [this, path] { goTo(path); });
+                [this, path] { overlays_->goTo(path); });
         connect(menu->addAction(tr("&Color…")), &QAction::triggered, this,
                 [this, path] { askColor(path); });
         menu->addSeparator();
@@ -203,24 +201,6 @@ void VectorTools::askColor(const std::string& path)
         }
     });
     dialog->open();
-}
-
-void VectorTools::goTo(const std::string& path)
-{
-    const auto box = overlays_->boxOf(path);
-    if (!box) {
-        return;
-    }
-    const double x = 0.5 * (box->min_x + box->max_x);
-    const double y = 0.5 * (box->min_y + box->max_y);
-    const double height_m = parts_.view.ground().height(x, y);
-    OrbitCamera camera = parts_.view.cameraGoal();
-    camera.target = {x, y, std::isfinite(height_m) ? height_m * parts_.view.exaggeration() : 0.0};
-    const double extent_m = std::max(box->max_x - box->min_x, box->max_y - box->min_y);
-    if (extent_m > 0.0) {
-        camera.distance_m = kDistanceShare * extent_m;
-    }
-    parts_.view.flyTo(camera);
 }
 
 } // namespace marsview

@@ -59,7 +59,6 @@ private:
     void add(const QString& file, const QString& crs, const QStringList& notices);
     void fillMenu();
     void askColor(const std::string& path);
-    void goTo(const std::string& path);
     const VectorOverlay* overlayOf(const std::string& path) const;
 
     Parts parts_;

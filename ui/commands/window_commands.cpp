@@ -2,6 +2,9 @@
 
 #include "ui/canvas/terrain_view.h"
 #include "ui/commands/picture_saver.h"
+#include "ui/controllers/annotation_controller.h"
+#include "ui/controllers/measure_controller.h"
+#include "ui/controllers/session_controller.h"
 #include "ui/overlay/annotation_marks.h"
 #include "ui/overlay/map_labels.h"
 #include "ui/overlay/map_overlays.h"
@@ -18,8 +21,10 @@
 #include "ui/window/window_messages.h"
 #include "ui/window/window_options.h"
 
+#include <QAction>
 #include <QFileInfo>
 #include <QLocale>
+#include <QMainWindow>
 #include <QMenu>
 #include <QObject>
 
@@ -43,7 +48,8 @@ flatActions(const MapOverlays& overlays, const SavedViews& views, const ReportEx
     QList<QAction*> actions{views.menu()->menuAction(), views.actions().fly_through,
                             reports.action()};
     for (QAction* action : overlays.terrainActions()) {
-        if (action->objectName() != QStringLiteral("names")) {
+        if (action->objectName() != QStringLiteral("names") &&
+            action->objectName() != QStringLiteral("graticule")) {
             actions.append(action);
         }
     }
@@ -209,8 +215,11 @@ WindowCommands::WindowCommands(const WindowParts& parts, const WindowOptions& op
              .device = parts.haptics.device(),
              .readout = parts.readout,
              .messages = parts.messages,
+             .measuring = parts.measuring,
+             .annotating = parts.annotating,
+             .vector_files = vector_files.overlays(),
              .flat_actions = flatActions(parts.overlays, views, reports),
-             .flat_widgets = {&parts.haptics_panel, &parts.measure_panel, &parts.views_panel},
+             .flat_widgets = {&parts.haptics_panel, &parts.views_panel},
              .layer_list = parts.layers.findChild<LayerModel*>()})
 {
     showMessages(parts.messages);

@@ -176,10 +176,9 @@ std::optional<QPointF> AnnotationController::labelPlace(const AnnotationItem& it
     // In the middle of a line or border, where it does not hide an end.
     const std::size_t index = item.isSingle() ? 0 : item.vertices.size() / 2;
     const auto point = geometry().scenePoint(item.vertices[index]);
-    const auto place = point ? view().positionOfPlace(*point) : std::nullopt;
-    return place && QRectF(view().rect()).contains(*place) && !geometry().isHidden(*point)
-               ? place
-               : std::nullopt;
+    const auto place = point ? scene().positionOf(*point) : std::nullopt;
+    return place && sightRect().contains(*place) && !geometry().isHidden(*point) ? place
+                                                                                 : std::nullopt;
 }
 
 } // namespace marsview

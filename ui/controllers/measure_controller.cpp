@@ -254,7 +254,7 @@ void MeasureController::hovered(const std::optional<QPointF>& position)
             continue;
         }
         for (std::size_t i = 0; i < leg.run.points.size(); ++i) {
-            const auto place = view().positionOfPlace(leg.run.points[i]);
+            const auto place = scene().positionOf(leg.run.points[i]);
             const double away = place ? distanceBetween(*place, *position) : nearest;
             if (away < nearest) {
                 nearest = away;
@@ -304,8 +304,8 @@ void MeasureController::addSymbol(std::vector<DrapedLine>& lines, const MeasureI
     if (!center || !std::isfinite(attitude->strike_deg)) {
         return;
     }
-    const double half_m = kSymbolPoints * view().devicePixelRatioF() *
-                          metersPerPixel(view().camera(), view().viewport(), *center);
+    const double half_m = kSymbolPoints * scene().view().devicePixelRatioF() *
+                          metersPerPixel(scene().camera(), scene().viewport(), *center);
     const auto away = [&](double azimuth_deg, double length_m) {
         return geometry().scenePoint(
             geometry().ground().ray(attitude->center, azimuth_deg).at(length_m));

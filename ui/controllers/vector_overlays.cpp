@@ -1,7 +1,6 @@
 #include "ui/controllers/vector_overlays.h"
 
 #include "core/vector/feature_placement.h"
-#include "core/view/frustum.h"
 #include "ui/controllers/file_work.h"
 #include "ui/text/body_text.h"
 
@@ -23,7 +22,6 @@ constexpr double kPiecePoints = 6.0; // a part of a line that is drawn straight
 constexpr std::size_t kPointsMax = 120000;
 constexpr std::size_t kMovingPointsMax = 8000;
 constexpr std::size_t kEdgePiecesMax = 400; // of one edge
-constexpr double kResolutionPoints = 1.0;   // the smallest detail that is drawn
 constexpr qint64 kRestShare = 9; // at most a tenth of the time goes into lines while moving
 constexpr std::size_t kAttributesMax = 8;
 
@@ -42,26 +40,11 @@ QString textOf(const FieldValue& value)
 
 VectorOverlays::VectorOverlays(TerrainView& view, FileWork& work, QObject* parent)
     : QObject(parent)
-    , view_(view)
+    , flat_(view)
     , work_(work)
 {
     pool_.setMaxThreadCount(1);
-    const auto draw_soon = [this] { draw_soon_.request(); };
-    connect(&view_, &TerrainView::sightChanged, this, [this] {
-        is_hasty_ = true;
-        draw_soon_.request();
-    });
-    connect(&view_, &TerrainView::exaggerationChanged, this, draw_soon);
-    connect(&view_, &TerrainView::pictureCompleted, this, [this] { // finer ground has come
-        is_hasty_ = false;
-        draw_soon_.request();
-    });
-    connect(&view_, &TerrainView::layersChanged, this, [this] {
-        for (const VectorOverlay& overlay : overlays_) {
-            place({.path = overlay.path, .crs = overlay.crs});
-        }
-        draw_soon_.request();
-    });
+    joinScene();
 }
 
 VectorOverlays::~VectorOverlays()
@@ -69,6 +52,40 @@ VectorOverlays::~VectorOverlays()
     work_.cancelOf(*this);
     pool_.clear();
     pool_.waitForDone(); // posted results are discarded with this object
+}
+
+void VectorOverlays::joinScene()
+{
+    connect(scene_, &DrawingScene::sightChanged, this, [this] {
+        is_hasty_ = true;
+        draw_soon_.request();
+    });
+    connect(scene_, &DrawingScene::exaggerationChanged, this, [this] { draw_soon_.request(); });
+    connect(scene_, &DrawingScene::pictureCompleted, this, [this] { // finer ground has come
+        is_hasty_ = false;
+        draw_soon_.request();
+    });
+    connect(scene_, &DrawingScene::mapsChanged, this, &VectorOverlays::placeAll);
+}
+
+void VectorOverlays::drawOn(DrawingScene* scene)
+{
+    DrawingScene* next = scene != nullptr ? scene : &flat_;
+    if (next != scene_) {
+        scene_->disconnect(this);
+        scene_->setLines({}, LineSet::Overlays);
+        scene_ = next;
+        joinScene();
+        placeAll();
+    }
+}
+
+void VectorOverlays::placeAll()
+{
+    for (const VectorOverlay& overlay : overlays_) {
+        place({.path = overlay.path, .crs = overlay.crs});
+    }
+    draw_soon_.request();
 }
 
 void VectorOverlays::open(const QString& file, const QString& crs)
@@ -84,44 +101,41 @@ void VectorOverlays::setSession(const Session& session)
         return;
     }
     overlays_ = session.overlays;
-    for (const VectorOverlay& overlay : overlays_) {
-        place({.path = overlay.path, .crs = overlay.crs});
-    }
-    draw_soon_.request();
+    placeAll();
 }
 
 // Reads the file, unless it is known, and finds where its features are on the map.
 void VectorOverlays::place(const Request& request)
 {
-    const std::shared_ptr<const Map> map = view_.map();
-    if (!map) {
+    const std::shared_ptr<const ScenePlan> plan = scene_->plan();
+    if (!plan) {
         return; // when a map is shown
     }
     Entry& entry = entries_[request.path];
     const bool is_known = !request.is_asked_for && entry.crs == request.crs;
-    if (is_known && (entry.has_failed || entry.map.lock() == map)) {
+    if (is_known && (entry.has_failed || entry.plan.lock() == plan)) {
         return;
     }
-    entry.map = map;
+    entry.plan = plan;
     entry.crs = request.crs;
     ++running_;
     const QString path = QString::fromStdString(request.path);
     //: In the status bar: %1 is a file
     const auto monitor = work_.begin(*this, tr("Reading %1").arg(QFileInfo(path).fileName()), path);
-    pool_.start([this, request, map, known = is_known ? entry.file : nullptr, monitor] {
+    pool_.start([this, request, plan, known = is_known ? entry.file : nullptr, monitor] {
         QMetaObject::invokeMethod(
             this,
-            [this, request, map = std::weak_ptr(map), monitor,
-             outcome = readFor(request, *map, known, *monitor)] {
+            [this, request, plan = std::weak_ptr(plan), monitor,
+             outcome = readFor(request, *plan, known, *monitor)] {
                 work_.end(monitor);
-                take(request, map, outcome);
+                take(request, plan, outcome);
             },
             Qt::QueuedConnection);
     });
 }
 
 VectorOverlays::Outcome VectorOverlays::readFor(const Request& request,
-                                                const Map& map,
+                                                const ScenePlan& plan,
                                                 std::shared_ptr<const VectorFile> known,
                                                 JobMonitor& monitor)
 {
@@ -148,11 +162,12 @@ VectorOverlays::Outcome VectorOverlays::readFor(const Request& request,
         outcome.file = std::make_shared<const VectorFile>(std::move(*file));
     }
     const FeatureCollection& content = outcome.file->content;
+    const Map& map = *plan.map;
     const Status fits =
         checkSameBody(request.path, content, map.georeference().crs(), map.info().body);
     if (fits) {
         const JobPart part(monitor, is_read ? 0.0 : kReadShare, 1.0);
-        outcome.placed = placedOn(map, *outcome.file, monitor);
+        outcome.placed = placedOn(plan, *outcome.file, monitor);
         if (!outcome.placed) {
             outcome.problem = Error{ErrorCode::Canceled, request.path + ": reading was canceled"};
         }
@@ -164,14 +179,15 @@ VectorOverlays::Outcome VectorOverlays::readFor(const Request& request,
 }
 
 void VectorOverlays::take(const Request& request,
-                          const std::weak_ptr<const Map>& map,
+                          const std::weak_ptr<const ScenePlan>& plan,
                           Outcome outcome)
 {
     --running_;
     Entry& entry = entries_[request.path];
+    const auto on = plan.lock();
     const bool is_first = !entry.file && !entry.has_failed;
     const bool is_canceled = outcome.problem && outcome.problem->code == ErrorCode::Canceled;
-    if (entry.map.lock() != map.lock() || entry.crs != request.crs) {
+    if (!on || entry.plan.lock() != on || entry.crs != request.crs) {
         return; // another map is shown by now
     }
     if (is_canceled) { // until it is opened again
@@ -188,8 +204,7 @@ void VectorOverlays::take(const Request& request,
     }
     // On a map of another body an overlay is hidden without a word, unless it was asked for.
     if (request.is_asked_for && outcome.likely) {
-        Q_EMIT isOnOtherBody(QString::fromStdString(request.path),
-                             bodyName(*map.lock()->info().body),
+        Q_EMIT isOnOtherBody(QString::fromStdString(request.path), bodyName(*on->map->info().body),
                              QString::fromStdString(outcome.likely->wkt()));
     } else if (outcome.problem && (request.is_asked_for || (is_first && !outcome.file))) {
         Q_EMIT failed(QString::fromStdString(outcome.problem->message));
@@ -206,12 +221,14 @@ void VectorOverlays::take(const Request& request,
 }
 
 std::shared_ptr<const VectorOverlays::Placed>
-VectorOverlays::placedOn(const Map& map, const VectorFile& file, JobMonitor& monitor)
+VectorOverlays::placedOn(const ScenePlan& plan, const VectorFile& file, JobMonitor& monitor)
 {
     constexpr double kPlaceShare = 0.7; // of the time; the rest is for the index
     constexpr std::size_t kBetweenLooks = 1024;
     auto placed = std::make_shared<Placed>();
-    const FeaturePlacement placement(file.content.crs, map.georeference());
+    const std::optional<Crs>& crs =
+        file.content.crs ? file.content.crs : plan.map->georeference().crs();
+    const FeaturePlacement placement(crs, plan.georeference);
     PlaneFeatures features;
     for (std::size_t layer = 0; layer < file.content.layers.size(); ++layer) {
         const std::vector<Feature>& all = file.content.layers[layer].features;
@@ -245,11 +262,12 @@ void VectorOverlays::drawLines()
     }
     drawn_at_.start();
     const std::size_t points_max = is_hasty_ ? kMovingPointsMax : kPointsMax;
+    const auto plan = scene_->plan();
     std::vector<const VectorOverlay*> shown;
     for (const VectorOverlay& overlay : overlays_) {
         const auto entry = entries_.find(overlay.path);
         if (overlay.is_visible && entry != entries_.end() && entry->second.placed &&
-            entry->second.map.lock() == view_.map() && view_.map()) {
+            entry->second.plan.lock() == plan && plan) {
             shown.push_back(&overlay);
         }
     }
@@ -261,7 +279,7 @@ void VectorOverlays::drawLines()
         addLines(*overlay, *entries_.at(overlay->path).placed, points_max / shown.size(), lines);
     }
     is_drawn_ = !lines.empty();
-    view_.setLines(std::move(lines), LineSet::Overlays);
+    scene_->setLines(std::move(lines), LineSet::Overlays);
     hasty_drawing_ns_ = is_hasty_ ? drawn_at_.nsecsElapsed() : 0;
     drawn_at_.start();
 }
@@ -271,39 +289,21 @@ void VectorOverlays::addLines(const VectorOverlay& overlay,
                               std::size_t points_max,
                               std::vector<DrapedLine>& lines) const
 {
-    const OrbitCamera& camera = view_.camera();
-    const Viewport viewport = view_.viewport();
-    const double scale = view_.devicePixelRatioF();
-    const SceneBox terrain = view_.ground().box(view_.exaggeration());
-    const Frustum frustum(camera, viewport);
-    const ScenePoint eye = eyeOf(camera);
-    const double pixel_share = metersPerPixel(camera, viewport) / camera.distance_m;
-    const auto resolution = [&](const PlaneBox& box) {
-        const SceneBox around{.minimum = {box.min_x, box.min_y, terrain.minimum.z},
-                              .maximum = {box.max_x, box.max_y, terrain.maximum.z}};
-        if (frustum.isOutside(around)) {
-            return std::numeric_limits<double>::infinity();
-        }
-        const double above_m = std::max(0.0, eye.z - terrain.maximum.z);
-        const double way_m = std::hypot(box.distance({eye.x, eye.y}), above_m);
-        return std::max(kResolutionPoints * scale * pixel_share * way_m, 1e-6);
-    };
+    // Details of a point of the screen.
+    const auto resolution = scene_->planResolution();
     const FeatureIndex::Selection selection = placed.index.select(resolution, points_max);
-    const auto on_ground = [&](double x, double y) {
-        return ScenePoint{x, y, view_.ground().height(x, y) * view_.exaggeration()};
-    };
     for (const auto& piece : selection.pieces) {
         DrapedLine line{.points = {}, .color = overlay.color, .width_points = kLineWidth};
-        const auto end_run = [&] { // no terrain there
+        const auto end_run = [&] { // no terrain there, or not on this side of the body
             if (line.points.size() > 1) {
                 lines.push_back(line);
             }
             line.points.clear();
         };
         const auto add = [&](double x, double y) {
-            const ScenePoint point = on_ground(x, y);
-            if (std::isfinite(point.z)) {
-                line.points.push_back(point);
+            const auto point = scene_->onTerrain(PlanePoint{x, y});
+            if (point && !scene_->isBehindHorizon(*point)) {
+                line.points.push_back(*point);
             } else {
                 end_run();
             }
@@ -324,11 +324,10 @@ void VectorOverlays::addLines(const VectorOverlay& overlay,
             PlaneBox box;
             box.include(a);
             box.include(b);
-            const double pixel_m = resolution(box);
-            const double pieces_wanted = std::isfinite(pixel_m)
-                                             ? std::hypot(b.x - a.x, b.y - a.y) /
-                                                   (kPiecePoints * pixel_m / kResolutionPoints)
-                                             : 1.0;
+            const double point_m = resolution(box);
+            const double pieces_wanted =
+                std::isfinite(point_m) ? std::hypot(b.x - a.x, b.y - a.y) / (kPiecePoints * point_m)
+                                       : 1.0;
             const auto pieces = static_cast<std::size_t>(
                 std::clamp(std::ceil(pieces_wanted), 1.0, static_cast<double>(kEdgePiecesMax)));
             for (std::size_t k = 1; k <= pieces; ++k) {
@@ -347,7 +346,7 @@ std::vector<VectorOverlays::Hit> VectorOverlays::featuresAt(const ScenePoint& pl
     for (auto overlay = overlays_.rbegin(); overlay != overlays_.rend(); ++overlay) {
         const auto entry = entries_.find(overlay->path);
         if (!overlay->is_visible || entry == entries_.end() || !entry->second.placed ||
-            entry->second.map.lock() != view_.map()) {
+            entry->second.plan.lock() != scene_->plan()) {
             continue;
         }
         const Placed& placed = *entry->second.placed;
@@ -372,13 +371,14 @@ std::vector<VectorOverlays::Hit> VectorOverlays::featuresAt(const ScenePoint& pl
     return hits;
 }
 
-std::optional<PlaneBox> VectorOverlays::boxOf(const std::string& path) const
+void VectorOverlays::goTo(const std::string& path)
 {
     const auto entry = entries_.find(path);
-    const bool is_here = entry != entries_.end() && entry->second.placed &&
-                         entry->second.map.lock() == view_.map() &&
-                         entry->second.placed->box.min_x <= entry->second.placed->box.max_x;
-    return is_here ? std::optional(entry->second.placed->box) : std::nullopt;
+    if (entry != entries_.end() && entry->second.placed &&
+        entry->second.plan.lock() == scene_->plan() &&
+        entry->second.placed->box.min_x <= entry->second.placed->box.max_x) {
+        scene_->flyToBox(entry->second.placed->box);
+    }
 }
 
 } // namespace marsview

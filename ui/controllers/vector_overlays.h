@@ -6,7 +6,7 @@
 #include "core/session/session.h"
 #include "core/vector/feature_index.h"
 #include "core/vector/vector_file.h"
-#include "ui/canvas/terrain_view.h"
+#include "ui/drawing/flat_scene.h"
 #include "ui/widgets/posted_call.h"
 
 #include <QElapsedTimer>
@@ -38,6 +38,9 @@ public:
     /// Cancels what is being read.
     ~VectorOverlays() override;
 
+    /// The overlays are drawn on another scene from now on; null for the flat map. The scene
+    /// outlives this, or is taken back before.
+    void drawOn(DrawingScene* scene);
     /// Reads a file for the map that is shown; wasRead(), failed() or isOnOtherBody() follows.
     /// `crs` replaces that of the file, as VectorOverlay::crs does.
     void open(const QString& file, const QString& crs = {});
@@ -49,10 +52,11 @@ public:
         QString file; // its name without folder
         std::vector<std::pair<QString, QString>> attributes;
     };
-    /// The features within `reach_m` of a place of the scene, of the overlay drawn last first.
+    /// The features within `reach_m` of a place of the scene of the flat map, of the overlay drawn
+    /// last first.
     std::vector<Hit> featuresAt(const ScenePoint& place, double reach_m) const;
-    /// Around all features of a file in the scene, in meters; empty if they are not on the map.
-    std::optional<PlaneBox> boxOf(const std::string& path) const;
+    /// Flies to where all features of a file can be seen, if they are on the map.
+    void goTo(const std::string& path);
     /// Something is being read or placed, or is about to be drawn.
     bool isBusy() const noexcept { return running_ > 0 || draw_soon_.isPending(); }
 
@@ -77,7 +81,7 @@ private:
     struct Entry {
         std::shared_ptr<const VectorFile> file; // null before it is read
         std::string crs;                        // in place of the file's
-        std::weak_ptr<const Map> map;           // that it is, or is being, placed on
+        std::weak_ptr<const ScenePlan> plan;    // that it is, or is being, placed on
         std::shared_ptr<const Placed> placed;   // null if it is of another body
         bool has_failed = false;
     };
@@ -93,22 +97,25 @@ private:
         bool is_asked_for = false;
     };
 
+    void joinScene();
+    void placeAll();
     void place(const Request& request);
     static Outcome readFor(const Request& request,
-                           const Map& map,
+                           const ScenePlan& plan,
                            std::shared_ptr<const VectorFile> known,
                            JobMonitor& monitor);
-    void take(const Request& request, const std::weak_ptr<const Map>& map, Outcome outcome);
+    void take(const Request& request, const std::weak_ptr<const ScenePlan>& plan, Outcome outcome);
     /// Null if canceled.
     static std::shared_ptr<const Placed>
-    placedOn(const Map& map, const VectorFile& file, JobMonitor& monitor);
+    placedOn(const ScenePlan& plan, const VectorFile& file, JobMonitor& monitor);
     void drawLines();
     void addLines(const VectorOverlay& overlay,
                   const Placed& placed,
                   std::size_t points_max,
                   std::vector<DrapedLine>& lines) const;
 
-    TerrainView& view_;
+    FlatScene flat_;
+    DrawingScene* scene_ = &flat_;
     FileWork& work_;
     std::vector<VectorOverlay> overlays_; // of the session
     std::map<std::string, Entry> entries_;

@@ -22,15 +22,16 @@ std::array<ScenePoint, 8> cornersOf(const ScenePoint& low, const ScenePoint& hig
 
 } // namespace
 
-DotSight::DotSight(const OrbitCamera& camera,
+DotSight::DotSight(const CameraPose& pose,
                    const Viewport& viewport,
                    double pixels_per_point,
                    double exaggeration,
-                   const QRectF& area)
+                   const QRectF& area,
+                   std::optional<Horizon> horizon)
     : exaggeration_(exaggeration)
     , area_(area)
+    , horizon_(horizon)
 {
-    const CameraPose pose(camera);
     // Half the height of the picture at a depth of 1.
     const double half = std::tan(0.5 * pose.field_of_view.radians());
     const double points = 0.5 * viewport.height / pixels_per_point / half;
@@ -43,7 +44,13 @@ DotSight::DotSight(const OrbitCamera& camera,
 
 std::optional<QPointF> DotSight::at(const ScenePoint& place) const
 {
-    const Vec3 p = ScenePoint{place.x, place.y, place.z * exaggeration_} - eye_;
+    const ScenePoint point = raised(place);
+    return horizon_ && horizon_->hides(point, eye_) ? std::nullopt : projected(point);
+}
+
+std::optional<QPointF> DotSight::projected(const ScenePoint& raised) const
+{
+    const Vec3 p = raised - eye_;
     const double depth = dot(p, axes_.forward);
     if (!(depth > 0.0)) {
         return std::nullopt;
@@ -59,7 +66,7 @@ std::optional<QRectF> DotSight::enclosing(const ScenePoint& low, const ScenePoin
     double right = -left;
     double bottom = -left;
     for (const ScenePoint& corner : cornersOf(low, high)) {
-        const auto place = at(corner);
+        const auto place = projected(raised(corner));
         if (!place) {
             return std::nullopt;
         }
@@ -76,8 +83,20 @@ std::optional<QRectF> DotSight::enclosing(const ScenePoint& low, const ScenePoin
 bool DotSight::isBehind(const ScenePoint& low, const ScenePoint& high) const
 {
     const auto corners = cornersOf(low, high);
-    return std::none_of(corners.begin(), corners.end(),
-                        [this](const ScenePoint& corner) { return at(corner).has_value(); });
+    return std::none_of(corners.begin(), corners.end(), [this](const ScenePoint& corner) {
+        return projected(raised(corner)).has_value();
+    });
+}
+
+bool DotSight::isHidden(const ScenePoint& low, const ScenePoint& high) const
+{
+    if (!horizon_) {
+        return false;
+    }
+    const auto corners = cornersOf(low, high);
+    return std::all_of(corners.begin(), corners.end(), [this](const ScenePoint& corner) {
+        return horizon_->hides(raised(corner), eye_);
+    });
 }
 
 DotIndex::DotIndex(std::vector<Dot> dots)
@@ -89,7 +108,7 @@ DotIndex::DotIndex(std::vector<Dot> dots)
     }
 }
 
-// Halves of equal number, across the longer side on the ground.
+// Halves of equal number, across the longest side.
 std::uint32_t DotIndex::build(std::uint32_t begin, std::uint32_t end)
 {
     Node node{.low = dots_[begin].place,
@@ -109,12 +128,14 @@ std::uint32_t DotIndex::build(std::uint32_t begin, std::uint32_t end)
     if (end - begin <= kLeafDots) {
         return at;
     }
-    const bool is_wide = node.high.x - node.low.x > node.high.y - node.low.y;
+    const Vec3 size = node.high - node.low;
+    const auto longest = size.z > std::max(size.x, size.y) ? &ScenePoint::z
+                         : size.x > size.y                 ? &ScenePoint::x
+                                                           : &ScenePoint::y;
     const std::uint32_t middle = begin + (end - begin) / 2;
-    std::nth_element(dots_.begin() + begin, dots_.begin() + middle, dots_.begin() + end,
-                     [is_wide](const Dot& a, const Dot& b) {
-                         return is_wide ? a.place.x < b.place.x : a.place.y < b.place.y;
-                     });
+    std::nth_element(
+        dots_.begin() + begin, dots_.begin() + middle, dots_.begin() + end,
+        [longest](const Dot& a, const Dot& b) { return a.place.*longest < b.place.*longest; });
     build(begin, middle);
     const std::uint32_t further = build(middle, end);
     nodes_[at].further = further;
@@ -158,6 +179,9 @@ void DotIndex::thinned(const DotSight& sight,
         return;
     }
     const auto may_have = [&](const Node& node) {
+        if (sight.isHidden(node.low, node.high)) {
+            return false;
+        }
         const auto box = sight.enclosing(node.low, node.high);
         return box ? box->intersects(sight.area()) && !grid.isTaken(*box)
                    : !sight.isBehind(node.low, node.high);
@@ -178,6 +202,9 @@ DotIndex::nearest(const DotSight& sight, QPointF position, double reach) const
         return found;
     }
     const auto may_have = [&](const Node& node) {
+        if (sight.isHidden(node.low, node.high)) {
+            return false;
+        }
         const auto box = sight.enclosing(node.low, node.high);
         return box ? box->adjusted(-reach, -reach, reach, reach).contains(position)
                    : !sight.isBehind(node.low, node.high);

@@ -1,6 +1,7 @@
 // Finds those of a million points that a picture has room for, without looking at all of them.
 #pragma once
 
+#include "core/globe/horizon.h"
 #include "core/view/camera.h"
 
 #include <QPointF>
@@ -18,26 +19,37 @@ class HandleGrid;
 /// Where places of the scene are on the screen, in points. A value, made once for a picture.
 class DotSight {
 public:
-    /// Of an area of the screen. Places are given without the exaggeration.
-    DotSight(const OrbitCamera& camera,
+    /// Of an area of the screen. Places are given without the exaggeration. The horizon, on a
+    /// body, hides what is behind it.
+    DotSight(const CameraPose& camera,
              const Viewport& viewport,
              double pixels_per_point,
              double exaggeration,
-             const QRectF& area);
+             const QRectF& area,
+             std::optional<Horizon> horizon = std::nullopt);
 
     const QRectF& area() const noexcept { return area_; }
-    /// Nothing behind the eye.
+    /// Nothing behind the eye or the horizon.
     std::optional<QPointF> at(const ScenePoint& place) const;
     /// Encloses all that is in a box; nothing where a part of it is behind the eye.
     std::optional<QRectF> enclosing(const ScenePoint& low, const ScenePoint& high) const;
     bool isBehind(const ScenePoint& low, const ScenePoint& high) const;
+    /// By the horizon.
+    bool isHidden(const ScenePoint& low, const ScenePoint& high) const;
 
 private:
+    ScenePoint raised(const ScenePoint& place) const
+    {
+        return {place.x, place.y, place.z * exaggeration_};
+    }
+    std::optional<QPointF> projected(const ScenePoint& raised) const;
+
     ScenePoint eye_;
     CameraAxes axes_; // right and up are as long as makes the quotient with the depth points
     QPointF center_;
     double exaggeration_;
     QRectF area_;
+    std::optional<Horizon> horizon_;
 };
 
 /// Points of the scene in a tree of boxes. A lookup takes about as long as what it finds, whatever

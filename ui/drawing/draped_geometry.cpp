@@ -1,7 +1,5 @@
 #include "ui/drawing/draped_geometry.h"
 
-#include <QRectF>
-
 #include <cmath>
 #include <utility>
 
@@ -11,15 +9,15 @@ namespace {
 // A part of a line is drawn straight if it is not longer on the screen, in points.
 constexpr double kPieceLength = 5.0;
 constexpr int kSplitsMin = 5; // so that none is lost between places out of the picture
-constexpr int kSplitsMax = 18;
+constexpr int kSplitsMax = 24;
 constexpr std::size_t kPiecesMax = 6000; // of a line
 
 } // namespace
 
 void DrapedGeometry::update()
 {
-    if (map_ != view_.map()) {
-        map_ = view_.map();
+    if (map_ != scene_->map()) {
+        map_ = scene_->map();
         geometry_ = map_ ? std::make_unique<MeasuredTerrain>(map_->georeference(),
                                                              readSamples(map_->heightfield()))
                          : nullptr;
@@ -38,13 +36,7 @@ std::optional<GroundPosition> DrapedGeometry::positionOf(const DrawnVertex& vert
 
 std::optional<ScenePoint> DrapedGeometry::scenePoint(GroundPosition position) const
 {
-    const auto grid = geometry_ ? geometry_->toGrid(position) : std::nullopt;
-    if (!grid) {
-        return std::nullopt;
-    }
-    ScenePoint point = map_->georeference().sceneFrame().toScene(*grid, 0.0);
-    point.z = view_.ground().height(point.x, point.y) * view_.exaggeration();
-    return std::isfinite(point.z) ? std::optional(point) : std::nullopt;
+    return geometry_ ? scene_->onTerrain(*geometry_, position) : std::nullopt;
 }
 
 std::optional<ScenePoint> DrapedGeometry::scenePoint(const DrawnVertex& vertex) const
@@ -53,11 +45,11 @@ std::optional<ScenePoint> DrapedGeometry::scenePoint(const DrawnVertex& vertex) 
     return position ? scenePoint(*position) : std::nullopt;
 }
 
-std::optional<ScenePoint> DrapedGeometry::levelPoint(const DrawnVertex& vertex) const
+std::optional<ScenePoint> DrapedGeometry::dotPoint(const DrawnVertex& vertex) const
 {
     auto point = scenePoint(vertex);
     if (point) {
-        point->z /= view_.exaggeration();
+        point->z /= scene_->dotExaggeration();
     }
     return point;
 }
@@ -72,20 +64,12 @@ std::vector<DrapedRun> DrapedGeometry::draped(const GroundLine& line) const
     const auto mark_at = [&](double distance_m) {
         Mark mark{distance_m, scenePoint(line.at(distance_m)), std::nullopt};
         if (mark.point) {
-            mark.screen = view_.positionOfPlace(*mark.point);
+            mark.screen = scene_->positionOf(*mark.point);
         }
         return mark;
     };
-    const QRectF sight = QRectF(view_.rect());
-    // Both on the same side of the picture.
     const auto is_outside = [&](const Mark& a, const Mark& b) {
-        if (!a.screen || !b.screen) {
-            return !a.screen && !b.screen;
-        }
-        return (a.screen->x() < sight.left() && b.screen->x() < sight.left()) ||
-               (a.screen->x() > sight.right() && b.screen->x() > sight.right()) ||
-               (a.screen->y() < sight.top() && b.screen->y() < sight.top()) ||
-               (a.screen->y() > sight.bottom() && b.screen->y() > sight.bottom());
+        return scene_->isOutOfSight(a.point, b.point, b.distance_m - a.distance_m);
     };
     const auto is_short = [](const Mark& a, const Mark& b) {
         return a.screen && b.screen &&
@@ -102,8 +86,8 @@ std::vector<DrapedRun> DrapedGeometry::draped(const GroundLine& line) const
     };
     std::size_t pieces = 0;
     const auto add = [&](const Mark& mark) {
-        if (!mark.point) {
-            end_run(); // no terrain there
+        if (!mark.point || scene_->isBehindHorizon(*mark.point)) {
+            end_run(); // no terrain there, or not on this side of the body
             return;
         }
         run.points.push_back(*mark.point);
@@ -127,16 +111,6 @@ std::vector<DrapedRun> DrapedGeometry::draped(const GroundLine& line) const
     split(split, first, last, 0);
     end_run();
     return runs;
-}
-
-bool DrapedGeometry::isHidden(const ScenePoint& place) const
-{
-    // Terrain in front of it, if any, is nearer by more than the picture's error.
-    const ScenePoint eye = eyeOf(view_.camera());
-    const double way_m = length(place - eye);
-    const auto seen = view_.ground().cast(Ray{.origin = eye, .direction = normalized(place - eye)},
-                                          view_.exaggeration());
-    return seen && seen->distance_m < 0.99 * way_m;
 }
 
 } // namespace marsview

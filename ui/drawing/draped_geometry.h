@@ -3,7 +3,7 @@
 
 #include "core/annotations/drawn_vertex.h"
 #include "core/measure/measured_terrain.h"
-#include "ui/canvas/terrain_view.h"
+#include "ui/drawing/drawing_scene.h"
 
 #include <QPointF>
 
@@ -19,18 +19,20 @@ struct DrapedRun {
     std::vector<double> distances_m; // of the points from the line's beginning
 };
 
-/// On the topmost map of a view, which outlives it. GUI thread; reads no samples from disk.
+/// On the topmost map of a scene, which outlives it. GUI thread; reads no samples from disk.
 class DrapedGeometry {
 public:
-    explicit DrapedGeometry(TerrainView& view)
-        : view_(view)
+    explicit DrapedGeometry(const DrawingScene& scene)
+        : scene_(&scene)
     {}
 
-    /// Follows the view. Until it is called, positions are those of the map before.
+    /// Continues on another scene.
+    void setScene(const DrawingScene& scene) { scene_ = &scene; }
+    /// Follows the scene. Until it is called, positions are those of the map before.
     void update();
     /// Whether there is no map.
     bool isEmpty() const noexcept { return geometry_ == nullptr; }
-    /// Of update(); the view may show another one by now.
+    /// Of update(); the scene may show another one by now.
     const std::shared_ptr<const Map>& map() const noexcept { return map_; }
     /// Only with a map.
     const Ground& ground() const { return geometry_->ground(); }
@@ -40,21 +42,21 @@ public:
     /// Empty outside the terrain.
     std::optional<ScenePoint> scenePoint(GroundPosition position) const;
     std::optional<ScenePoint> scenePoint(const DrawnVertex& vertex) const;
-    /// The same with a height that is not exaggerated.
-    std::optional<ScenePoint> levelPoint(const DrawnVertex& vertex) const;
+    /// As a DotIndex has it.
+    std::optional<ScenePoint> dotPoint(const DrawnVertex& vertex) const;
     template <typename Where>
     std::optional<QPointF> screenPoint(const Where& where) const
     {
         const auto point = scenePoint(where);
-        return point ? view_.positionOfPlace(*point) : std::nullopt;
+        return point ? scene_->positionOf(*point) : std::nullopt;
     }
     /// Split until its parts are short on the screen; a run for each stretch that has terrain.
     std::vector<DrapedRun> draped(const GroundLine& line) const;
     /// Whether terrain in front of a place of the scene hides it.
-    bool isHidden(const ScenePoint& place) const;
+    bool isHidden(const ScenePoint& place) const { return scene_->isHidden(place); }
 
 private:
-    TerrainView& view_;
+    const DrawingScene* scene_;
     std::shared_ptr<const Map> map_;
     std::unique_ptr<MeasuredTerrain> geometry_;
 };

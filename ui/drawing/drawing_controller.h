@@ -6,6 +6,7 @@
 #include "ui/drawing/draped_geometry.h"
 #include "ui/drawing/drawing_base.h"
 #include "ui/drawing/drawn_dots.h"
+#include "ui/drawing/flat_scene.h"
 #include "ui/drawing/handle_grid.h"
 #include "ui/widgets/posted_call.h"
 
@@ -36,35 +37,41 @@ public:
     /// A vertex near a position of the view.
     using Snap = std::function<std::optional<DrawnVertex>(QPointF)>;
 
-    /// Becomes the place tool of `view` for `tool`. View and undo stack outlive it.
+    /// Becomes the place tool of `view` for `tool`, and draws on it. View and undo stack outlive
+    /// it.
     DrawingController(
         TerrainView& view, QUndoStack& undo_stack, Tool tool, LineSet lines, QObject* parent)
         : DrawingBase(parent)
         , view_(view)
         , undo_stack_(undo_stack)
-        , geometry_(view)
+        , flat_(view)
+        , geometry_(flat_)
         , tool_(tool)
         , line_set_(lines)
     {
-        connect(&view_, &TerrainView::sightChanged, this, [this] {
-            is_moving_ = true;
-            drawSoon();
-        });
-        connect(&view_, &TerrainView::exaggerationChanged, this, &DrawingController::drawSoon);
-        connect(&view_, &TerrainView::layersChanged, this, [this] {
-            forgetPlaces();
-            drawSoon();
-        });
-        connect(&view_, &TerrainView::pictureCompleted, this, [this] {
-            is_moving_ = false;
-            if (geometry_.map() && geometry_.map()->heightfield().isTiled()) {
-                forgetPlaces(); // finer ground may have come
-            }
-            drawSoon();
-        });
-        view_.setPlaceTool(tool_, this);
+        joinScene();
     }
-    ~DrawingController() override { view_.setPlaceTool(tool_, nullptr); }
+    ~DrawingController() override { scene_->setPlaceTool(tool_, nullptr); }
+
+    /// Items are drawn, and points placed, on another scene from now on; null for that of the view.
+    /// The scene outlives this, or is taken back before.
+    void drawOn(DrawingScene* scene)
+    {
+        DrawingScene* next = scene != nullptr ? scene : &flat_;
+        if (next == scene_) {
+            return;
+        }
+        release(); // of a drag that is under way
+        hover(std::nullopt);
+        scene_->disconnect(this);
+        scene_->setPlaceTool(tool_, nullptr);
+        scene_->setLines({}, line_set_);
+        scene_ = next;
+        geometry_.setScene(*next);
+        joinScene();
+        forgetPlaces();
+        drawSoon();
+    }
 
     const State& state() const noexcept { return state_; }
     const Item* current() const { return itemOf(state_.current); }
@@ -215,26 +222,15 @@ public:
         if (item == nullptr) {
             return;
         }
-        constexpr double kInfinity = std::numeric_limits<double>::infinity();
-        ScenePoint low{kInfinity, kInfinity, 0.0};
-        ScenePoint high{-kInfinity, -kInfinity, 0.0};
+        std::vector<ScenePoint> places;
         for (const DrawnVertex& vertex : item->vertices) {
             if (const auto point = geometry_.scenePoint(vertex)) {
-                low = {std::min(low.x, point->x), std::min(low.y, point->y), point->z};
-                high = {std::max(high.x, point->x), std::max(high.y, point->y), point->z};
+                places.push_back(*point);
             }
         }
-        if (!(low.x <= high.x)) {
-            return;
+        if (!places.empty()) {
+            scene_->flyToAll(places);
         }
-        OrbitCamera camera = view_.cameraGoal();
-        camera.target = {0.5 * (low.x + high.x), 0.5 * (low.y + high.y), 0.5 * (low.z + high.z)};
-        const double extent_m = std::hypot(high.x - low.x, high.y - low.y);
-        if (extent_m > 0.0) {
-            constexpr double kDistanceShare = 1.8; // of the extent, for all of it to be in sight
-            camera.distance_m = kDistanceShare * extent_m;
-        }
-        view_.flyTo(camera);
     }
 
     std::optional<QPointF> namePlace(std::uint32_t id) const override
@@ -246,15 +242,19 @@ public:
         // In the middle of a line or border, where it does not hide an end.
         const std::size_t index = item->isSingle() ? 0 : item->vertices.size() / 2;
         const auto place = geometry_.screenPoint(item->vertices[index]);
-        return place && QRectF(view_.rect()).contains(*place) ? place : std::nullopt;
+        return place && sightRect().contains(*place) ? place : std::nullopt;
     }
 
     const std::vector<DrawnHandle>& handles() const override
     {
-        const HandlesOf now{.camera = view_.camera(),
-                            .size = view_.size(),
-                            .pixels_per_point = view_.devicePixelRatioF(),
-                            .exaggeration = view_.exaggeration(),
+        const CameraPose camera = scene_->camera();
+        const HandlesOf now{.eye = camera.eye,
+                            .forward = camera.axes.forward,
+                            .up = camera.axes.up,
+                            .field_of_view_deg = camera.field_of_view.degrees(),
+                            .size = scene_->view().size(),
+                            .pixels_per_point = scene_->view().devicePixelRatioF(),
+                            .exaggeration = scene_->exaggeration(),
                             .is_moving = is_moving_,
                             .content = content_};
         if (!(handles_of_ == now)) {
@@ -276,7 +276,7 @@ public:
         constexpr std::size_t kPointsMax = 5000; // beyond, no name has room anyway
         std::vector<QRectF> boxes;
         std::size_t points = 0;
-        const QRectF sight(view_.rect());
+        const QRectF sight = sightRect();
         for (const Leg& leg : legs_) {
             const Item* item = itemOf(leg.item);
             if (item == nullptr || (!item->is_finished && leg.index + 1 >= item->vertices.size())) {
@@ -293,7 +293,7 @@ public:
                 if (++points > kPointsMax) {
                     return boxes;
                 }
-                const auto place = view_.positionOfPlace(point);
+                const auto place = scene_->positionOf(point);
                 if (!place || !sight.contains(*place)) {
                     end_box();
                     continue;
@@ -468,9 +468,31 @@ protected:
     const DrapedGeometry& geometry() const noexcept { return geometry_; }
     const std::vector<Leg>& legs() const noexcept { return legs_; }
     TerrainView& view() const noexcept { return view_; }
+    const DrawingScene& scene() const noexcept { return *scene_; }
+    QRectF sightRect() const { return QRectF(scene_->view().rect()); }
     const Session& session() const noexcept { return session_; }
 
 private:
+    void joinScene()
+    {
+        connect(scene_, &DrawingScene::sightChanged, this, [this] {
+            is_moving_ = true;
+            drawSoon();
+        });
+        connect(scene_, &DrawingScene::exaggerationChanged, this, &DrawingController::drawSoon);
+        connect(scene_, &DrawingScene::mapsChanged, this, [this] {
+            forgetPlaces();
+            drawSoon();
+        });
+        connect(scene_, &DrawingScene::pictureCompleted, this, [this] {
+            is_moving_ = false;
+            if (geometry_.map() && geometry_.map()->heightfield().isTiled()) {
+                forgetPlaces(); // finer ground may have come
+            }
+            drawSoon();
+        });
+        scene_->setPlaceTool(tool_, this);
+    }
     // True if the current item is finished now, false if it was, or lacks points and is removed.
     bool endCurrent()
     {
@@ -513,7 +535,10 @@ private:
 
     // What handles() depends on.
     struct HandlesOf {
-        OrbitCamera camera;
+        ScenePoint eye;
+        Vec3 forward;
+        Vec3 up;
+        double field_of_view_deg = 0.0;
         QSize size;
         double pixels_per_point = 1.0;
         double exaggeration = 1.0;
@@ -531,7 +556,7 @@ private:
     void placeDots() const
     {
         dots_.follow(state_.items, [this](const Item& item) {
-            return isShown(item) && hasHandles(item) ? geometry_.levelPoint(item.vertices.front())
+            return isShown(item) && hasHandles(item) ? geometry_.dotPoint(item.vertices.front())
                                                      : std::nullopt;
         });
     }
@@ -540,21 +565,16 @@ private:
         dots_.forgetPlaces();
         ++content_;
     }
-    DotSight dotSight(const QRectF& area) const
-    {
-        return {view_.camera(), view_.viewport(), view_.devicePixelRatioF(), view_.exaggeration(),
-                area};
-    }
     std::vector<DrawnHandle> listHandles() const
     {
         // Beyond, a picture shows no single one; while it moves, what was hidden stays so.
         constexpr std::size_t kHiddenTestsMax = 2000;
         std::vector<DrawnHandle> handles;
         std::vector<ScenePoint> points;
-        const QRectF sight(view_.rect());
+        const QRectF sight = sightRect();
         HandleGrid grid(sight, is_moving_ ? kMovingGap : kRestGap);
         const auto add = [&](const ScenePoint& point, std::uint32_t item, std::size_t index) {
-            const auto place = view_.positionOfPlace(point);
+            const auto place = scene_->positionOf(point);
             if (place && sight.contains(*place)) {
                 grid.take(*place);
                 handles.push_back({.place = *place, .item = item, .index = index});
@@ -603,7 +623,7 @@ private:
                  std::vector<ScenePoint>& points) const
     {
         std::vector<std::pair<DotIndex::Dot, QPointF>> found;
-        dots_.thinned(dotSight(area), grid, [&](const DotIndex::Dot& dot, QPointF place) {
+        dots_.thinned(scene_->dotSight(area), grid, [&](const DotIndex::Dot& dot, QPointF place) {
             if (dot.id != state_.current) {
                 found.emplace_back(dot, place);
             }
@@ -612,40 +632,35 @@ private:
                   [](const auto& a, const auto& b) { return a.first.id < b.first.id; });
         for (const auto& [dot, place] : found) {
             handles.push_back({.place = place, .item = dot.id, .index = 0});
-            points.push_back({dot.place.x, dot.place.y, dot.place.z * view_.exaggeration()});
+            points.push_back({dot.place.x, dot.place.y, dot.place.z * scene_->dotExaggeration()});
         }
     }
     // Within reach of a position of the view.
     std::optional<DotIndex::Near> dotNear(QPointF position, double reach) const
     {
         placeDots();
-        return dots_.nearest(dotSight(QRectF(view_.rect())), position, reach);
+        return dots_.nearest(scene_->dotSight(sightRect()), position, reach);
     }
 
     // Places ----------------------------------------------------------------------------------
 
     std::optional<Place> placeOf(const RayHit& hit) const
     {
-        // The scene is that of the topmost map.
-        if (geometry_.isEmpty() || geometry_.map() != view_.map()) {
+        if (geometry_.isEmpty()) {
             return std::nullopt;
         }
         const auto vertex = vertexAt(geometry_.map()->georeference(), hit.grid);
-        for (const Layer& layer : session_.layers) {
-            if (vertex && layer.map == geometry_.map()) {
-                return Place{*vertex, layer.id};
-            }
-        }
-        return std::nullopt;
+        return vertex ? onLayer(DrawingScene::Place{*vertex, geometry_.map()}) : std::nullopt;
     }
-    std::optional<LayerId> layerSeenAt(QPointF position) const
+    // Nothing while the scene shows another map than the session has.
+    std::optional<Place> onLayer(const std::optional<DrawingScene::Place>& place) const
     {
-        if (const auto ground = view_.groundUnder(position)) {
-            const auto& map = view_.ground().maps()[ground->index].map;
-            for (const Layer& layer : session_.layers) {
-                if (layer.map == map) {
-                    return layer.id;
-                }
+        if (!place || geometry_.isEmpty() || geometry_.map() != scene_->map()) {
+            return std::nullopt;
+        }
+        for (const Layer& layer : session_.layers) {
+            if (layer.map == place->map) {
+                return Place{place->vertex, layer.id};
             }
         }
         return std::nullopt;
@@ -653,12 +668,7 @@ private:
     // On the layer that is seen there, whatever layer is selected.
     std::optional<Place> placeAt(QPointF position) const
     {
-        const auto hit = view_.surfaceAt(position);
-        std::optional<Place> place = hit ? placeOf(*hit) : std::nullopt;
-        if (place) {
-            place->layer = layerSeenAt(position).value_or(place->layer);
-        }
-        return place;
+        return onLayer(scene_->placeAt(position));
     }
     // The same at a vertex that is near.
     std::optional<Place> snappedAt(QPointF position) const
@@ -679,17 +689,14 @@ private:
         }
     }
     // By crosshair, stylus or hand.
-    std::optional<Place> placeRead() const
-    {
-        const auto hit = view_.reading();
-        return hit ? placeBelow(*hit) : std::nullopt;
-    }
+    std::optional<Place> placeRead() const { return onLayer(scene_->placeRead()); }
     // On the layer that is seen there.
     std::optional<Place> placeBelow(const RayHit& hit) const
     {
         std::optional<Place> place = placeOf(hit);
         if (const auto position = place ? geometry_.screenPoint(place->vertex) : std::nullopt) {
-            place->layer = layerSeenAt(*position).value_or(place->layer);
+            const auto seen = placeAt(*position);
+            place->layer = seen ? seen->layer : place->layer;
         }
         return place;
     }
@@ -801,7 +808,7 @@ private:
                 continue;
             }
             for (const ScenePoint& point : leg.run.points) {
-                const auto place = view_.positionOfPlace(point);
+                const auto place = scene_->positionOf(point);
                 const auto there = place && distanceBetween(*place, position) <= kReach
                                        ? placeAt(position)
                                        : std::nullopt;
@@ -959,9 +966,9 @@ private:
         if (view_.tool() != tool_ || item == nullptr || item->is_finished) {
             return std::nullopt;
         }
-        return view_.readingSource() == ReadingSource::Stylus ? placeRead()
-               : pointer_                                     ? placeAt(*pointer_)
-                                                              : std::nullopt;
+        return scene_->isReadByStylus() ? placeRead()
+               : pointer_               ? placeAt(*pointer_)
+                                        : std::nullopt;
     }
 
     // The picture -----------------------------------------------------------------------------
@@ -976,7 +983,7 @@ private:
         }
         legs_.clear();
         if (geometry_.isEmpty()) {
-            view_.setLines({}, line_set_);
+            scene_->setLines({}, line_set_);
             Q_EMIT moved();
             return;
         }
@@ -1014,15 +1021,17 @@ private:
             }
         }
         addLines(lines);
-        view_.setLines(std::move(lines), line_set_);
+        scene_->setLines(std::move(lines), line_set_);
         Q_EMIT moved();
         if (map != geometry_.map() && !state_.items.empty()) {
             Q_EMIT changed(); // which items are shown
         }
     }
 
-    TerrainView& view_;
+    TerrainView& view_; // has the chosen tool
     QUndoStack& undo_stack_;
+    FlatScene flat_;
+    DrawingScene* scene_ = &flat_;
     DrapedGeometry geometry_;
     Tool tool_;
     LineSet line_set_;

@@ -61,7 +61,7 @@ void NameField::openFor(std::uint32_t item)
 {
     keep();
     const DrawnItem* named = drawing_->itemOf(item);
-    if (named == nullptr || !drawing_->namePlace(item)) {
+    if (named == nullptr || view_.isHidden() || !drawing_->namePlace(item)) {
         return; // nobody sees what would be named
     }
     item_ = item;

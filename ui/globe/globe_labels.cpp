@@ -1,6 +1,7 @@
 #include "ui/globe/globe_labels.h"
 
 #include "core/globe/body_camera.h"
+#include "core/globe/body_view.h"
 #include "ui/globe/globe_view.h"
 
 #include <QPainter>
@@ -9,12 +10,18 @@
 #include <utility>
 
 namespace marsview {
+namespace {
+
+constexpr qint64 kRestShare = 9; // at most a tenth of the time goes into lines while moving
+
+} // namespace
+
 GlobeLabels::GlobeLabels(GlobeView& globe)
     : LabelsOverlay(globe)
     , globe_(globe)
 {
     setObjectName(QStringLiteral("globeLabels"));
-    setAccessibleName(tr("Names"));
+    setAccessibleName(tr("Names and graticule"));
     connect(&globe, &GlobeView::placed, this, &GlobeLabels::showScene);
     connect(&globe, &GlobeView::sceneChanged, this, &GlobeLabels::showScene);
     connect(&globe, &GlobeView::sightChanged, this, &GlobeLabels::showSight);
@@ -40,6 +47,28 @@ void GlobeLabels::setNamesShown(bool is_shown)
     showScene();
 }
 
+void GlobeLabels::setGraticuleShown(bool is_shown)
+{
+    if (is_shown != is_graticule_shown_) {
+        is_graticule_shown_ = is_shown;
+        showSight();
+    }
+}
+
+void GlobeLabels::setCoordinateFormat(const CoordinateFormat& format)
+{
+    format_ = format;
+    showSight();
+}
+
+void GlobeLabels::setTaken(std::vector<QRectF> boxes)
+{
+    if (boxes != taken_) {
+        taken_ = std::move(boxes);
+        showSightSoon();
+    }
+}
+
 // Looks do not move names: only other maps do.
 void GlobeLabels::showScene()
 {
@@ -63,21 +92,80 @@ void GlobeLabels::showScene()
 
 void GlobeLabels::showSight()
 {
-    const bool had_labels = !labels_.empty();
+    const bool had_labels = !labels_.empty() || !values_.empty();
     labels_.clear();
-    if (names_ && !globe_.scene().isEmpty() && !globe_.isHidden()) {
+    values_.clear();
+    drawGraticule();
+    if (!globe_.scene().isEmpty() && !globe_.isHidden()) {
         const double scale = globe_.devicePixelRatioF();
-        const std::vector<LabelBox> taken = obstacleBoxes(scale);
-        labels_ = namesIn(poseOf(globe_.camera(), globe_.scene().ellipsoid()),
-                          {.viewport = globe_.viewport(),
-                           .pixels_per_point = scale,
-                           .exaggeration = globe_.exaggeration(),
-                           .obstacles = taken},
-                          *names_);
+        const CameraPose pose = poseOf(globe_.camera(), globe_.scene().ellipsoid());
+        std::vector<LabelBox> taken = obstacleBoxes(scale);
+        for (const QRectF& box : taken_) {
+            taken.push_back(scaled(box, scale));
+        }
+        values_ = valuesIn(
+            graticule_.labels,
+            {.longitude_step = graticule_.longitude_step,
+             .latitude_step = graticule_.latitude_step,
+             .coordinates = format_,
+             .body = globe_.terrain()->map()->info().body},
+            globe_.viewport(), scale,
+            [&](const ScenePoint& place) {
+                return marsview::isVisible(globe_.scene(), pose, globe_.viewport(),
+                                           globe_.exaggeration(), place, scale);
+            },
+            taken);
+        if (names_) {
+            labels_ = namesIn(pose,
+                              {.viewport = globe_.viewport(),
+                               .pixels_per_point = scale,
+                               .exaggeration = globe_.exaggeration(),
+                               .obstacles = taken},
+                              *names_);
+        }
     }
-    if (had_labels || !labels_.empty()) {
+    if (had_labels || !labels_.empty() || !values_.empty()) {
         update();
     }
+}
+
+void GlobeLabels::drawGraticule()
+{
+    const bool was_drawn = !graticule_.lines.empty();
+    // Where the terrain makes lines slow, those of a moment ago do while the camera moves.
+    if (was_drawn && is_graticule_shown_ && globe_.isMoving() && drawn_at_.isValid() &&
+        drawn_at_.nsecsElapsed() < kRestShare * drawing_ns_) {
+        return;
+    }
+    drawn_at_.start();
+    graticule_ = {};
+    const BodyScene& scene = globe_.scene();
+    if (is_graticule_shown_ && !scene.isEmpty() && !globe_.isHidden()) {
+        const HeightRange range = scene.range();
+        const double exaggeration = globe_.exaggeration();
+        const BodyView view(poseOf(globe_.camera(), scene.ellipsoid()), globe_.viewport(),
+                            scene.ellipsoid(),
+                            {.lowest_m = range.minimum_m,
+                             .highest_m = range.maximum_m,
+                             .exaggeration = exaggeration});
+        graticule_ = bodyGraticule(
+            globe_.camera(), view,
+            [&](const GeographicPoint& place) { return scene.height(place) * exaggeration; },
+            {.pixels_per_point = globe_.devicePixelRatioF(),
+             .notation = format_.angles,
+             .latitudes = format_.latitudesOn(globe_.terrain()->map()->info().body)});
+    }
+    if (!was_drawn && graticule_.lines.empty()) {
+        return;
+    }
+    std::vector<DrapedLine> lines;
+    lines.reserve(graticule_.lines.size());
+    for (const GraticuleLine& line : graticule_.lines) {
+        lines.push_back(graticuleLine(line));
+    }
+    globe_.setLines(std::move(lines), LineSet::Graticule);
+    drawing_ns_ = drawn_at_.nsecsElapsed();
+    drawn_at_.start();
 }
 
 // Empty without a stylus.
@@ -99,7 +187,15 @@ void GlobeLabels::paintEvent(QPaintEvent* /*event*/)
 {
     QPainter painter(this);
     const QRectF cursor = aroundStylus();
-    for (const Label& label : labels_) {
+    paintLabels(values_, cursor, painter);
+    paintLabels(labels_, cursor, painter);
+}
+
+void GlobeLabels::paintLabels(const std::vector<Label>& labels,
+                              const QRectF& cursor,
+                              QPainter& painter)
+{
+    for (const Label& label : labels) {
         if (label.box.intersects(cursor)) {
             continue;
         }

@@ -1,9 +1,12 @@
-// Names of places on the globe.
+// Names of places and the graticule on the globe.
 #pragma once
 
+#include "core/geo/coordinate_format.h"
+#include "core/graticule/body_graticule.h"
 #include "core/session/name_labels.h"
 #include "ui/widgets/labels_overlay.h"
 
+#include <QElapsedTimer>
 #include <QRectF>
 
 #include <memory>
@@ -14,7 +17,7 @@ namespace marsview {
 class GlobeView;
 
 /// No label lies over another, over an overlay or the stylus, or names what the terrain or the
-/// horizon hides.
+/// horizon hides. The lines of the graticule are drawn by the globe.
 class GlobeLabels final : public LabelsOverlay {
     Q_OBJECT
 
@@ -24,9 +27,14 @@ public:
     /// Null: none.
     void setNames(std::shared_ptr<const Gazetteer> names);
     void setNamesShown(bool is_shown);
+    void setGraticuleShown(bool is_shown);
+    void setCoordinateFormat(const CoordinateFormat& format);
+    /// What labels keep clear of, next to overlays: boxes in points.
+    void setTaken(std::vector<QRectF> boxes);
 
     using Label = PlacedName;
     const std::vector<Label>& labels() const noexcept { return labels_; }
+    const std::vector<Label>& graticuleLabels() const noexcept { return values_; }
 
 protected:
     void showSight() override;
@@ -34,6 +42,8 @@ protected:
 
 private:
     void showScene();
+    void drawGraticule();
+    void paintLabels(const std::vector<Label>& labels, const QRectF& cursor, QPainter& painter);
     QRectF aroundStylus() const;
 
     GlobeView& globe_;
@@ -41,7 +51,14 @@ private:
     std::unique_ptr<NameLabels> names_;          // on the terrain that is shown
     std::vector<std::weak_ptr<const Map>> maps_; // that it was made for
     bool are_names_shown_ = true;
-    std::vector<Label> labels_;
+    std::vector<QRectF> taken_;
+    bool is_graticule_shown_ = false;
+    CoordinateFormat format_;
+    BodyGraticule graticule_;
+    QElapsedTimer drawn_at_;    // since its lines were made last
+    qint64 drawing_ns_ = 0;     // for that
+    std::vector<Label> labels_; // names
+    std::vector<Label> values_; // of the graticule
 };
 
 } // namespace marsview

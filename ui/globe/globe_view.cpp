@@ -1,13 +1,10 @@
 #include "ui/globe/globe_view.h"
 
-#include "ui/canvas/overlay_cover.h"
 #include "ui/canvas/view_projection.h"
 
 #include <QLabel>
-#include <QMouseEvent>
 #include <QOpenGLContext>
 #include <QVBoxLayout>
-#include <QWheelEvent>
 
 #include <algorithm>
 #include <cmath>
@@ -27,14 +24,7 @@ constexpr Angle kKeyTurn = Angle::degrees(10.0);
 constexpr Angle kKeyTilt = Angle::degrees(5.0);
 constexpr milliseconds kKeyDuration{180};
 constexpr milliseconds kFlyDuration{1200};
-constexpr double kFlyFactor = 0.3; // of the distance, when flying nearer
-constexpr Angle kTurnPerPixel = Angle::degrees(0.3);
-constexpr double kWheelNotch = 120.0;
-constexpr double kWheelFactor = 0.8;
-constexpr double kWheelFactorFine = 0.96;
-constexpr milliseconds kWheelDuration{140};
 
-constexpr double kDeeperPerNotch = 1.15; // of the stylus' depth
 constexpr double kShadowPoints = 9.0;
 constexpr int kShadowSides = 24;
 
@@ -569,158 +559,6 @@ void GlobeView::zoom(double factor, QPointF position, milliseconds duration)
         duration);
 }
 
-void GlobeView::setTool(Tool tool)
-{
-    tool_ = tool;
-    drag_ = MapAction::None;
-    held_.reset();
-    touch_.setPressing(false);
-    touch_.setChosen(tool == Tool::Touch);
-    followTouch();
-    showCursor();
-}
-
-void GlobeView::mousePressEvent(QMouseEvent* event)
-{
-    if (scene_.isEmpty() || drag_ != MapAction::None) {
-        return;
-    }
-    motion_.stop();
-    drag_button_ = event->button();
-    drag_position_ = event->position();
-    pointer_ = event->position();
-    drag_ = actionOf(Gesture::Drag, event->button(), event->modifiers(), tool_);
-    if (drag_ == MapAction::Pan) {
-        held_ = heldAtPosition(event->position());
-    } else if (drag_ == MapAction::Orbit) {
-        motion_.jumpTo(onGround(motion_.camera()));
-    }
-    touch_.setPressing(drag_ == MapAction::Touch);
-    followTouch();
-    showCursor();
-}
-
-void GlobeView::mouseMoveEvent(QMouseEvent* event)
-{
-    if (drag_ == MapAction::None && isOverOverlay(*this, event->position())) {
-        forgetPointer();
-        return;
-    }
-    pointer_ = event->position();
-    const QPointF moved = event->position() - drag_position_;
-    if (drag_ == MapAction::Pan && held_ && !moved.isNull()) {
-        held_->pixel = pixelAt(event->position());
-        motion_.jumpTo(heldAt(motion_.camera(), scene_.ellipsoid(), viewport(), *held_));
-    } else if (drag_ == MapAction::Orbit && !moved.isNull()) {
-        motion_.jumpTo(
-            orbited(motion_.camera(), kTurnPerPixel * moved.x(), kTurnPerPixel * -moved.y()));
-    } else {
-        followTouch();
-        report();
-    }
-    if (drag_ != MapAction::None && !moved.isNull()) {
-        Q_EMIT gestureMade(drag_);
-    }
-    drag_position_ = event->position();
-}
-
-void GlobeView::mouseReleaseEvent(QMouseEvent* event)
-{
-    if (event->button() == drag_button_ || event->buttons() == Qt::NoButton) {
-        drag_ = MapAction::None;
-        held_.reset();
-        touch_.setPressing(false);
-        followTouch();
-        showCursor();
-    }
-}
-
-// Where the pointer is on the terrain, and how long a point of the screen is there.
-void GlobeView::followTouch()
-{
-    if (!touch_.isChosen()) {
-        return;
-    }
-    const auto ground = pointer_ ? groundAt(*pointer_) : std::nullopt;
-    if (!ground) {
-        touch_.follow(std::nullopt, 1.0);
-        return;
-    }
-    const Ellipsoid& ellipsoid = scene_.ellipsoid();
-    const CameraPose pose = poseOf(motion_.camera(), ellipsoid);
-    const ScenePoint point =
-        pickRay(pose, viewport(), pixelAt(*pointer_)).at(ground->hit.distance_m);
-    touch_.follow(BodyAim{.index = ground->index,
-                          .point = point,
-                          .up = localAxes(ellipsoid, placeOf(point, ellipsoid).foot).up},
-                  devicePixelRatioF() * metersPerPixel(pose, viewport(), point));
-}
-
-void GlobeView::showCursor()
-{
-    const auto& pose = touch_.pose();
-    const MapCursor cursor = mapCursor({.tool = tool_,
-                                        .drag = drag_,
-                                        .stylus = pose ? pose->mode : StylusMode::Hover,
-                                        .is_over_terrain = is_over_terrain_});
-    if (cursor != std::exchange(cursor_, cursor)) {
-        setCursor(cursorOf(cursor));
-    }
-}
-
-void GlobeView::mouseDoubleClickEvent(QMouseEvent* event)
-{
-    const auto ground =
-        event->button() == Qt::LeftButton ? groundAt(event->position()) : std::nullopt;
-    if (!ground) {
-        return;
-    }
-    const auto place = layers_[ground->index].map->georeference().toGeographic(ground->hit.grid);
-    if (place) {
-        flyTo(*place, onGround(motion_.goal()).distance_m * kFlyFactor);
-        Q_EMIT gestureMade(MapAction::FlyThere);
-    }
-}
-
-void GlobeView::wheelEvent(QWheelEvent* event)
-{
-    const double notches = event->angleDelta().y() / kWheelNotch;
-    if (scene_.isEmpty() || notches == 0.0) {
-        return;
-    }
-    event->accept();
-    const Gesture gesture = touch_.isPressing() ? Gesture::WheelWhilePressing : Gesture::Wheel;
-    const MapAction action = actionOf(gesture, Qt::NoButton, event->modifiers(), tool_);
-    if (action == MapAction::PressDeeper) {
-        touch_.deepen(std::pow(kDeeperPerNotch, -notches));
-        followTouch();
-    } else {
-        const double factor = action == MapAction::ZoomFinely ? kWheelFactorFine : kWheelFactor;
-        zoom(std::pow(factor, notches), event->position(), kWheelDuration);
-    }
-    Q_EMIT gestureMade(action);
-}
-
-void GlobeView::leaveEvent(QEvent* event)
-{
-    QOpenGLWidget::leaveEvent(event);
-    pointer_.reset();
-    followTouch();
-    report();
-}
-
-void GlobeView::focusInEvent(QFocusEvent* event)
-{
-    QOpenGLWidget::focusInEvent(event);
-    report();
-}
-
-void GlobeView::focusOutEvent(QFocusEvent* event)
-{
-    QOpenGLWidget::focusOutEvent(event);
-    report();
-}
-
 void GlobeView::report()
 {
     const auto ground = reading();
@@ -786,6 +624,9 @@ void GlobeView::initializeGL()
         return;
     }
     renderer_ = std::move(renderer).value();
+    if (auto lines = LineRenderer::create()) {
+        line_renderer_ = std::move(lines).value();
+    }
     if (auto solids = CursorSolids::create()) {
         cursor_solids_ = std::move(solids).value();
     }
@@ -799,6 +640,7 @@ void GlobeView::releaseGraphics()
     if (renderer_) {
         makeCurrent();
         picture_.reset();
+        line_renderer_.reset();
         cursor_solids_.reset();
         renderer_.reset();
         doneCurrent();
@@ -830,7 +672,7 @@ void GlobeView::paintGL()
     }
     if (is_current_) {
         renderer_->present(defaultFramebufferObject());
-        paintCursor();
+        paintOver();
         return;
     }
     sendLayers();
@@ -842,7 +684,7 @@ void GlobeView::paintGL()
     }
     const DrawReport report = picture_->paint(request, style_, defaultFramebufferObject());
     is_current_ = true;
-    paintCursor();
+    paintOver();
     Q_EMIT detailChanged(report.error_px);
     const bool is_loading = stage_ != PictureStage::Moving && !report.is_complete;
     if (is_loading != std::exchange(is_loading_, is_loading)) {
@@ -901,10 +743,38 @@ std::vector<ScenePoint> GlobeView::shadowAt(const StylusPose& pose, double radiu
     return shadow;
 }
 
+void GlobeView::setLines(std::vector<DrapedLine> lines, LineSet set)
+{
+    if (lines_.set(std::move(lines), set)) {
+        update(); // over the picture that was kept
+    }
+}
+
+void GlobeView::paintOver()
+{
+    if (!scene_.isEmpty()) {
+        paintLines();
+        paintCursor();
+    }
+}
+
+void GlobeView::paintLines()
+{
+    const CameraPose pose = poseOf(motion_.camera(), scene_.ellipsoid());
+    if (line_renderer_) {
+        lines_.paint(*renderer_, *line_renderer_,
+                     {.camera = pose,
+                      .viewport = viewport(),
+                      .clip = renderer_->clip(pose, style_.exaggeration),
+                      .pixels_per_point = devicePixelRatioF()},
+                     defaultFramebufferObject());
+    }
+}
+
 void GlobeView::paintCursor()
 {
     const auto& stylus = touch_.pose();
-    if (!stylus || !cursor_solids_ || scene_.isEmpty()) {
+    if (!stylus || !cursor_solids_) {
         return;
     }
     const Ellipsoid& ellipsoid = scene_.ellipsoid();

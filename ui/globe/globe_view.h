@@ -8,7 +8,9 @@
 #include "core/terrain/ray_cast.h"
 #include "ui/canvas/camera_controller.h"
 #include "ui/canvas/gestures.h"
+#include "ui/canvas/line_sets.h"
 #include "ui/canvas/map_cursor.h"
+#include "ui/canvas/place_tool.h"
 #include "ui/canvas/shown_layer.h"
 #include "ui/canvas/tool.h"
 #include "ui/controllers/detached_jobs.h"
@@ -23,6 +25,7 @@
 #include <QTimer>
 
 #include <chrono>
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -58,8 +61,13 @@ public:
     const TerrainLook& look() const noexcept { return style_.look; }
     void setAntialiasing(bool is_wanted);
     void setFrameTarget(std::chrono::milliseconds target);
-    /// Pan, Touch or Orbit: what a drag with the left button does. Others pan.
+    /// What a drag with the left button does. A drag that is under way ends.
     void setTool(Tool tool);
+    /// Hears of clicks, drags and keys while `tool` is chosen. Null for none; otherwise it outlives
+    /// the view or is taken back before.
+    void setPlaceTool(Tool tool, PlaceTool* place_tool) { place_tools_[tool] = place_tool; }
+    /// Lines on the terrain in the body-fixed frame, drawn over every picture.
+    void setLines(std::vector<DrapedLine> lines, LineSet set);
     /// What moves the stylus' proxy.
     void setContactModel(ContactModelKind model) { touch_.setModel(model); }
     /// The stylus of the mouse, in the body-fixed frame; nothing while it is lifted or another tool
@@ -138,6 +146,7 @@ protected:
     void mouseReleaseEvent(QMouseEvent* event) override;
     void mouseDoubleClickEvent(QMouseEvent* event) override;
     void wheelEvent(QWheelEvent* event) override;
+    void keyPressEvent(QKeyEvent* event) override;
     void leaveEvent(QEvent* event) override;
     void focusInEvent(QFocusEvent* event) override;
     void focusOutEvent(QFocusEvent* event) override;
@@ -166,8 +175,12 @@ private:
     PixelPoint pixelAt(QPointF position) const;
     void fly(const BodyCamera& goal, std::chrono::milliseconds duration);
     void zoom(double factor, QPointF position, std::chrono::milliseconds duration);
+    PlaceTool* placeTool() const;
+    void endDrag();
     void followTouch();
     void showCursor();
+    void paintOver();
+    void paintLines();
     void paintCursor();
     std::vector<ScenePoint> shadowAt(const StylusPose& pose, double radius_m) const;
 
@@ -181,9 +194,12 @@ private:
     std::optional<BodyCamera> first_camera_; // when a layer is placed
     GlobeMotion motion_;
     Tool tool_ = Tool::Pan;
+    std::map<Tool, PlaceTool*> place_tools_;
+    LineSets lines_;
 
     MapAction drag_ = MapAction::None;
     Qt::MouseButton drag_button_ = Qt::NoButton;
+    bool may_be_click_ = false; // the drag has not left the place where it began
     QPointF drag_position_;
     bool was_crosshair_shown_ = false;
     bool is_over_terrain_ = false; // the pointer
@@ -196,6 +212,7 @@ private:
     MapCursor cursor_ = MapCursor::Arrow;
     std::unique_ptr<TerrainRenderer> renderer_;
     std::unique_ptr<GovernedPicture> picture_;
+    std::unique_ptr<LineRenderer> line_renderer_;
     std::unique_ptr<CursorSolids> cursor_solids_;
     std::chrono::milliseconds frame_target_{33};
     bool has_antialiasing_ = true;

@@ -64,6 +64,9 @@ void DrawnMarks::noteChange()
 // Who places something beside the marks has asked for them when the camera moved.
 void DrawnMarks::noteMove()
 {
+    if (parentWidget()->isHidden()) {
+        return; // the other scene is shown
+    }
     const std::uint64_t revision = drawing_ ? drawing_->handlesRevision() : 0;
     if (painted_of_ != revision) {
         update();

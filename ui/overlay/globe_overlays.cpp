@@ -5,6 +5,7 @@
 #include "ui/canvas/map_mouse.h"
 #include "ui/globe/globe_labels.h"
 #include "ui/globe/globe_view.h"
+#include "ui/overlay/annotation_marks.h"
 #include "ui/overlay/body_overview.h"
 #include "ui/overlay/compass.h"
 #include "ui/overlay/crosshair.h"
@@ -16,6 +17,7 @@
 #include "ui/overlay/legend_content.h"
 #include "ui/overlay/map_labels.h"
 #include "ui/overlay/map_overlays.h"
+#include "ui/overlay/measure_marks.h"
 #include "ui/overlay/minimap.h"
 #include "ui/overlay/overlay_layout.h"
 #include "ui/overlay/scale_bar_view.h"
@@ -99,6 +101,7 @@ GlobeOverlays::GlobeOverlays(GlobeView& globe, MapOverlays& flat)
     labels_->lower();
     labels_->setObstacles({minimap_, compass_, scale_bar_, legend_, hint_, force_meter_});
     labels_->setNames(flat_.labels()->names());
+    labels_->setCoordinateFormat(flat_.labels()->coordinateFormat());
     connectParts();
     placeCrosshair();
     showSettings();
@@ -112,6 +115,8 @@ void GlobeOverlays::connectParts()
     }
     connect(flat_.labels(), &MapLabels::namesChanged, labels_,
             [this] { labels_->setNames(flat_.labels()->names()); });
+    connect(flat_.labels(), &MapLabels::formatChanged, labels_,
+            [this] { labels_->setCoordinateFormat(flat_.labels()->coordinateFormat()); });
     connect(&flat_, &MapOverlays::settingsChanged, this, &GlobeOverlays::showSettings);
     connect(&globe_, &GlobeView::placed, this, &GlobeOverlays::readOverview);
     connect(&globe_, &GlobeView::sceneChanged, this, &GlobeOverlays::showScene);
@@ -132,6 +137,32 @@ void GlobeOverlays::connectParts()
     globe_.installEventFilter(this); // the legend is transparent to the mouse
 }
 
+void GlobeOverlays::addMarks(MeasureMarks& measurements,
+                             AnnotationMarks& annotations,
+                             const QList<QWidget*>& others)
+{
+    measure_marks_ = &measurements;
+    annotation_marks_ = &annotations;
+    annotations.setNeighbor(measurements);
+    annotations.giveWayToNeighbor();
+    measurements.setNeighbor(annotations);
+    for (DrawnMarks* marks :
+         {static_cast<DrawnMarks*>(&measurements), static_cast<DrawnMarks*>(&annotations)}) {
+        marks->setObstacles(
+            QList<QWidget*>{minimap_, compass_, scale_bar_, legend_, hint_, force_meter_}
+            << others);
+        marks->lower();
+        connect(marks, &DrawnMarks::marksChanged, labels_, [this] {
+            std::vector<QRectF> taken = measure_marks_->takenBoxes();
+            const std::vector<QRectF> more = annotation_marks_->takenBoxes();
+            taken.insert(taken.end(), more.begin(), more.end());
+            labels_->setTaken(std::move(taken));
+        });
+    }
+    labels_->lower(); // names give way
+    showSettings();
+}
+
 // What the flat map's overlays have been set to.
 void GlobeOverlays::showSettings()
 {
@@ -146,6 +177,10 @@ void GlobeOverlays::showSettings()
     };
     layout_->setCovered(flat_.coveredHeight());
     labels_->setNamesShown(is_on("names"));
+    labels_->setGraticuleShown(is_on("graticule"));
+    if (measure_marks_ != nullptr) {
+        measure_marks_->setHeightUnit(flat_.heightUnit());
+    }
     layout_->setWanted(minimap_, !overview_.isNull() && is_on("minimap"));
     layout_->setWanted(legend_, is_on("legend"));
     layout_->setWanted(compass_, has_terrain && is_on("compass"));

@@ -5,7 +5,9 @@
 #include "ui/controllers/detached_jobs.h"
 
 #include <QImage>
+#include <QList>
 #include <QObject>
+#include <QRectF>
 
 #include <cstddef>
 #include <memory>
@@ -13,6 +15,7 @@
 
 namespace marsview {
 
+class AnnotationMarks;
 class Compass;
 class Crosshair;
 class FocusFrame;
@@ -23,6 +26,7 @@ class GlobeView;
 class HandPointer;
 class Legend;
 class MapOverlays;
+class MeasureMarks;
 class Minimap;
 class OverlayLayout;
 class ScaleBarView;
@@ -47,6 +51,12 @@ public:
     GlobeLabels* labels() const noexcept { return labels_; }
     FocusFrame* focusFrame() const noexcept { return focus_frame_; }
 
+    /// Marks on the globe, which keep clear of its overlays and of `others`. Names of places keep
+    /// clear of them.
+    void addMarks(MeasureMarks& measurements,
+                  AnnotationMarks& annotations,
+                  const QList<QWidget*>& others);
+
 protected:
     bool eventFilter(QObject* watched, QEvent* event) override;
 
@@ -65,6 +75,8 @@ private:
 
     GlobeView& globe_;
     MapOverlays& flat_;
+    MeasureMarks* measure_marks_ = nullptr;
+    AnnotationMarks* annotation_marks_ = nullptr;
     Minimap* minimap_ = nullptr;
     Compass* compass_ = nullptr;
     GlobeLabels* labels_ = nullptr;  // below those that follow

@@ -3,7 +3,6 @@
 #include "core/view/label_placement.h"
 #include "ui/canvas/terrain_view.h"
 #include "ui/overlay/drawn_marks.h"
-#include "ui/text/coordinate_text.h"
 
 #include <QPainter>
 
@@ -14,10 +13,7 @@
 namespace marsview {
 namespace {
 
-constexpr double kEdge = 4.0;      // points between the edge of the picture and a label
-constexpr qint64 kRestShare = 9;   // at most a tenth of the time goes into lines while moving
-constexpr double kGridWidth = 1.0; // points
-constexpr Rgb8 kGridColor{225, 225, 225};
+constexpr qint64 kRestShare = 9; // at most a tenth of the time goes into lines while moving
 
 } // namespace
 
@@ -62,6 +58,7 @@ void MapLabels::setCoordinateFormat(const CoordinateFormat& format)
 {
     format_ = format;
     showSight();
+    Q_EMIT formatChanged();
 }
 
 void MapLabels::keepClearOf(const DrawnMarks& marks)
@@ -174,24 +171,11 @@ void MapLabels::drawGraticule()
     std::vector<DrapedLine> lines;
     lines.reserve(graticule_.lines.size());
     for (const GraticuleLine& line : graticule_.lines) {
-        lines.push_back({.points = line.points,
-                         .color = kGridColor,
-                         .width_points = kGridWidth,
-                         .hidden_parts = HiddenParts::Invisible});
+        lines.push_back(graticuleLine(line));
     }
     view_.setLines(std::move(lines), LineSet::Graticule);
     drawing_ns_ = drawn_at_.nsecsElapsed();
     drawn_at_.start();
-}
-
-QString MapLabels::valueText(const GraticuleLine& line) const
-{
-    const Body* const body = view_.map()->info().body;
-    return line.axis == GraticuleAxis::Meridian
-               ? longitudeText(line.value, format_, body,
-                               digitsFor(format_.angles, graticule_.longitude_step))
-               : latitudeText(line.value, format_,
-                              digitsFor(format_.angles, graticule_.latitude_step));
 }
 
 std::vector<PicturePart> MapLabels::partsFor(const OrbitCamera& camera,
@@ -257,42 +241,26 @@ void MapLabels::placeValues(const Sight& sight,
                             std::vector<LabelBox>& taken,
                             std::vector<Mark>& marks)
 {
-    const double scale = sight.scale;
-    const Viewport viewport = sight.viewport;
-    std::vector<LabelRequest> requests;
-    std::vector<QString> texts;
-    std::vector<ScenePoint> places;
+    std::vector<GraticuleLabel> labels;
     for (const GraticuleLine& line : graticule_.lines) {
-        const auto end = labelEnd(line, sight.camera, viewport);
-        if (!end) {
-            continue;
+        if (const auto end = labelEnd(line, sight.camera, sight.viewport)) {
+            labels.push_back(
+                {.axis = line.axis, .value = line.value, .place = end->place, .pixel = end->pixel});
         }
-        const QString text = valueText(line);
-        const QSizeF size = labelSize(text, labelFont(font(), LabelFont::Small)) * scale;
-        const double edge = kEdge * scale;
-        const auto inside = [edge](double middle, double length, int side) {
-            const double low = edge + 0.5 * length;
-            return std::clamp(middle, low, std::max(low, side - low));
-        };
-        requests.push_back({.place = {inside(end->pixel.x, size.width(), viewport.width),
-                                      inside(end->pixel.y, size.height(), viewport.height)},
-                            .width_px = size.width(),
-                            .height_px = size.height()});
-        texts.push_back(text);
-        places.push_back(end->place);
     }
-    const auto placed = placeLabels(
-        requests,
-        {.viewport = viewport, .gap_px = kEdge * scale, .count_max = 60, .obstacles = taken},
-        [&](std::size_t index) {
-            return marsview::isVisible(view_.ground(), sight.camera, viewport, view_.exaggeration(),
-                                       places[index]);
-        });
-    for (const PlacedLabel& label : placed) {
-        taken.push_back(label.box);
-        marks.push_back({.label = {.text = texts[label.request], .box = points(label.box, scale)},
+    const auto is_visible = [&](const ScenePoint& place) {
+        return marsview::isVisible(view_.ground(), sight.camera, sight.viewport,
+                                   view_.exaggeration(), place);
+    };
+    for (PlacedName& value : valuesIn(labels,
+                                      {.longitude_step = graticule_.longitude_step,
+                                      .latitude_step = graticule_.latitude_step,
+                                      .coordinates = format_,
+                                      .body = view_.map()->info().body},
+                                      sight.viewport, sight.scale, is_visible, taken)) {
+        marks.push_back({.label = {.text = std::move(value.text), .box = value.box},
                          .is_name = false,
-                         .size = LabelFont::Small,
+                         .size = value.size,
                          .point = {}});
     }
 }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/geo/coordinate_format.h"
-#include "core/session/graticule.h"
+#include "core/graticule/flat_graticule.h"
 #include "core/session/name_labels.h"
 #include "ui/overlay/picture_part.h"
 #include "ui/widgets/labels_overlay.h"
@@ -33,6 +33,7 @@ public:
     void setNamesShown(bool is_shown);
     void setGraticuleShown(bool is_shown);
     void setCoordinateFormat(const CoordinateFormat& format);
+    const CoordinateFormat& coordinateFormat() const noexcept { return format_; }
     /// Marks whose labels no name covers, or is covered by; they outlive this.
     void keepClearOf(const DrawnMarks& marks);
     /// Where the cursor of a touch is, in points; nothing while it is not seen. Names that would
@@ -55,6 +56,7 @@ public:
 Q_SIGNALS:
     /// Others are to be shown.
     void namesChanged();
+    void formatChanged();
 
 protected:
     void showSight() override;
@@ -84,7 +86,6 @@ private:
                     NameLabels& names,
                     const std::vector<LabelBox>& taken,
                     std::vector<Mark>& marks);
-    QString valueText(const GraticuleLine& line) const;
 
     TerrainView& view_;
     std::shared_ptr<const Gazetteer> gazetteer_;

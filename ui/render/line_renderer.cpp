@@ -105,8 +105,8 @@ struct DeviceSegment {
 // Scene to screen for one picture.
 class Screen {
 public:
-    Screen(const OrbitCamera& camera, const Viewport& viewport, const ClipRange& clip)
-        : eye_(eyeOf(camera))
+    Screen(const CameraPose& camera, const Viewport& viewport, const ClipRange& clip)
+        : eye_(camera.eye)
         , matrix_(projection(camera, viewport, clip) * viewRotation(camera))
         , viewport_(viewport)
         , infinite_z_((clip.far_m + clip.near_m) / (clip.far_m - clip.near_m))
@@ -346,7 +346,7 @@ void LineRenderer::draw(std::span<const DrapedLine> lines, const LinePicture& pi
 }
 
 PixelArea areaOf(std::span<const DrapedLine> lines,
-                 const OrbitCamera& camera,
+                 const CameraPose& camera,
                  const Viewport& viewport,
                  double pixels_per_point)
 {

@@ -26,7 +26,7 @@ struct DrapedLine {
 
 /// The picture of the terrain that lines are drawn over.
 struct LinePicture {
-    OrbitCamera camera;
+    CameraPose camera;
     Viewport viewport;
     ClipRange clip; // of the terrain's depths
     double pixels_per_point = 1.0;
@@ -58,7 +58,7 @@ private:
 
 /// The part of the picture that draw() changes; its width is 0 where that is nothing.
 PixelArea areaOf(std::span<const DrapedLine> lines,
-                 const OrbitCamera& camera,
+                 const CameraPose& camera,
                  const Viewport& viewport,
                  double pixels_per_point);
 

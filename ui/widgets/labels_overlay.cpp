@@ -1,7 +1,10 @@
 #include "ui/widgets/labels_overlay.h"
 
+#include "ui/text/coordinate_text.h"
+
 #include <QEvent>
 
+#include <algorithm>
 #include <utility>
 
 namespace marsview {
@@ -10,6 +13,8 @@ namespace {
 constexpr double kLargeShare = 0.25;  // of the picture's height, across what has a large label
 constexpr double kCursorReach = 22.0; // points around the cursor that it needs
 constexpr qsizetype kPicturesMax = 600;
+constexpr double kEdge = 4.0; // points between the edge of the picture and a value
+constexpr std::size_t kValuesMax = 60;
 
 } // namespace
 
@@ -72,6 +77,50 @@ std::vector<LabelsOverlay::PlacedName> LabelsOverlay::namesIn(const CameraPose& 
         }
     }
     return placed;
+}
+
+std::vector<LabelsOverlay::PlacedName>
+LabelsOverlay::valuesIn(const std::vector<GraticuleLabel>& labels,
+                        const ValueFormat& format,
+                        const Viewport& viewport,
+                        double scale,
+                        const std::function<bool(const ScenePoint&)>& is_visible,
+                        std::vector<LabelBox>& taken) const
+{
+    const CoordinateFormat& coordinates = format.coordinates;
+    const auto text_of = [&](const GraticuleLabel& label) {
+        return label.axis == GraticuleAxis::Meridian
+                   ? longitudeText(label.value, coordinates, format.body,
+                                   digitsFor(coordinates.angles, format.longitude_step))
+                   : latitudeText(label.value, coordinates,
+                                  digitsFor(coordinates.angles, format.latitude_step));
+    };
+    const double edge = kEdge * scale;
+    const auto inside = [edge](double middle, double length, int side) {
+        const double low = edge + 0.5 * length;
+        return std::clamp(middle, low, std::max(low, side - low));
+    };
+    std::vector<LabelRequest> requests;
+    for (const GraticuleLabel& label : labels) {
+        const QSizeF size = labelSize(text_of(label), labelFont(font(), LabelFont::Small)) * scale;
+        requests.push_back({.place = {inside(label.pixel.x, size.width(), viewport.width),
+                                      inside(label.pixel.y, size.height(), viewport.height)},
+                            .width_px = size.width(),
+                            .height_px = size.height()});
+    }
+    const auto placed = placeLabels(
+        requests,
+        {.viewport = viewport, .gap_px = edge, .count_max = kValuesMax, .obstacles = taken},
+        [&](std::size_t index) { return is_visible(labels[index].place); });
+    std::vector<PlacedName> values;
+    for (const PlacedLabel& label : placed) {
+        taken.push_back(label.box);
+        values.push_back({.text = text_of(labels[label.request]),
+                          .box = points(label.box, scale),
+                          .size = LabelFont::Small,
+                          .point = {}});
+    }
+    return values;
 }
 
 QRectF LabelsOverlay::aroundCursor(QPointF place)

@@ -1,6 +1,8 @@
 // Labels over a picture of terrain.
 #pragma once
 
+#include "core/geo/coordinate_format.h"
+#include "core/graticule/graticule_lines.h"
 #include "core/session/name_labels.h"
 #include "core/view/camera.h"
 #include "core/view/label_placement.h"
@@ -14,6 +16,7 @@
 #include <QTimer>
 #include <QWidget>
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -46,6 +49,21 @@ protected:
     std::vector<LabelBox> obstacleBoxes(double scale) const;
     std::vector<PlacedName>
     namesIn(const CameraPose& camera, const NameLabelOptions& options, NameLabels& names) const;
+    /// How the values of a graticule are written.
+    struct ValueFormat {
+        Angle longitude_step{};
+        Angle latitude_step{};
+        const CoordinateFormat& coordinates;
+        const Body* body = nullptr; // null if unknown
+    };
+    /// The values that have room, within the picture; adds their boxes to `taken`. None is at a
+    /// place that cannot be seen.
+    std::vector<PlacedName> valuesIn(const std::vector<GraticuleLabel>& labels,
+                                     const ValueFormat& format,
+                                     const Viewport& viewport,
+                                     double scale,
+                                     const std::function<bool(const ScenePoint&)>& is_visible,
+                                     std::vector<LabelBox>& taken) const;
     /// What a cursor there needs: labels that would cover it are left out. In points.
     static QRectF aroundCursor(QPointF place);
     static LabelBox scaled(const QRectF& box, double scale);

@@ -228,7 +228,7 @@ TEST(DrawnDots, FollowAListThroughItsChanges)
 TEST(DotIndex, HasNothingWithoutDots)
 {
     HandleGrid grid(kArea, 6.0);
-    const DotSight sight({}, kViewport, kScale, 1.0, kArea);
+    const DotSight sight(OrbitCamera{}, kViewport, kScale, 1.0, kArea);
     DotIndex().thinned(sight, grid, [](const DotIndex::Dot&, QPointF) { ADD_FAILURE(); });
     EXPECT_FALSE(DotIndex().nearest(sight, {10.0, 10.0}, 1e9));
 }

@@ -182,8 +182,10 @@ TEST_F(GlobeTest, DisablesWithAReasonWhatItLacksAndGivesItBack)
 {
     const WindowActions& actions = window_->actionSet();
     const QList<QAction*> lacking{actions.save_picture, actions.haptic_devices,
-                                  actions.measure_kinds->actions().front(),
-                                  actions.tools->actions().at(static_cast<int>(Tool::Measure))};
+                                  actions.stretch_to_view};
+    const QList<QAction*> shared{actions.measure_kinds->actions().front(),
+                                 actions.annotation_shapes->actions().front(), actions.open_vector,
+                                 actions.tools->actions().at(static_cast<int>(Tool::Measure))};
     for (const QAction* action : lacking) {
         ASSERT_TRUE(action->isEnabled()) << action->text().toStdString();
     }
@@ -191,6 +193,9 @@ TEST_F(GlobeTest, DisablesWithAReasonWhatItLacksAndGivesItBack)
     for (const QAction* action : lacking) {
         EXPECT_FALSE(action->isEnabled()) << action->text().toStdString();
         EXPECT_TRUE(action->statusTip().contains(QStringLiteral("Flat Map")));
+    }
+    for (const QAction* action : shared) {
+        EXPECT_TRUE(action->isEnabled()) << action->text().toStdString();
     }
     actions.contours->trigger(); // a change of the session
     EXPECT_FALSE(actions.save_picture->isEnabled());

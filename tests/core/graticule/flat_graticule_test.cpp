@@ -1,4 +1,4 @@
-#include "core/session/graticule.h"
+#include "core/graticule/flat_graticule.h"
 #include "tests/support/gdal_tools.h"
 #include "tests/support/make_terrain.h"
 #include "tests/support/map_maker.h"

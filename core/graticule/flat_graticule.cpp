@@ -1,4 +1,4 @@
-#include "core/session/graticule.h"
+#include "core/graticule/flat_graticule.h"
 
 #include "core/view/frustum.h"
 
@@ -13,15 +13,12 @@
 namespace marsview {
 namespace {
 
-constexpr double kSpacingPoints = 90.0;
-constexpr double kReach = 8.0;       // of the lines, in distances of the camera
 constexpr int kPictureProbes = 8;    // a side, for the longitudes and latitudes in the picture
 constexpr double kCurvePixels = 0.2; // by which a chord may leave the true curve
 constexpr double kDrapePixels = 6.0; // between two points on the terrain
 constexpr int kLinePieces = 8;       // of a line before it is divided further
 constexpr int kCurveDepthMax = 8;    // divisions of such a piece
 constexpr int kDrapeDepthMax = 14;   // divisions of a straight piece
-constexpr double kLinesMax = 80.0;   // of an axis
 constexpr double kDegree = std::numbers::pi / 180.0;
 
 // A rectangle in the plan of the scene.
@@ -77,7 +74,7 @@ public:
         const Ellipsoid& body = *map_.crs()->ellipsoid();
         const double pixel_m = metersPerPixel(camera_, options_.viewport);
         const double spacing_deg =
-            kSpacingPoints * options_.pixels_per_point * pixel_m / (body.equatorial_m * kDegree);
+            kGraticuleSpacing * options_.pixels_per_point * pixel_m / (body.equatorial_m * kDegree);
         const double middle =
             coverage->has_pole
                 ? 90.0
@@ -87,7 +84,7 @@ public:
         const auto step = [&](double least_deg, const Span& span) {
             return graticuleStep(
                 options_.notation,
-                Angle::degrees(std::max({least_deg, (span.high - span.low) / kLinesMax, 1e-9})));
+                Angle::degrees(std::max({least_deg, (span.high - span.low) / kGraticuleLinesMax, 1e-9})));
         };
         result_.latitude_step = step(spacing_deg, coverage->latitudes);
         result_.longitude_step =
@@ -105,7 +102,7 @@ private:
     // Around what the camera sees, as far as the lines reach.
     PlanBox visibleBox() const
     {
-        const double reach_m = kReach * camera_.distance_m;
+        const double reach_m = kGraticuleReach * camera_.distance_m;
         PlanBox box{.west_m = std::max(relief_.minimum.x, camera_.target.x - reach_m),
                     .east_m = std::min(relief_.maximum.x, camera_.target.x + reach_m),
                     .south_m = std::max(relief_.minimum.y, camera_.target.y - reach_m),
@@ -396,45 +393,7 @@ private:
     GraticuleLine line_; // the part that grows
 };
 
-// The first entry of a ladder that is at least `least`.
-template <std::size_t Count>
-std::optional<double> firstFrom(const std::array<double, Count>& ladder, double least)
-{
-    const auto* const found = std::find_if(ladder.begin(), ladder.end(), [least](double entry) {
-        return entry >= least * (1.0 - 1e-9);
-    });
-    return found != ladder.end() ? std::optional(*found) : std::nullopt;
-}
-
 } // namespace
-
-Angle graticuleStep(AngleNotation notation, Angle least)
-{
-    constexpr std::array kDegrees{1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 45.0, 90.0};
-    constexpr std::array kSixtieths{1.0, 2.0, 5.0, 10.0, 20.0, 30.0};
-    const double least_deg = least.degrees();
-    const auto decimal = [](double value) {
-        const double power = std::pow(10.0, std::floor(std::log10(value)));
-        for (const double factor : {1.0, 2.0, 5.0}) {
-            if (factor * power >= value * (1.0 - 1e-9)) {
-                return factor * power;
-            }
-        }
-        return 10.0 * power;
-    };
-    if (notation == AngleNotation::DegreesMinutesSeconds && least_deg <= 0.5) {
-        if (const double seconds = least_deg * 3600.0; seconds <= 30.0) {
-            return Angle::degrees(
-                firstFrom(kSixtieths, seconds < 1.0 ? 61.0 : seconds).value_or(decimal(seconds)) /
-                3600.0);
-        }
-        return Angle::degrees(firstFrom(kSixtieths, least_deg * 60.0).value_or(30.0) / 60.0);
-    }
-    if (least_deg <= 0.5) {
-        return Angle::degrees(decimal(least_deg));
-    }
-    return Angle::degrees(firstFrom(kDegrees, least_deg).value_or(90.0));
-}
 
 Graticule
 graticuleOf(const SceneSurface& ground, const OrbitCamera& camera, const GraticuleOptions& options)
@@ -444,32 +403,6 @@ graticuleOf(const SceneSurface& ground, const OrbitCamera& camera, const Graticu
     }
     const auto& crs = ground.maps().front().map->georeference().crs();
     return crs && crs->ellipsoid() ? GraticuleMaker(ground, camera, options).run() : Graticule{};
-}
-
-std::optional<GraticuleEnd>
-labelEnd(const GraticuleLine& line, const OrbitCamera& camera, const Viewport& viewport)
-{
-    std::optional<GraticuleEnd> best;
-    double best_score = -1.0;
-    constexpr double kPreference = 0.3; // for the lower and the left side, of its length
-    for (const ScenePoint& point : line.points) {
-        const auto pixel = project(camera, viewport, point);
-        if (!pixel || pixel->x < 0.0 || pixel->y < 0.0 || pixel->x > viewport.width ||
-            pixel->y > viewport.height) {
-            continue;
-        }
-        const double right = pixel->x - 0.5 * viewport.width;
-        const double down = pixel->y - 0.5 * viewport.height;
-        const bool is_meridian = line.axis == GraticuleAxis::Meridian;
-        const double preferred = is_meridian && down > 0.0     ? kPreference * viewport.height
-                                 : !is_meridian && right < 0.0 ? kPreference * viewport.width
-                                                               : 0.0;
-        if (const double score = std::hypot(right, down) + preferred; score > best_score) {
-            best_score = score;
-            best = GraticuleEnd{.place = point, .pixel = *pixel};
-        }
-    }
-    return best;
 }
 
 } // namespace marsview

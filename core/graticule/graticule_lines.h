@@ -1,15 +1,22 @@
-// Meridians and parallels on the terrain of a picture.
+// Meridians and parallels in a picture: steps, lines and places of labels.
 #pragma once
 
 #include "core/base/angle.h"
-#include "core/geo/body.h"
 #include "core/geo/coordinate_format.h"
-#include "core/session/scene_surface.h"
+#include "core/geo/frames.h"
 #include "core/view/camera.h"
 
+#include <optional>
 #include <vector>
 
 namespace marsview {
+
+/// Of two lines, at least, where the camera looks: points of the screen.
+inline constexpr double kGraticuleSpacing = 90.0;
+/// How far from the camera's target lines reach, in distances of the camera.
+inline constexpr double kGraticuleReach = 8.0;
+/// Of an axis.
+inline constexpr double kGraticuleLinesMax = 80.0;
 
 enum class GraticuleAxis {
     Meridian, // constant longitude
@@ -25,12 +32,12 @@ struct GraticuleLine {
     std::vector<ScenePoint> points;
 };
 
-struct GraticuleOptions {
-    Viewport viewport{};
-    double pixels_per_point = 1.0;
-    double exaggeration = 1.0;
-    AngleNotation notation = AngleNotation::DecimalDegrees;
-    LatitudeKind latitudes = LatitudeKind::Planetocentric;
+/// Where the value of a line belongs.
+struct GraticuleLabel {
+    GraticuleAxis axis = GraticuleAxis::Meridian;
+    Angle value{};      // as of the line
+    ScenePoint place{}; // on the line
+    PixelPoint pixel{}; // in the picture
 };
 
 struct Graticule {
@@ -44,14 +51,6 @@ struct Graticule {
 /// them, then 1, 2 or 5 × 10^n seconds.
 Angle graticuleStep(AngleNotation notation, Angle least);
 
-/// The lines in a picture, at least 90 points of the screen apart where the camera looks. They end
-/// where there is no terrain, and eight times as far from the camera's target as the camera is.
-///
-/// Positions are computed in double in the scene, and lie within a fifth of a pixel of the true
-/// curve. Empty for maps without longitudes. Calls PROJ some hundred times: a few milliseconds.
-Graticule
-graticuleOf(const SceneSurface& ground, const OrbitCamera& camera, const GraticuleOptions& options);
-
 /// The point of a line in the picture that is furthest from its middle; for a meridian rather below
 /// the middle, for a parallel rather to its left. Where a label belongs.
 struct GraticuleEnd {
@@ -60,6 +59,6 @@ struct GraticuleEnd {
 };
 
 std::optional<GraticuleEnd>
-labelEnd(const GraticuleLine& line, const OrbitCamera& camera, const Viewport& viewport);
+labelEnd(const GraticuleLine& line, const CameraPose& camera, const Viewport& viewport);
 
 } // namespace marsview

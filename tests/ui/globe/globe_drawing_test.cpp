@@ -1,0 +1,235 @@
+// Measuring, annotating, vector files and the graticule on the globe.
+#include "tests/support/run_program.h"
+#include "tests/ui/globe/globe_window.h"
+#include "ui/commands/vector_tools.h"
+#include "ui/commands/window_commands.h"
+#include "ui/controllers/annotation_controller.h"
+#include "ui/controllers/measure_controller.h"
+#include "ui/controllers/session_controller.h"
+#include "ui/controllers/vector_overlays.h"
+#include "ui/globe/globe_labels.h"
+#include "ui/overlay/globe_overlays.h"
+#include "ui/overlay/map_overlays.h"
+#include "ui/overlay/measure_marks.h"
+
+#include <QFile>
+#include <QFileInfo>
+#include <QImage>
+#include <QLineF>
+#include <QMenu>
+#include <QUndoStack>
+
+#include <GeographicLib/Geodesic.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+#include <vector>
+
+namespace marsview {
+namespace {
+
+class GlobeDrawingTest : public GlobeTest {
+protected:
+    MeasureController& measuring() { return *window_->measuring(); }
+    AnnotationController& annotating() { return *window_->annotating(); }
+    // So far from the middle of the globe, in shares of its sides.
+    QPoint at(double right, double down)
+    {
+        return {static_cast<int>((0.5 + right) * globe().width()),
+                static_cast<int>((0.5 + down) * globe().height())};
+    }
+    void click(QPoint position) { QTest::mouseClick(&globe(), Qt::LeftButton, {}, position); }
+    // From straight above.
+    void lookAt(double longitude, double latitude, double distance_m)
+    {
+        globe().setCamera({.target = {.longitude = Angle::degrees(longitude),
+                                      .latitude = Angle::degrees(latitude)},
+                           .distance_m = distance_m});
+    }
+    bool isMeasured(std::uint32_t id)
+    {
+        return waitFor([this, id] {
+            const MeasureOutcome& outcome = measuring().outcome(id);
+            return outcome.result && !outcome.is_running;
+        });
+    }
+    static GeographicPoint placeOf(const DrawnVertex& vertex)
+    {
+        return std::get<GeographicPoint>(vertex);
+    }
+    QImage picture()
+    {
+        EXPECT_TRUE(waitFor([this] { return globe().isPictureComplete(); }));
+        QCoreApplication::processEvents();
+        return globe().grabFramebuffer();
+    }
+    static int differing(const QImage& a, const QImage& b)
+    {
+        EXPECT_EQ(a.size(), b.size());
+        int count = a.size() == b.size() ? 0 : -1;
+        for (int y = 0; count >= 0 && y < a.height(); ++y) {
+            for (int x = 0; x < a.width(); ++x) {
+                count += a.pixel(x, y) != b.pixel(x, y) ? 1 : 0;
+            }
+        }
+        return count;
+    }
+};
+
+// Over 180°, by clicks; the flat map and GeographicLib have the same numbers for the same places.
+TEST_F(GlobeDrawingTest, ClicksMeasureWhatTheFlatMapMeasures)
+{
+    ASSERT_TRUE(showGlobe());
+    lookAt(179.8, 12.0, 3e6);
+    measuring().begin(MeasurementKind::Distance);
+    EXPECT_EQ(view().tool(), Tool::Measure);
+    ASSERT_TRUE(waitFor([this] { return window_->measurePanel() != nullptr; }));
+    QCoreApplication::processEvents(); // the panel makes the globe smaller
+    const GeographicPoint from = placeAt(at(-0.2, 0.1));
+    const GeographicPoint to = placeAt(at(0.15, -0.2));
+    click(at(-0.2, 0.1));
+    click(at(0.15, -0.2));
+    QTest::mouseDClick(&globe(), Qt::LeftButton, {}, at(0.15, -0.2));
+    const MeasureItem* item = measuring().current();
+    ASSERT_NE(item, nullptr);
+    ASSERT_EQ(item->vertices.size(), 2U);
+    EXPECT_TRUE(item->is_finished);
+    for (const auto& [vertex, place] :
+         {std::pair{item->vertices[0], from}, std::pair{item->vertices[1], to}}) {
+        EXPECT_NEAR(
+            std::remainder(placeOf(vertex).longitude.degrees() - place.longitude.degrees(), 360.0),
+            0.0, 1e-9);
+        EXPECT_NEAR(placeOf(vertex).latitude.degrees(), place.latitude.degrees(), 1e-9);
+    }
+    const std::uint32_t on_globe = item->id;
+    ASSERT_TRUE(isMeasured(on_globe));
+    const double measured_m = measuring().outcome(on_globe).as<Distance>()->geodesic_m;
+    const double surface_m = measuring().outcome(on_globe).as<Distance>()->surface_m;
+    ASSERT_EQ(body().equatorial_m, body().polar_m);
+    double expected_m = 0.0;
+    GeographicLib::Geodesic(body().equatorial_m, 0.0)
+        .Inverse(from.latitude.degrees(), from.longitude.degrees(), to.latitude.degrees(),
+                 to.longitude.degrees(), expected_m);
+    EXPECT_NEAR(measured_m / expected_m, 1.0, 1e-9);
+
+    scene(1)->trigger();
+    EXPECT_EQ(view().tool(), Tool::Measure);
+    for (const GeographicPoint& place : {from, to}) {
+        measuring().addPointAt(*view().map()->georeference().toGrid(place));
+    }
+    const std::uint32_t on_flat = measuring().current()->id;
+    ASSERT_NE(on_flat, on_globe);
+    ASSERT_TRUE(isMeasured(on_flat));
+    EXPECT_NEAR(measuring().outcome(on_flat).as<Distance>()->geodesic_m, measured_m,
+                1e-9 * measured_m);
+    EXPECT_NEAR(measuring().outcome(on_flat).as<Distance>()->surface_m, surface_m,
+                1e-9 * surface_m);
+}
+
+TEST_F(GlobeDrawingTest, PointsAreDraggedInsertedRemovedAndUndoneAsOnTheFlatMap)
+{
+    ASSERT_TRUE(showGlobe());
+    lookAt(-120.0, 10.0, 2e6);
+    measuring().begin(MeasurementKind::Distance);
+    QCoreApplication::processEvents();
+    click(at(-0.2, 0.0));
+    click(at(0.2, 0.0));
+    QTest::mouseDClick(&globe(), Qt::LeftButton, {}, at(0.2, 0.0));
+    ASSERT_EQ(measuring().handles().size(), 2U);
+    EXPECT_LT(QLineF(measuring().handles()[0].place, QPointF(at(-0.2, 0.0))).length(), 1.5);
+    const BodyCamera before = globe().camera();
+    const auto drag = [this](QPoint from, QPoint to) {
+        QTest::mousePress(&globe(), Qt::LeftButton, {}, from);
+        move((QPointF(from) + QPointF(to)) / 2.0, Qt::LeftButton);
+        move(to, Qt::LeftButton);
+        QTest::mouseRelease(&globe(), Qt::LeftButton, {}, to);
+    };
+    drag(at(-0.2, 0.0), at(-0.2, 0.2)); // a point
+    EXPECT_EQ(globe().camera(), before);
+    const GeographicPoint moved = placeAt(at(-0.2, 0.2));
+    EXPECT_NEAR(placeOf(measuring().current()->vertices[0]).latitude.degrees(),
+                moved.latitude.degrees(), 1e-9);
+    drag(at(0.0, 0.1), at(0.0, -0.2)); // the line
+    EXPECT_EQ(measuring().current()->vertices.size(), 3U);
+    drag(at(0.3, 0.3), at(0.2, 0.3)); // the ground
+    EXPECT_NE(globe().camera(), before);
+    EXPECT_EQ(measuring().current()->vertices.size(), 3U);
+    QTest::keyClick(&globe(), Qt::Key_Backspace);
+    EXPECT_EQ(measuring().current()->vertices.size(), 2U);
+    QUndoStack& undo = window_->undoStack();
+    while (undo.canUndo() && !measuring().state().items.empty()) {
+        undo.undo();
+    }
+    EXPECT_TRUE(measuring().state().items.empty());
+}
+
+TEST_F(GlobeDrawingTest, LinesLieOnTheTerrainBeforeTheHorizonAlone)
+{
+    ASSERT_TRUE(showGlobe());
+    annotating().begin(FeatureShape::Line);
+    QCoreApplication::processEvents(); // the panel makes the globe smaller
+    lookAt(0.0, 0.0, 1.2e7);
+    const QImage without = picture();
+    for (const double longitude : {-150.0, -60.0, 20.0}) {
+        annotating().addPointAt(*view().map()->georeference().toGrid(
+            {.longitude = Angle::degrees(longitude), .latitude = Angle::degrees(0.0)}));
+    }
+    annotating().finish();
+    annotating().select(0);
+    EXPECT_GT(differing(without, picture()), 300);
+    lookAt(100.0, 0.0, 1.2e7); // its nearest end is 80° away, the other one behind the body
+    const QImage with = picture();
+    annotating().remove(annotating().state().items.back().id);
+    EXPECT_LT(differing(picture(), with), 200);
+    scene(1)->trigger();
+    EXPECT_TRUE(annotating().state().items.empty());
+}
+
+TEST_F(GlobeDrawingTest, VectorFilesAreDrawnAndFound)
+{
+    const QString csv = maps_.path(QStringLiteral("ridge.csv"));
+    QFile out(csv);
+    ASSERT_TRUE(out.open(QIODevice::WriteOnly));
+    out.write("WKT,name\n\"LINESTRING (170 80,-175 85,-100 80)\",Ridge\n");
+    out.close();
+    const QString file = maps_.path(QStringLiteral("ridge.gpkg"));
+    test::runTool({"ogr2ogr", "-q", "-oo", "KEEP_GEOM_COLUMNS=NO", "-f", "GPKG", "-s_srs",
+                   "IAU_2015:49900", "-t_srs", "IAU_2015:49930", file.toStdString(),
+                   csv.toStdString()});
+    ASSERT_TRUE(showGlobe());
+    lookAt(180.0, 80.0, 2e6);
+    const QImage without = picture();
+    VectorOverlays& overlays = window_->commands().vector_files.overlays();
+    overlays.open(file);
+    ASSERT_TRUE(waitFor([&] { return differing(without, globe().grabFramebuffer()) > 200; }));
+    lookAt(0.0, -60.0, 2e6);
+    overlays.goTo(QFileInfo(file).absoluteFilePath().toStdString());
+    ASSERT_TRUE(rests());
+    EXPECT_GT(globe().camera().target.latitude.degrees(), 75.0);
+}
+
+TEST_F(GlobeDrawingTest, TheGraticuleIsDrawnWithItsLabels)
+{
+    ASSERT_TRUE(showGlobe());
+    lookAt(180.0, 0.0, 1e6);
+    const QImage without = picture();
+    const GlobeLabels& labels = *globe().findChild<GlobeOverlays*>()->labels();
+    for (QAction* action : window_->overlays()->terrainActions()) {
+        if (action->objectName() == QStringLiteral("graticule")) {
+            ASSERT_TRUE(action->isEnabled());
+            action->trigger();
+        }
+    }
+    const auto has = [&](const char* text) {
+        return std::any_of(
+            labels.graticuleLabels().begin(), labels.graticuleLabels().end(),
+            [&](const auto& label) { return label.text.contains(QLatin1String(text)); });
+    };
+    EXPECT_TRUE(waitFor([&] { return has("178") && has("180") && has("182"); }));
+    EXPECT_GT(differing(without, picture()), 1000);
+}
+
+} // namespace
+} // namespace marsview

@@ -1,0 +1,242 @@
+// The events of the globe: what mouse, wheel and keys do.
+
+#include "ui/canvas/overlay_cover.h"
+#include "ui/globe/globe_view.h"
+
+#include <QApplication>
+#include <QKeyEvent>
+#include <QMouseEvent>
+#include <QWheelEvent>
+
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+namespace marsview {
+namespace {
+
+using std::chrono::milliseconds;
+
+// As in the flat map.
+constexpr double kFlyFactor = 0.3; // of the distance, when flying nearer
+constexpr Angle kTurnPerPixel = Angle::degrees(0.3);
+constexpr double kWheelNotch = 120.0;
+constexpr double kWheelFactor = 0.8;
+constexpr double kWheelFactorFine = 0.96;
+constexpr milliseconds kWheelDuration{140};
+
+constexpr double kDeeperPerNotch = 1.15; // of the stylus' depth
+
+} // namespace
+
+PlaceTool* GlobeView::placeTool() const
+{
+    const auto found = place_tools_.find(tool_);
+    return found != place_tools_.end() ? found->second : nullptr;
+}
+
+void GlobeView::setTool(Tool tool)
+{
+    endDrag();
+    if (PlaceTool* left = placeTool(); left != nullptr && tool != tool_) {
+        left->hover(std::nullopt);
+    }
+    tool_ = tool;
+    touch_.setChosen(tool == Tool::Touch);
+    followTouch();
+    showCursor();
+}
+
+void GlobeView::mousePressEvent(QMouseEvent* event)
+{
+    if (scene_.isEmpty() || drag_ != MapAction::None) {
+        return;
+    }
+    motion_.stop();
+    drag_button_ = event->button();
+    drag_position_ = event->position();
+    pointer_ = event->position();
+    PlaceTool* tool = placeTool();
+    if (tool != nullptr && event->button() == Qt::LeftButton &&
+        event->modifiers() == Qt::NoModifier && tool->grab(event->position())) {
+        drag_ = MapAction::MovePoint;
+        showCursor();
+        return;
+    }
+    may_be_click_ = tool != nullptr && actionOf(Gesture::Click, event->button(), event->modifiers(),
+                                                tool_) == MapAction::AddPoint;
+    drag_ = actionOf(Gesture::Drag, event->button(), event->modifiers(), tool_);
+    if (drag_ == MapAction::Pan) {
+        held_ = heldAtPosition(event->position());
+    } else if (drag_ == MapAction::Orbit) {
+        motion_.jumpTo(onGround(motion_.camera()));
+    }
+    touch_.setPressing(drag_ == MapAction::Touch);
+    followTouch();
+    showCursor();
+}
+
+void GlobeView::mouseMoveEvent(QMouseEvent* event)
+{
+    if (drag_ == MapAction::None && isOverOverlay(*this, event->position())) {
+        forgetPointer();
+        return;
+    }
+    pointer_ = event->position();
+    const QPointF moved = event->position() - drag_position_;
+    if (may_be_click_ && moved.manhattanLength() < QApplication::startDragDistance()) {
+        return;
+    }
+    may_be_click_ = false; // a drag after all, from where it began
+    if (drag_ == MapAction::MovePoint) {
+        if (PlaceTool* tool = placeTool()) {
+            tool->drag(event->position());
+        }
+        report();
+    } else if (drag_ == MapAction::Pan && held_ && !moved.isNull()) {
+        held_->pixel = pixelAt(event->position());
+        motion_.jumpTo(heldAt(motion_.camera(), scene_.ellipsoid(), viewport(), *held_));
+    } else if (drag_ == MapAction::Orbit && !moved.isNull()) {
+        motion_.jumpTo(
+            orbited(motion_.camera(), kTurnPerPixel * moved.x(), kTurnPerPixel * -moved.y()));
+    } else {
+        followTouch();
+        report();
+        if (PlaceTool* tool = placeTool(); tool != nullptr && drag_ == MapAction::None) {
+            tool->hover(event->position());
+        }
+    }
+    if (drag_ != MapAction::None && !moved.isNull()) {
+        Q_EMIT gestureMade(drag_);
+    }
+    drag_position_ = event->position();
+}
+
+void GlobeView::mouseReleaseEvent(QMouseEvent* event)
+{
+    if (event->button() != drag_button_ && event->buttons() != Qt::NoButton) {
+        return;
+    }
+    const bool is_click = may_be_click_;
+    endDrag();
+    followTouch();
+    showCursor();
+    if (PlaceTool* tool = placeTool(); tool != nullptr && is_click) {
+        tool->click(event->position());
+    }
+}
+
+void GlobeView::endDrag()
+{
+    const MapAction ended = std::exchange(drag_, MapAction::None);
+    if (PlaceTool* tool = placeTool(); tool != nullptr && ended == MapAction::MovePoint) {
+        tool->release();
+    }
+    may_be_click_ = false;
+    held_.reset();
+    touch_.setPressing(false);
+}
+
+void GlobeView::keyPressEvent(QKeyEvent* event)
+{
+    PlaceTool* tool = placeTool();
+    if (tool == nullptr || !tool->key(*event)) {
+        QOpenGLWidget::keyPressEvent(event);
+    }
+}
+
+// Where the pointer is on the terrain, and how long a point of the screen is there.
+void GlobeView::followTouch()
+{
+    if (!touch_.isChosen()) {
+        return;
+    }
+    const auto ground = pointer_ ? groundAt(*pointer_) : std::nullopt;
+    if (!ground) {
+        touch_.follow(std::nullopt, 1.0);
+        return;
+    }
+    const Ellipsoid& ellipsoid = scene_.ellipsoid();
+    const CameraPose pose = poseOf(motion_.camera(), ellipsoid);
+    const ScenePoint point =
+        pickRay(pose, viewport(), pixelAt(*pointer_)).at(ground->hit.distance_m);
+    touch_.follow(BodyAim{.index = ground->index,
+                          .point = point,
+                          .up = localAxes(ellipsoid, placeOf(point, ellipsoid).foot).up},
+                  devicePixelRatioF() * metersPerPixel(pose, viewport(), point));
+}
+
+void GlobeView::showCursor()
+{
+    const auto& pose = touch_.pose();
+    const MapCursor cursor = mapCursor({.tool = tool_,
+                                        .drag = may_be_click_ ? MapAction::None : drag_,
+                                        .stylus = pose ? pose->mode : StylusMode::Hover,
+                                        .is_over_terrain = is_over_terrain_});
+    if (cursor != std::exchange(cursor_, cursor)) {
+        setCursor(cursorOf(cursor));
+    }
+}
+
+void GlobeView::mouseDoubleClickEvent(QMouseEvent* event)
+{
+    const MapAction action =
+        actionOf(Gesture::DoubleClick, event->button(), event->modifiers(), tool_);
+    if (PlaceTool* tool = placeTool(); tool != nullptr && action == MapAction::FinishDrawing) {
+        tool->doubleClick(event->position());
+        return;
+    }
+    const auto ground = action == MapAction::FlyThere ? groundAt(event->position()) : std::nullopt;
+    if (!ground) {
+        return;
+    }
+    const auto place = layers_[ground->index].map->georeference().toGeographic(ground->hit.grid);
+    if (place) {
+        flyTo(*place, onGround(motion_.goal()).distance_m * kFlyFactor);
+        Q_EMIT gestureMade(MapAction::FlyThere);
+    }
+}
+
+void GlobeView::wheelEvent(QWheelEvent* event)
+{
+    const double notches = event->angleDelta().y() / kWheelNotch;
+    if (scene_.isEmpty() || notches == 0.0) {
+        return;
+    }
+    event->accept();
+    const Gesture gesture = touch_.isPressing() ? Gesture::WheelWhilePressing : Gesture::Wheel;
+    const MapAction action = actionOf(gesture, Qt::NoButton, event->modifiers(), tool_);
+    if (action == MapAction::PressDeeper) {
+        touch_.deepen(std::pow(kDeeperPerNotch, -notches));
+        followTouch();
+    } else {
+        const double factor = action == MapAction::ZoomFinely ? kWheelFactorFine : kWheelFactor;
+        zoom(std::pow(factor, notches), event->position(), kWheelDuration);
+    }
+    Q_EMIT gestureMade(action);
+}
+
+void GlobeView::leaveEvent(QEvent* event)
+{
+    QOpenGLWidget::leaveEvent(event);
+    pointer_.reset();
+    followTouch();
+    report();
+    if (PlaceTool* tool = placeTool()) {
+        tool->hover(std::nullopt);
+    }
+}
+
+void GlobeView::focusInEvent(QFocusEvent* event)
+{
+    QOpenGLWidget::focusInEvent(event);
+    report();
+}
+
+void GlobeView::focusOutEvent(QFocusEvent* event)
+{
+    QOpenGLWidget::focusOutEvent(event);
+    report();
+}
+
+} // namespace marsview
