@@ -43,6 +43,12 @@ constexpr std::array kStretches{
     Named<StretchKind>{StretchKind::Fixed, "fixed"},
 };
 
+constexpr std::array kScenes{
+    Named<SceneChoice>{SceneChoice::Automatic, "automatic"},
+    Named<SceneChoice>{SceneChoice::Flat, "flat map"},
+    Named<SceneChoice>{SceneChoice::Globe, "globe"},
+};
+
 constexpr std::array kMeasurements{
     Named<MeasurementKind>{MeasurementKind::Distance, "distance"},
     Named<MeasurementKind>{MeasurementKind::Area, "area"},
@@ -485,8 +491,9 @@ private:
     std::size_t position_;
 };
 
-constexpr std::array kKnownMembers{"format", "version",  "active", "look",         "camera",
-                                   "layers", "overlays", "views",  "measurements", "annotations"};
+constexpr std::array kKnownMembers{"format", "version",      "active",       "look",
+                                   "camera", "scene",        "globe_camera", "layers",
+                                   "views",  "measurements", "annotations",  "overlays"};
 
 } // namespace
 
@@ -539,6 +546,12 @@ textOf(const Project& project, const ProjectFolders& folders, JobMonitor& monito
     json["look"] = lookJson(project.look);
     if (project.camera) {
         json["camera"] = cameraJson(*project.camera);
+    }
+    if (project.scene != SceneChoice::Automatic) {
+        json["scene"] = nameIn(kScenes, project.scene);
+    }
+    if (project.globe_camera) {
+        putCamera(json["globe_camera"], *project.globe_camera);
     }
     Json layers = Json::array();
     for (const LayerRecord& layer : project.layers) {
@@ -673,6 +686,9 @@ Result<Project> projectIn(std::string_view text,
     project.annotations = taker.take(project.layers.size(), fault);
     members.object("look", [&](Members& look) { project.look = lookFrom(look); });
     members.object("camera", [&](Members& camera) { project.camera = cameraFrom(camera); });
+    members.choice("scene", kScenes, project.scene);
+    members.object("globe_camera",
+                   [&](Members& camera) { project.globe_camera = viewCameraFrom(camera); });
     if (!fault.empty()) {
         return damaged(fault);
     }

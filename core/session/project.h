@@ -37,6 +37,9 @@ struct ProjectCamera {
     bool operator==(const ProjectCamera&) const = default;
 };
 
+/// How the layers are laid out.
+enum class SceneChoice { Automatic, Flat, Globe };
+
 /// A measurement by its geometry. The results follow from it and from the layer.
 struct ProjectMeasurement {
     MeasurementKind kind = MeasurementKind::Distance;
@@ -65,6 +68,7 @@ struct ProjectView {
     double exaggeration = 1.0;
     std::optional<std::size_t> layer{}; // an index of Project::layers; empty: it was removed
     std::string body{};
+    bool is_on_globe = false;
 
     bool operator==(const ProjectView&) const = default;
 };
@@ -75,7 +79,9 @@ struct Project {
     std::optional<std::size_t> active{};   // an index of `layers`
     std::vector<VectorOverlay> overlays{}; // in the order of Session::overlays
     TerrainLook look{};
-    std::optional<ProjectCamera> camera{};
+    std::optional<ProjectCamera> camera{}; // of the flat map
+    SceneChoice scene = SceneChoice::Automatic;
+    std::optional<ViewCamera> globe_camera{}; // its target is on the body
     std::vector<ProjectView> views{};
     std::vector<ProjectMeasurement> measurements{};
     std::vector<ProjectAnnotation> annotations{};
@@ -95,7 +101,7 @@ struct ProjectFolders {
 std::vector<LayerId> projectOrder(const Session& session);
 
 /// The project of a session: its layers in projectOrder(), its overlays, its views and its look.
-/// Without camera, measurements and annotations.
+/// Without cameras, scene, measurements and annotations.
 Project projectOf(const Session& session);
 
 /// Views by the places of their layers in `layers`, and back. The ids that they get are counted

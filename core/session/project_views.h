@@ -8,6 +8,9 @@
 
 namespace marsview {
 
+/// Adds the members of a camera.
+void putCamera(Json& json, const ViewCamera& camera);
+ViewCamera viewCameraFrom(Members& members);
 Json viewJson(const ProjectView& view);
 /// Of a project with `layer_count` layers.
 ProjectView viewFrom(Members& members, std::size_t layer_count);

@@ -38,6 +38,7 @@ struct SavedView {
     double exaggeration = 1.0; // > 0
     LayerId layer{};           // the topmost one in the picture; it may have been removed since
     std::string body{};        // a name of bodies(); empty if unknown
+    bool is_on_globe = false;  // saved there, and shown there again
 
     bool operator==(const SavedView&) const = default;
 };

@@ -1,7 +1,6 @@
 #include "ui/commands/scene_commands.h"
 
 #include "core/globe/body_navigation.h"
-#include "core/session/saved_view.h"
 #include "ui/canvas/terrain_view.h"
 #include "ui/controllers/annotation_controller.h"
 #include "ui/controllers/haptics/device_session.h"
@@ -180,6 +179,53 @@ void SceneCommands::choose(SceneChoice choice)
     choice_ = choice;
     setGlobeShown(choice == SceneChoice::Globe && whyNoGlobe().isEmpty());
     showChoices();
+}
+
+std::optional<ViewCamera> SceneCommands::globeCamera() const
+{
+    if (!is_globe_shown_ || parts_.globe.terrain() == nullptr) {
+        return std::nullopt;
+    }
+    const BodyCamera& camera = parts_.globe.cameraGoal();
+    return ViewCamera{.target = camera.target,
+                      .elevation_m = camera.height_m / parts_.globe.exaggeration(),
+                      .distance_m = camera.distance_m,
+                      .azimuth = camera.azimuth,
+                      .tilt = camera.tilt,
+                      .field_of_view = camera.field_of_view};
+}
+
+std::optional<BodyCamera> SceneCommands::bodyCamera(const ViewCamera& camera) const
+{
+    const auto* target = std::get_if<GeographicPoint>(&camera.target);
+    return target != nullptr ? std::optional(BodyCamera{.target = *target,
+                                                        .height_m = camera.elevation_m *
+                                                                    parts_.view.exaggeration(),
+                                                        .distance_m = camera.distance_m,
+                                                        .azimuth = camera.azimuth,
+                                                        .tilt = camera.tilt,
+                                                        .field_of_view = camera.field_of_view})
+                             : std::nullopt;
+}
+
+void SceneCommands::showGlobeFrom(const ViewCamera& camera)
+{
+    choose(SceneChoice::Globe);
+    const auto on_body = bodyCamera(camera);
+    if (is_globe_shown_ && on_body) {
+        is_handing_ = false; // the flat map has another one
+        parts_.globe.setCamera(*on_body);
+    }
+}
+
+void SceneCommands::flyOnGlobeTo(const ViewCamera& camera)
+{
+    const auto on_body = bodyCamera(camera);
+    if (!is_globe_shown_) {
+        showGlobeFrom(camera);
+    } else if (on_body) {
+        parts_.globe.flyTo(*on_body);
+    }
 }
 
 void SceneCommands::follow()

@@ -3,6 +3,8 @@
 
 #include "core/globe/body_camera.h"
 #include "core/session/map.h"
+#include "core/session/project.h"
+#include "core/session/saved_view.h"
 #include "ui/canvas/shown_layer.h"
 
 #include <QHash>
@@ -34,10 +36,6 @@ class VectorOverlays;
 class WindowMessages;
 struct WindowActions;
 
-/// What View › Scene offers. Automatic is the flat map so far: the globe lacks some of its
-/// functions.
-enum class SceneChoice { Automatic, Flat, Globe };
-
 /// Shows the globe in place of the flat map, which stays as it is behind it. The globe has all
 /// visible layers of the topmost one's body, whatever their CRS; look and exaggeration are the flat
 /// map's, and the camera is handed over both ways. While the globe is shown, actions that it does
@@ -66,9 +64,16 @@ public:
 
     explicit SceneCommands(const Parts& parts);
 
+    /// What View › Scene has. Automatic is the flat map so far: the globe lacks some of its
+    /// functions.
     SceneChoice choice() const noexcept { return choice_; }
     void choose(SceneChoice choice);
     bool isGlobeShown() const noexcept { return is_globe_shown_; }
+    /// Where the camera of the globe will be when it has come to rest; empty while it is not shown.
+    std::optional<ViewCamera> globeCamera() const;
+    /// Shows the globe from there, at once or by a flight. Ignored if the globe cannot be shown.
+    void showGlobeFrom(const ViewCamera& camera);
+    void flyOnGlobeTo(const ViewCamera& camera);
 
 Q_SIGNALS:
     /// The globe or the flat map is shown now.
@@ -83,6 +88,7 @@ private:
     void handToGlobe();
     void rememberHanded();
     void handToMap();
+    std::optional<BodyCamera> bodyCamera(const ViewCamera& camera) const;
     void readOnGlobe();
     void drawOn(DrawingScene* scene);
     void withhold(QAction& action);

@@ -45,8 +45,7 @@ NoticeCommands noticeCommandsOf(const WindowParts& parts)
 QList<QAction*>
 flatActions(const MapOverlays& overlays, const SavedViews& views, const ReportExporter& reports)
 {
-    QList<QAction*> actions{views.menu()->menuAction(), views.actions().fly_through,
-                            reports.action()};
+    QList<QAction*> actions{views.actions().fly_through, reports.action()};
     for (QAction* action : overlays.terrainActions()) {
         if (action->objectName() != QStringLiteral("names") &&
             action->objectName() != QStringLiteral("graticule")) {
@@ -134,6 +133,9 @@ WindowCommands::WindowCommands(const WindowParts& parts, const WindowOptions& op
              .before = parts.actions.coordinate_format->menuAction(),
              .names = [this] { return names.namesOnMap(); },
              .format = [this] { return preferences.preferences().coordinates; },
+             .globe = {.camera = [this] { return scene.globeCamera(); },
+                       .fly = [this](const ViewCamera& camera) { scene.flyOnGlobeTo(camera); },
+                       .leave = [this] { scene.choose(SceneChoice::Flat); }},
              .reveal_panel = [&docks = parts.docks] { docks.reveal(*docks.views()); }})
     , fly_through({.window = parts.window,
                    .session = parts.session,
@@ -219,9 +221,18 @@ WindowCommands::WindowCommands(const WindowParts& parts, const WindowOptions& op
              .annotating = parts.annotating,
              .vector_files = vector_files.overlays(),
              .flat_actions = flatActions(parts.overlays, views, reports),
-             .flat_widgets = {&parts.haptics_panel, &parts.views_panel},
+             .flat_widgets = {&parts.haptics_panel},
              .layer_list = parts.layers.findChild<LayerModel*>()})
 {
+    project.setScene({.choice = [this] { return scene.choice(); },
+                      .globe_camera = [this] { return scene.globeCamera(); },
+                      .show =
+                          [this](SceneChoice choice, const std::optional<ViewCamera>& camera) {
+                              scene.choose(choice);
+                              if (choice == SceneChoice::Globe && camera) {
+                                  scene.showGlobeFrom(*camera);
+                              }
+                          }});
     showMessages(parts.messages);
     showNames(parts.overlays);
     keepUsedSample(parts);

@@ -447,6 +447,15 @@ void GlobeView::flyTo(const GeographicPoint& place, double distance_m)
     fly(camera, kFlyDuration);
 }
 
+void GlobeView::flyTo(const BodyCamera& camera)
+{
+    if (!scene_.isEmpty()) {
+        fly(camera, kFlyDuration);
+    } else {
+        setCamera(camera);
+    }
+}
+
 void GlobeView::lookAt(const GeographicPoint& place)
 {
     if (scene_.isEmpty()) {

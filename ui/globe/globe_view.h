@@ -93,6 +93,7 @@ public:
     void turnNorthUp();
     /// Flies along a great circle; `distance_m` of 0 keeps the distance.
     void flyTo(const GeographicPoint& place, double distance_m);
+    void flyTo(const BodyCamera& camera);
     /// Looks at a place at once, from the same side and distance.
     void lookAt(const GeographicPoint& place);
 

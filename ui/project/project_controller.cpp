@@ -101,6 +101,13 @@ ProjectState ProjectController::state() const
                        .file = file_.toStdString()};
     state.project.measurements = measuring_.saved();
     state.project.camera = camera_ ? camera_ : projectCamera(view_);
+    if (pending_scene_) {
+        state.project.scene = pending_scene_->choice;
+        state.project.globe_camera = pending_scene_->globe_camera;
+    } else if (scene_.choice) {
+        state.project.scene = scene_.choice();
+        state.project.globe_camera = scene_.globe_camera();
+    }
     state.project.others = others_;
     return state;
 }
@@ -130,6 +137,7 @@ void ProjectController::replace(const Project& project, const QString& file)
     is_recovered_ = false;
     others_ = project.others;
     camera_ = project.camera;
+    pending_scene_ = SavedScene{.choice = project.scene, .globe_camera = project.globe_camera};
     session_.openProject(project);
     measuring_.open(project.measurements, projectOrder(session_.session()));
     annotating_.open(project.annotations, projectOrder(session_.session()));
@@ -371,7 +379,7 @@ void ProjectController::autosaveNow()
 // Once the maps are loaded: which of them is on top decides what the camera's coordinates mean.
 void ProjectController::showCamera()
 {
-    if (!camera_ || session_.isBusy() || !view_.map()) {
+    if ((!camera_ && !pending_scene_) || session_.isBusy() || !view_.map()) {
         return;
     }
     const auto shown = shownLayers(session_.session());
@@ -384,15 +392,20 @@ void ProjectController::showCamera()
         })) {
         return; // the coordinates may be those of a layer that is yet to be located
     }
-    const ProjectCamera camera = *std::exchange(camera_, std::nullopt);
-    const Georeference& georeference = view_.map()->georeference();
-    const GridPoint grid = georeference.toGrid(MapPoint{camera.x, camera.y});
-    view_.setCamera({.target = georeference.sceneFrame().toScene(grid, camera.elevation_m *
-                                                                           view_.exaggeration()),
-                     .distance_m = camera.distance_m,
-                     .azimuth = camera.azimuth,
-                     .tilt = camera.tilt,
-                     .field_of_view = camera.field_of_view});
+    if (const auto camera = std::exchange(camera_, std::nullopt)) {
+        const Georeference& georeference = view_.map()->georeference();
+        const GridPoint grid = georeference.toGrid(MapPoint{camera->x, camera->y});
+        view_.setCamera({.target = georeference.sceneFrame().toScene(
+                             grid, camera->elevation_m * view_.exaggeration()),
+                         .distance_m = camera->distance_m,
+                         .azimuth = camera->azimuth,
+                         .tilt = camera->tilt,
+                         .field_of_view = camera->field_of_view});
+    }
+    const auto scene = std::exchange(pending_scene_, std::nullopt);
+    if (scene && scene_.show) {
+        scene_.show(scene->choice, scene->globe_camera);
+    }
 }
 
 } // namespace marsview

@@ -17,6 +17,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace marsview {
@@ -40,8 +41,9 @@ struct ReadProject {
 };
 
 /// Reads and writes the project of the session, the measurements and the annotations. Every change
-/// that can be undone is a change of the project; the camera is saved too, but is not a change.
-/// Files are read and written in the background, one at a time, with progress, and can be canceled.
+/// that can be undone is a change of the project; cameras and scene are saved too, but are not
+/// changes. Files are read and written in the background, one at a time, with progress, and can be
+/// canceled.
 /// Lives in the GUI thread; all that it is made of outlives its last call.
 class ProjectController final : public QObject {
     Q_OBJECT
@@ -62,6 +64,13 @@ public:
     /// Whether closing would lose something, or it is still being saved. A session that was never
     /// saved and in which maps were only opened is not modified.
     bool isModified() const;
+    /// The scene of the window, which is not this object's. Without it, projects have the flat map.
+    struct Scene {
+        std::function<SceneChoice()> choice;
+        std::function<std::optional<ViewCamera>()> globe_camera;
+        std::function<void(SceneChoice, const std::optional<ViewCamera>&)> show;
+    };
+    void setScene(Scene scene) { scene_ = std::move(scene); }
     /// The session, the measurements and the camera as they would be saved.
     Project project() const;
 
@@ -109,6 +118,10 @@ Q_SIGNALS:
 
 private:
     struct Saving;
+    struct SavedScene {
+        SceneChoice choice = SceneChoice::Automatic;
+        std::optional<ViewCamera> globe_camera;
+    };
 
     void readSoon(const QString& file,
                   const std::function<Result<Project>(JobMonitor&)>& read,
@@ -138,6 +151,8 @@ private:
     bool is_replacing_ = false;
     std::map<std::string, std::string> others_; // members for other versions
     std::optional<ProjectCamera> camera_;       // to be set when the maps are there
+    std::optional<SavedScene> pending_scene_;   // likewise
+    Scene scene_;
     ProjectAutosave autosave_;
     QTimer autosave_timer_;
     FileWork& work_;

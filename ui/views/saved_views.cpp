@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <chrono>
 #include <utility>
+#include <variant>
 
 namespace marsview {
 namespace {
@@ -190,20 +191,36 @@ void SavedViews::showEnabled()
     actions_.fly_through->setEnabled(is_map_shown);
 }
 
-SavedView SavedViews::currentView() const
+std::optional<ViewCamera> SavedViews::globeCamera() const
+{
+    return parts_.globe.camera ? parts_.globe.camera() : std::nullopt;
+}
+
+std::optional<ViewCamera> SavedViews::currentCamera() const
+{
+    const TerrainView& view = parts_.view;
+    const auto on_globe = globeCamera();
+    return on_globe
+               ? on_globe
+               : viewCamera(view.map()->georeference(), view.cameraGoal(), view.exaggeration());
+}
+
+// Empty if the camera looks beyond the map's projection.
+std::optional<SavedView> SavedViews::currentView() const
 {
     const TerrainView& view = parts_.view;
     const Map& map = *view.map();
-    const auto shown = shownLayers(parts_.session.session());
-    SavedView saved{.exaggeration = view.exaggeration(),
-                    .layer = shown.empty() ? LayerId::None : shown.front()->id,
-                    .body = map.info().body != nullptr ? std::string(map.info().body->name)
-                                                       : std::string()};
-    if (const auto camera =
-            viewCamera(map.georeference(), view.cameraGoal(), view.exaggeration())) {
-        saved.camera = *camera;
+    const auto camera = currentCamera();
+    if (!camera) {
+        return std::nullopt;
     }
-    return saved;
+    const auto shown = shownLayers(parts_.session.session());
+    return SavedView{.camera = *camera,
+                     .exaggeration = view.exaggeration(),
+                     .layer = shown.empty() ? LayerId::None : shown.front()->id,
+                     .body = map.info().body != nullptr ? std::string(map.info().body->name)
+                                                        : std::string(),
+                     .is_on_globe = globeCamera().has_value()};
 }
 
 void SavedViews::save()
@@ -212,17 +229,21 @@ void SavedViews::save()
     if (!view.map()) {
         return;
     }
-    if (!viewCamera(view.map()->georeference(), view.cameraGoal(), view.exaggeration())) {
+    auto saved = currentView();
+    if (!saved) {
         Q_EMIT reported(tr("The view looks beyond the map's projection and cannot be saved"));
         return;
     }
-    SavedView saved = currentView();
-    saved.name =
+    // What the flat map would show, as far as it reaches.
+    const OrbitCamera named =
+        orbitCamera(view.map()->georeference(), saved->camera, view.exaggeration())
+            .value_or(view.cameraGoal());
+    saved->name =
         uniqueViewName(parts_.session.session(),
-                       viewNameFor(*view.map(), view.cameraGoal(),
-                                   parts_.names ? parts_.names() : NamesOnMap{}, parts_.format()))
+                       viewNameFor(*view.map(), named, parts_.names ? parts_.names() : NamesOnMap{},
+                                   parts_.format()))
             .toStdString();
-    const ViewId id = parts_.session.addView(std::move(saved));
+    const ViewId id = parts_.session.addView(std::move(*saved));
     if (parts_.reveal_panel) {
         parts_.reveal_panel();
     }
@@ -235,12 +256,16 @@ void SavedViews::update(ViewId id)
     if (known == nullptr || !parts_.view.map()) {
         return;
     }
-    SavedView saved = currentView();
-    saved.id = id;
-    saved.name = known->name;
-    parts_.session.updateView(saved);
+    auto saved = currentView();
+    if (!saved) {
+        Q_EMIT reported(tr("The view looks beyond the map's projection and cannot be saved"));
+        return;
+    }
+    saved->id = id;
+    saved->name = known->name;
+    parts_.session.updateView(*saved);
     //: In the status bar, for a few seconds; %1 is a saved view
-    Q_EMIT reported(tr("Updated %1").arg(QString::fromStdString(saved.name)));
+    Q_EMIT reported(tr("Updated %1").arg(QString::fromStdString(saved->name)));
 }
 
 void SavedViews::goTo(ViewId id)
@@ -260,6 +285,15 @@ void SavedViews::goTo(ViewId id)
                 : tr("%1 is on %2: open a map of it first")
                       .arg(QString::fromStdString(saved.name), QString::fromStdString(saved.body)));
         return;
+    }
+    // Views of both scenes are the same places: the globe stays for all that are on a body.
+    if (parts_.globe.fly && std::holds_alternative<GeographicPoint>(saved.camera.target) &&
+        (saved.is_on_globe || globeCamera())) {
+        parts_.globe.fly(saved.camera);
+        return;
+    }
+    if (globeCamera()) {
+        parts_.globe.leave();
     }
     TerrainView& view = parts_.view;
     const auto goal = sceneCamera(view, parts_.session.session(), saved, view.exaggeration());

@@ -12,6 +12,7 @@
 #include <QObject>
 
 #include <functional>
+#include <optional>
 
 class QAction;
 class QMenu;
@@ -35,6 +36,13 @@ public:
         QAction* before = nullptr;              // before this
         std::function<NamesOnMap()> names = {}; // on the topmost layer; empty: none
         std::function<CoordinateFormat()> format = {};
+        /// The globe, which may be shown in place of the view.
+        struct Globe {
+            std::function<std::optional<ViewCamera>()> camera; // empty while it is not shown
+            std::function<void(const ViewCamera&)> fly;        // shows it
+            std::function<void()> leave;                       // shows the view
+        };
+        Globe globe = {};
         std::function<void()> reveal_panel = {};
     };
 
@@ -62,7 +70,9 @@ private:
     void fillMenu();
     void showSession();
     void showEnabled();
-    SavedView currentView() const;
+    std::optional<ViewCamera> currentCamera() const;
+    std::optional<SavedView> currentView() const;
+    std::optional<ViewCamera> globeCamera() const;
     QString descriptionOf(const SavedView& view) const;
 
     Parts parts_;

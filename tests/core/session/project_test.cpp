@@ -221,6 +221,7 @@ ProjectView randomView(Random& random, std::size_t layer_count)
     view.camera.tilt = randomAngle(random, 0.0, 89.0);
     view.camera.field_of_view = randomAngle(random, 10.0, 80.0);
     view.exaggeration = random.uniform(1e-3, 1e3);
+    view.is_on_globe = random.chance(0.3);
     return view;
 }
 
@@ -246,6 +247,10 @@ Project randomProject(Random& random)
                                        .azimuth = randomAngle(random, -180.0, 180.0),
                                        .tilt = randomAngle(random, 0.0, 89.0),
                                        .field_of_view = randomAngle(random, 10.0, 80.0)};
+    }
+    project.scene = static_cast<SceneChoice>(random.below(3));
+    if (random.chance(0.5)) {
+        project.globe_camera = randomView(random, 0).camera;
     }
     for (std::size_t left = random.below(3); left > 0; --left) {
         project.overlays.push_back({.path = randomPath(random),

@@ -1,6 +1,7 @@
-// Measuring, annotating, vector files and the graticule on the globe.
+// Measuring, annotating, vector files and the graticule on the globe; what a project keeps of it.
 #include "tests/support/run_program.h"
 #include "tests/ui/globe/globe_window.h"
+#include "tests/ui/project_files.h"
 #include "ui/commands/vector_tools.h"
 #include "ui/commands/window_commands.h"
 #include "ui/controllers/annotation_controller.h"
@@ -11,6 +12,7 @@
 #include "ui/overlay/globe_overlays.h"
 #include "ui/overlay/map_overlays.h"
 #include "ui/overlay/measure_marks.h"
+#include "ui/project/project_controller.h"
 
 #include <QFile>
 #include <QFileInfo>
@@ -229,6 +231,55 @@ TEST_F(GlobeDrawingTest, TheGraticuleIsDrawnWithItsLabels)
     };
     EXPECT_TRUE(waitFor([&] { return has("178") && has("180") && has("182"); }));
     EXPECT_GT(differing(without, picture()), 1000);
+}
+
+TEST_F(GlobeDrawingTest, ProjectsAndSavedViewsKeepTheGlobeAndItsCamera)
+{
+    ASSERT_TRUE(showGlobe());
+    const BodyCamera camera{
+        .target = {.longitude = Angle::degrees(-133.5), .latitude = Angle::degrees(18.25)},
+        .height_m = 9000.0,
+        .distance_m = 750000.0,
+        .azimuth = Angle::degrees(35.0),
+        .tilt = Angle::degrees(40.0)};
+    globe().setCamera(camera);
+    const BodyCamera kept = globe().cameraGoal();
+    window_->commands().views.save();
+    const auto& views = window_->commands().views;
+    ASSERT_TRUE(views.menu()->isEnabled());
+    const QString file = maps_.path(QStringLiteral("globe.mvproj"));
+    ProjectController& project = window_->commands().project;
+    ASSERT_TRUE(saveProject(project, file));
+    scene(1)->trigger();
+    ASSERT_TRUE(globe().isHidden());
+
+    ASSERT_TRUE(openProject(project, file));
+    ASSERT_TRUE(waitFor([this] { return globe().terrain() != nullptr && !globe().isHidden(); }));
+    const auto expect_kept = [&] {
+        const BodyCamera& now = globe().cameraGoal();
+        EXPECT_NEAR(now.target.longitude.degrees(), kept.target.longitude.degrees(), 1e-9);
+        EXPECT_NEAR(now.target.latitude.degrees(), kept.target.latitude.degrees(), 1e-9);
+        EXPECT_NEAR(now.height_m, kept.height_m, 1e-3);
+        EXPECT_NEAR(now.distance_m, kept.distance_m, 1e-3);
+        EXPECT_NEAR(now.azimuth.degrees(), kept.azimuth.degrees(), 1e-6);
+        EXPECT_NEAR(now.tilt.degrees(), kept.tilt.degrees(), 1e-6);
+    };
+    expect_kept();
+    EXPECT_TRUE(scene(2)->isChecked());
+
+    // The view returns there from elsewhere on the globe, and from the flat map.
+    const ViewId saved = window_->session().views.front().id;
+    lookAt(10.0, 10.0, 1e6);
+    window_->commands().views.goTo(saved);
+    ASSERT_TRUE(rests());
+    expect_kept();
+    scene(1)->trigger();
+    window_->commands().views.goTo(saved);
+    ASSERT_TRUE(waitFor([this] { return globe().terrain() != nullptr && !globe().isHidden(); }));
+    expect_kept();
+    // A new project begins with the flat map.
+    project.startNew();
+    EXPECT_TRUE(globe().isHidden());
 }
 
 } // namespace
