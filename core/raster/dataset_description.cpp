@@ -225,22 +225,29 @@ std::string listOfSubdatasets(GDALDataset& dataset)
     return list;
 }
 
-bool isPicture(GDALDataset& dataset, GDALRasterBand& band)
+namespace {
+
+bool isColor(GDALColorInterp color)
 {
-    if (band.GetColorTable() != nullptr) {
-        return true;
-    }
-    switch (band.GetColorInterpretation()) {
+    switch (color) {
     case GCI_RedBand:
     case GCI_GreenBand:
     case GCI_BlueBand:
     case GCI_CyanBand:
     case GCI_MagentaBand:
     case GCI_YellowBand:
-        return dataset.GetRasterCount() >= 3;
+        return true;
     default:
         return false;
     }
+}
+
+} // namespace
+
+bool isPicture(GDALDataset& dataset, GDALRasterBand& band)
+{
+    return band.GetColorTable() != nullptr ||
+           (isColor(band.GetColorInterpretation()) && dataset.GetRasterCount() >= 3);
 }
 
 // Some formats have a picture of the elevations in the bands before them.
@@ -254,6 +261,29 @@ std::string refusalOfPicture(GDALDataset& dataset, int band)
         }
     }
     return "is a color picture, not an elevation map";
+}
+
+std::string noticeOfLikelyPicture(GDALDataset& dataset, GDALRasterBand& band)
+{
+    if (isColor(band.GetColorInterpretation())) {
+        return "is one band of a color picture, read as elevations; open an elevation map instead";
+    }
+    const int count = dataset.GetRasterCount();
+    if (count < 3 || count > 4) {
+        return "";
+    }
+    for (int i = 1; i <= count; ++i) {
+        GDALRasterBand& other = *dataset.GetRasterBand(i);
+        const bool is_named = *other.GetDescription() != '\0' || *other.GetUnitType() != '\0' ||
+                              other.GetScale() != 1.0 || other.GetOffset() != 0.0;
+        if (other.GetRasterDataType() != GDT_Byte || is_named) {
+            return "";
+        }
+    }
+    return fmt::format(
+        "looks like a color picture: band {} of {} is read as elevations, and all "
+        "are 8-bit values without a unit; open an elevation map instead",
+        band.GetBand(), count);
 }
 
 void describe(GDALDataset& dataset,

@@ -17,6 +17,11 @@ bool isPicture(GDALDataset& dataset, GDALRasterBand& band);
 /// Why band number `band` of a picture is refused, with the band of elevations if there is one.
 std::string refusalOfPicture(GDALDataset& dataset, int band);
 
+/// The notice of a band that is read as elevations although it looks like part of a picture: its
+/// color is declared, or the raster has three or four bands of bytes, none with a name, unit, scale
+/// or offset. Empty otherwise.
+std::string noticeOfLikelyPicture(GDALDataset& dataset, GDALRasterBand& band);
+
 struct DatasetOrigin {
     std::string path;  // as the user named it
     std::string label; // of a product whose samples are in a TIFF or JPEG2000; else empty

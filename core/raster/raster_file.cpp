@@ -182,7 +182,9 @@ Result<RasterFile> RasterFile::open(const std::string& path, int band)
     if (isPicture(dataset, *impl->band)) {
         return refuse(ErrorCode::Unsupported, refusalOfPicture(dataset, band));
     }
-    if (info.band_count > 1) {
+    if (std::string notice = noticeOfLikelyPicture(dataset, *impl->band); !notice.empty()) {
+        info.notices.push_back(std::move(notice));
+    } else if (info.band_count > 1) {
         info.notices.push_back(fmt::format("band {} of {} is read", band, info.band_count));
     }
     impl->has_plain_strips = !impl->remote && hasLargePlainStrips(dataset);

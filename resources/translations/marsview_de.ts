@@ -273,6 +273,14 @@
         <translation>ist ein Farbbild und keine Höhenkarte</translation>
     </message>
     <message>
+        <source>is one band of a color picture, read as elevations; open an elevation map instead</source>
+        <translation>ist ein Kanal eines Farbbilds, der als Höhen gelesen wird; öffnen Sie stattdessen eine Höhenkarte</translation>
+    </message>
+    <message>
+        <source>looks like a color picture: band %1 of %2 is read as elevations, and all are 8-bit values without a unit; open an elevation map instead</source>
+        <translation>sieht wie ein Farbbild aus: Kanal %1 von %2 wird als Höhen gelesen, und alle sind 8-Bit-Werte ohne Einheit; öffnen Sie stattdessen eine Höhenkarte</translation>
+    </message>
+    <message>
         <source>names a data file that is missing; put it next to this file (%1)</source>
         <translation>nennt eine Datendatei, die fehlt; legen Sie sie neben diese Datei (%1)</translation>
     </message>

@@ -24,6 +24,12 @@ constexpr std::array kMessages{
                       "fetch it again"),
     QT_TRANSLATE_NOOP("CoreMessage", "is a color picture, not an elevation map"),
     QT_TRANSLATE_NOOP("CoreMessage",
+                      "is one band of a color picture, read as elevations; open an elevation map "
+                      "instead"),
+    QT_TRANSLATE_NOOP("CoreMessage",
+                      "looks like a color picture: band %1 of %2 is read as elevations, and all "
+                      "are 8-bit values without a unit; open an elevation map instead"),
+    QT_TRANSLATE_NOOP("CoreMessage",
                       "names a data file that is missing; put it next to this file (%1)"),
     QT_TRANSLATE_NOOP("CoreMessage", "is cut short or damaged: %1; fetch it again"),
     QT_TRANSLATE_NOOP("CoreMessage",

@@ -177,6 +177,41 @@ TEST(Refusal, PicturesAndComplexNumbers)
     }
 }
 
+// 2026-11: files in which GDAL finds no colors were read as elevations without a word.
+TEST(LikelyPicture, IsNoted)
+{
+    const TempFolder folder;
+    const RasterRecipe bytes = recipeFor<std::uint8_t>(2, {1, 2, 3, 4});
+    const auto notices = [&](const std::vector<std::string>& options) {
+        const auto opened = RasterFile::open(writeRaster(folder, "map.vrt", "VRT", bytes, options));
+        if (!opened) {
+            return std::string("refused");
+        }
+        std::string texts;
+        for (const std::string& notice : opened->info().notices) {
+            texts += notice.find("picture") != std::string::npos ? notice : "";
+        }
+        return texts;
+    };
+    const std::vector<std::string> three = {"-b", "1", "-b", "1", "-b", "1"};
+    const auto withThree = [&three](std::vector<std::string> more) {
+        more.insert(more.begin(), three.begin(), three.end());
+        return more;
+    };
+    EXPECT_EQ(notices(three),
+              "looks like a color picture: band 1 of 3 is read as elevations, and all are 8-bit "
+              "values without a unit; open an elevation map instead");
+    EXPECT_THAT(notices(withThree({"-b", "1"})), testing::HasSubstr("band 1 of 4"));
+    EXPECT_EQ(notices({"-colorinterp", "red"}),
+              "is one band of a color picture, read as elevations; open an elevation map instead");
+    EXPECT_EQ(notices(withThree({"-colorinterp", "red,green,blue"})), "refused");
+    EXPECT_EQ(notices({}), "");
+    EXPECT_EQ(notices({"-colorinterp", "gray"}), "");
+    EXPECT_EQ(notices({"-b", "1", "-b", "1", "-colorinterp", "gray,alpha"}), "");
+    EXPECT_EQ(notices(withThree({"-ot", "Int16"})), "") << "three maps";
+    EXPECT_EQ(notices(withThree({"-a_scale", "10"})), "") << "a declared scale";
+}
+
 // Vertical Mapper's grids have a picture of the elevations before them.
 TEST(Refusal, APictureNamesTheElevationBand)
 {
