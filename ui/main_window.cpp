@@ -160,6 +160,7 @@ MainWindow::MainWindow(const WindowOptions& options, QWidget* parent)
 
 MainWindow::~MainWindow()
 {
+    hide(); // a cell that is edited is committed as long as its controller is there
     commands_.reset();
     delete measure_; // they are the view's tools
     delete annotate_;
