@@ -265,6 +265,10 @@
         <translation>gibt es nicht</translation>
     </message>
     <message>
+        <source>has %1 bytes, but SRTM tiles have %2 (1201 × 1201 samples) or %3 (3601 × 3601); it may be cut short; fetch it again</source>
+        <translation>hat %1 Bytes, SRTM-Kacheln haben jedoch %2 (1201 × 1201 Werte) oder %3 (3601 × 3601); die Datei ist vielleicht abgeschnitten; laden Sie sie erneut herunter</translation>
+    </message>
+    <message>
         <source>is not a raster that GDAL can read, or is damaged; convert it to GeoTIFF or fetch it again</source>
         <translation>ist kein Raster, das GDAL lesen kann, oder ist beschädigt; wandeln Sie es in GeoTIFF um oder laden Sie es erneut herunter</translation>
     </message>
@@ -596,7 +600,7 @@
     </message>
     <message>
         <source>Note</source>
-        <translation>Notiz</translation>
+        <translation>Hinweis</translation>
     </message>
     <message>
         <source>Strike (right-hand rule)</source>
@@ -1091,9 +1095,9 @@
         <translation>Höhe (%1)</translation>
     </message>
     <message>
-        <source>%1. %2. Vertical exaggeration ×%3</source>
+        <source>The view in the window, with %1 in its middle. %2. Vertical exaggeration ×%3</source>
         <extracomment>Below a map; %1 is the position in its middle, %2 a body and a CRS, %3 a factor</extracomment>
-        <translation>%1. %2. Überhöhung ×%3</translation>
+        <translation>Die Ansicht im Fenster, mit %1 in der Mitte. %2. Überhöhung ×%3</translation>
     </message>
     <message>
         <source>Layers</source>
@@ -1265,7 +1269,7 @@
     <message>
         <source>&amp;Touch</source>
         <extracomment>A tool: drag presses the stylus into the terrain</extracomment>
-        <translation>&amp;Tasten</translation>
+        <translation>&amp;Ertasten</translation>
     </message>
     <message>
         <source>&amp;Orbit</source>
@@ -1285,7 +1289,7 @@
     <message>
         <source>Drag to feel the terrain; the wheel presses deeper (%1)</source>
         <extracomment>%1 is a key</extracomment>
-        <translation>Ziehen lässt das Gelände fühlen; das Rad drückt stärker (%1)</translation>
+        <translation>Ziehen, um das Gelände zu fühlen; das Rad drückt stärker (%1)</translation>
     </message>
     <message>
         <source>Drag to turn and tilt the view (%1)</source>
@@ -1303,7 +1307,7 @@
     </message>
     <message>
         <source>A drag with the left button presses the stylus, a red cone, into the terrain; the wheel presses deeper. The meter shows the force. A connected haptic device touches whatever the tool is.</source>
-        <translation>Ziehen mit der linken Taste drückt den Stift, einen roten Kegel, in das Gelände; das Rad drückt stärker. Die Anzeige nennt die Kraft. Ein verbundenes haptisches Gerät tastet mit jedem Werkzeug.</translation>
+        <translation>Ziehen mit der linken Taste drückt den Stift, einen roten Kegel, in das Gelände; das Rad drückt stärker. Die Anzeige nennt die Kraft. Ein verbundenes haptisches Gerät ertastet das Gelände mit jedem Werkzeug.</translation>
     </message>
     <message>
         <source>A drag with the left button turns and tilts the view about the terrain in the middle of the picture.</source>
@@ -1344,7 +1348,7 @@
     <name>WhatsThis</name>
     <message>
         <source>The terrain. A drag with the left button does what the tool says: pan, touch or orbit. A drag with the right button turns and tilts, the wheel zooms to the pointer, a double click flies there, and a right click opens a menu for the place.</source>
-        <translation>Das Gelände. Ziehen mit der linken Taste tut, was das Werkzeug sagt: verschieben, tasten oder drehen. Ziehen mit der rechten Taste dreht und neigt, das Rad vergrößert zum Zeiger hin, ein Doppelklick fliegt dorthin, und ein Rechtsklick öffnet ein Menü für den Ort.</translation>
+        <translation>Das Gelände. Ziehen mit der linken Taste tut, was das Werkzeug sagt: verschieben, ertasten oder drehen. Ziehen mit der rechten Taste dreht und neigt, das Rad vergrößert zum Zeiger hin, ein Doppelklick fliegt dorthin, und ein Rechtsklick öffnet ein Menü für den Ort.</translation>
     </message>
     <message>
         <source>The whole topmost map. The outline is what the view shows. Click or drag to look at another place.</source>
@@ -1694,6 +1698,11 @@
         <translation>%1 µs</translation>
     </message>
     <message>
+        <source>%1 N</source>
+        <extracomment>A force in newtons</extracomment>
+        <translation>%1 N</translation>
+    </message>
+    <message>
         <source>%1 ms</source>
         <translation>%1 ms</translation>
     </message>
@@ -1980,6 +1989,10 @@
     <message>
         <source>Save Attitudes</source>
         <translation>Lagerungen speichern</translation>
+    </message>
+    <message>
+        <source>Cannot Save Attitudes</source>
+        <translation>Die Lagerungen können nicht gespeichert werden</translation>
     </message>
     <message>
         <source>attitudes</source>
@@ -2382,7 +2395,7 @@
     </message>
     <message>
         <source>Include</source>
-        <translation>Mit</translation>
+        <translation>Inhalt</translation>
     </message>
     <message>
         <source>Saved views</source>
@@ -2470,11 +2483,6 @@
 </context>
 <context>
     <name>marsview::ForceMeter</name>
-    <message>
-        <source>%1 N</source>
-        <extracomment>A force in newtons</extracomment>
-        <translation>%1 N</translation>
-    </message>
     <message>
         <source>Force</source>
         <translation>Kraft</translation>
@@ -2698,7 +2706,7 @@ y %2</translation>
     </message>
     <message>
         <source>Close the hint (Esc); Help › Keys and Mouse lists everything</source>
-        <translation>Hinweis schließen (Esc); Hilfe › Tasten und Maus nennt alles</translation>
+        <translation>Hinweis schließen (Esc); Hilfe › Tastatur und Maus nennt alles</translation>
     </message>
     <message>
         <source>Drag</source>
@@ -2739,7 +2747,7 @@ y %2</translation>
     </message>
     <message>
         <source>Choose Touch (T) and drag to feel the terrain</source>
-        <translation>Tasten (T) wählen und das Gelände fühlen</translation>
+        <translation>Mit „Ertasten“ (T) das Gelände fühlen</translation>
     </message>
     <message>
         <source>%1. %2</source>
@@ -2836,7 +2844,7 @@ y %2</translation>
     </message>
     <message>
         <source>&amp;Go</source>
-        <translation>&amp;Gehe</translation>
+        <translation>&amp;Hingehen</translation>
     </message>
     <message>
         <source>Two numbers, x and then y.</source>
@@ -2951,11 +2959,6 @@ y %2</translation>
 <context>
     <name>marsview::HapticsPanel</name>
     <message>
-        <source>%1 N</source>
-        <extracomment>A force in newtons</extracomment>
-        <translation>%1 N</translation>
-    </message>
-    <message>
         <source>Haptic devices</source>
         <translation>Haptische Geräte</translation>
     </message>
@@ -2997,7 +3000,7 @@ y %2</translation>
     </message>
     <message>
         <source>Surface st&amp;iffness</source>
-        <translation>&amp;Steifigkeit der Oberfläche</translation>
+        <translation>&amp;Steifigkeit</translation>
     </message>
     <message>
         <source>Limit of the stiffness</source>
@@ -3017,7 +3020,7 @@ y %2</translation>
     </message>
     <message>
         <source>Save Diagnostic &amp;Log…</source>
-        <translation>&amp;Diagnoseprotokoll speichern …</translation>
+        <translation>&amp;Protokoll speichern …</translation>
     </message>
     <message>
         <source>Save the last ten seconds of the device, tick by tick, for troubleshooting</source>
@@ -3058,6 +3061,11 @@ y %2</translation>
         <translation>%1, bis zu %2</translation>
     </message>
     <message>
+        <source>%1 N</source>
+        <extracomment>A force in newtons</extracomment>
+        <translation>%1 N</translation>
+    </message>
+    <message>
         <source>Share of the computed force that the device renders</source>
         <translation>Anteil der berechneten Kraft, den das Gerät ausübt</translation>
     </message>
@@ -3080,7 +3088,7 @@ y %2</translation>
     </message>
     <message>
         <source>Resume Forces</source>
-        <translation>Kräfte wieder einschalten</translation>
+        <translation>Kräfte einschalten</translation>
     </message>
     <message>
         <source>Emergency &amp;Stop</source>
@@ -3266,11 +3274,11 @@ y %2</translation>
     </message>
     <message>
         <source>Keys and Mouse</source>
-        <translation>Tasten und Maus</translation>
+        <translation>Tastatur und Maus</translation>
     </message>
     <message>
         <source>Keys and gestures</source>
-        <translation>Tasten und Gesten</translation>
+        <translation>Tastatur und Gesten</translation>
     </message>
     <message>
         <source>Mouse</source>
@@ -3307,6 +3315,52 @@ y %2</translation>
     <message>
         <source>Show the whole map</source>
         <translation>Die ganze Karte zeigen</translation>
+    </message>
+    <message>
+        <source>Measure and Annotate</source>
+        <extracomment>A group of keys: those of the tools Measure and Annotate</extracomment>
+        <translation>Messen und Anmerken</translation>
+    </message>
+    <message>
+        <source>Place a point at the pointer or crosshair</source>
+        <translation>Einen Punkt am Zeiger oder Fadenkreuz setzen</translation>
+    </message>
+    <message>
+        <source>%1 again</source>
+        <extracomment>%1 is a key</extracomment>
+        <translation>%1 erneut</translation>
+    </message>
+    <message>
+        <source>In the same place: finish</source>
+        <translation>Am selben Ort: abschließen</translation>
+    </message>
+    <message>
+        <source>Remove the last point, or the one under the pointer</source>
+        <translation>Den letzten Punkt oder den unter dem Zeiger entfernen</translation>
+    </message>
+    <message>
+        <source>Remove the selected item, or the point under the pointer</source>
+        <translation>Das ausgewählte Objekt oder den Punkt unter dem Zeiger entfernen</translation>
+    </message>
+    <message>
+        <source>Discard an unfinished item, or deselect</source>
+        <translation>Ein unfertiges Objekt verwerfen oder die Auswahl aufheben</translation>
+    </message>
+    <message>
+        <source>Drag a point</source>
+        <translation>Punkt ziehen</translation>
+    </message>
+    <message>
+        <source>Move it</source>
+        <translation>Verschieben</translation>
+    </message>
+    <message>
+        <source>Drag a line</source>
+        <translation>Linie ziehen</translation>
+    </message>
+    <message>
+        <source>Insert a point</source>
+        <translation>Einen Punkt einfügen</translation>
     </message>
 </context>
 <context>
@@ -3743,7 +3797,7 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
     <message>
         <source>Building overviews of %1: %2</source>
         <extracomment>In the status bar: %1 is a file, %2 the progress</extracomment>
-        <translation>Übersichten von %1 werden gebaut: %2</translation>
+        <translation>Übersichten von %1 werden erstellt: %2</translation>
     </message>
     <message numerus="yes">
         <source>%1
@@ -3770,11 +3824,11 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
     </message>
     <message>
         <source>Stop Building</source>
-        <translation>Bauen anhalten</translation>
+        <translation>Erstellen anhalten</translation>
     </message>
     <message>
         <source>Stop building overviews; it can be resumed later</source>
-        <translation>Das Bauen der Übersichten anhalten; es kann später fortgesetzt werden</translation>
+        <translation>Das Erstellen der Übersichten anhalten; es kann später fortgesetzt werden</translation>
     </message>
     <message>
         <source>Cancel</source>
@@ -3927,7 +3981,7 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
     </message>
     <message>
         <source>&amp;Add Annotation Here</source>
-        <translation>Hier &amp;annotieren</translation>
+        <translation>Hier &amp;Anmerkung setzen</translation>
     </message>
     <message>
         <source>Ce&amp;nter Here</source>
@@ -4107,12 +4161,13 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
         <translation>Klicken Sie auf die Karte, um zu beginnen, oder wählen Sie im Menü Messen eine andere Messung.</translation>
     </message>
     <message>
-        <source>Click to place one more point.</source>
-        <translation>Klicken Sie, um noch einen Punkt zu setzen.</translation>
+        <source>Click to place one more point; Backspace removes the last one.</source>
+        <translation>Klicken Sie, um noch einen Punkt zu setzen; die Rücktaste entfernt den letzten.</translation>
     </message>
     <message>
-        <source>Click to place %1 more points.</source>
-        <translation>Klicken Sie, um noch %1 Punkte zu setzen.</translation>
+        <source>Click to place %1 more points; Backspace removes the last one.</source>
+        <extracomment>%1 is a number above 1</extracomment>
+        <translation>Klicken Sie, um noch %1 Punkte zu setzen; die Rücktaste entfernt den letzten.</translation>
     </message>
     <message>
         <source>%1: from %2 to %3</source>
@@ -4135,6 +4190,10 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
         <translation>Profil speichern</translation>
     </message>
     <message>
+        <source>Cannot Save Profile</source>
+        <translation>Das Profil kann nicht gespeichert werden</translation>
+    </message>
+    <message>
         <source>CSV table (*.csv)</source>
         <translation>CSV-Tabelle (*.csv)</translation>
     </message>
@@ -4143,8 +4202,8 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
         <translation>profil</translation>
     </message>
     <message>
-        <source>%1 cannot be written; choose another folder</source>
-        <translation>%1 kann nicht geschrieben werden; wählen Sie einen anderen Ordner</translation>
+        <source>Cannot Save Measurements</source>
+        <translation>Die Messungen können nicht gespeichert werden</translation>
     </message>
     <message>
         <source>Save Measurements</source>
@@ -4179,6 +4238,10 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
         <translation>Hypsometrie speichern</translation>
     </message>
     <message>
+        <source>Cannot Save Hypsometry</source>
+        <translation>Die Hypsometrie kann nicht gespeichert werden</translation>
+    </message>
+    <message>
         <source>hypsometry</source>
         <translation>hypsometrie</translation>
     </message>
@@ -4189,6 +4252,18 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
     <message>
         <source>Without volumes: no plane fits so large or so empty a border.</source>
         <translation>Ohne Volumen: zu einem so großen oder so leeren Rand passt keine Ebene.</translation>
+    </message>
+    <message>
+        <source>Click to add a point, double-click to finish. Backspace removes the last point.</source>
+        <translation>Ein Klick fügt einen Punkt hinzu, ein Doppelklick schließt ab. Die Rücktaste entfernt den letzten Punkt.</translation>
+    </message>
+    <message>
+        <source>Drag a point to move it; drag the line to insert one.</source>
+        <translation>Ziehen Sie einen Punkt, um ihn zu verschieben, oder die Linie, um einen einzufügen.</translation>
+    </message>
+    <message>
+        <source>Drag a point to move it.</source>
+        <translation>Ziehen Sie einen Punkt, um ihn zu verschieben.</translation>
     </message>
 </context>
 <context>
@@ -4494,6 +4569,10 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
         <translation>Einstellungen</translation>
     </message>
     <message>
+        <source>Restore &amp;Defaults</source>
+        <translation>Stan&amp;dardwerte wiederherstellen</translation>
+    </message>
+    <message>
         <source>Follow system</source>
         <comment>language</comment>
         <extracomment>A language: that of the desktop</extracomment>
@@ -4514,7 +4593,7 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
     </message>
     <message>
         <source>Light</source>
-        <translation>Licht</translation>
+        <translation>Hell</translation>
     </message>
     <message>
         <source>Dark</source>
@@ -4583,6 +4662,19 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
         <translation>Kartenansicht</translation>
     </message>
     <message>
+        <source>Haptics</source>
+        <extracomment>A group of the preferences</extracomment>
+        <translation>Haptik</translation>
+    </message>
+    <message>
+        <source>Connect the last &amp;device at the start</source>
+        <translation>Das letzte Gerät beim Start &amp;verbinden</translation>
+    </message>
+    <message>
+        <source>The device that was connected when MarsView was closed. The simulated hand is never connected by itself</source>
+        <translation>Das Gerät, das beim Schließen von MarsView verbunden war. Die simulierte Hand wird nie von selbst verbunden</translation>
+    </message>
+    <message>
         <source>&amp;Frame rate while moving</source>
         <translation>&amp;Bildrate bei Bewegung</translation>
     </message>
@@ -4612,7 +4704,7 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
     <message>
         <source>&amp;Storage</source>
         <extracomment>A page of the preferences: files that are kept on disk</extracomment>
-        <translation>&amp;Ablage</translation>
+        <translation>Spei&amp;cherplatz</translation>
     </message>
 </context>
 <context>
@@ -4854,7 +4946,7 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
     </message>
     <message>
         <source>Include</source>
-        <translation>Mit</translation>
+        <translation>Inhalt</translation>
     </message>
     <message>
         <source>&amp;Export…</source>
@@ -4945,7 +5037,7 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
     </message>
     <message>
         <source>Include</source>
-        <translation>Mit</translation>
+        <translation>Inhalt</translation>
     </message>
     <message>
         <source>Sa&amp;ve As…</source>
@@ -5262,7 +5354,7 @@ Bewegen Sie die Karte zu einer Ansicht, die Sie behalten wollen, und drücken Si
     <message>
         <source>%1: its overviews are gone. Build them again, or choose another folder for prepared maps in the preferences</source>
         <extracomment>%1 is a file</extracomment>
-        <translation>%1: Die Übersichten sind verschwunden. Bauen Sie sie neu, oder wählen Sie in den Einstellungen einen anderen Ordner für vorbereitete Karten</translation>
+        <translation>%1: Die Übersichten sind verschwunden. Erstellen Sie sie neu, oder wählen Sie in den Einstellungen einen anderen Ordner für vorbereitete Karten</translation>
     </message>
     <message>
         <source>Save View %1</source>
@@ -5371,7 +5463,7 @@ Bewegen Sie die Karte zu einer Ansicht, die Sie behalten wollen, und drücken Si
     </message>
     <message>
         <source>Read from a preview; exact once the overviews are built</source>
-        <translation>Aus einer Vorschau gelesen; genau, sobald die Übersichten gebaut sind</translation>
+        <translation>Aus einer Vorschau gelesen; genau, sobald die Übersichten erstellt sind</translation>
     </message>
     <message>
         <source>Read from a coarser level; the samples here are being read</source>
@@ -5679,11 +5771,11 @@ Bewegen Sie die Karte zu einer Ansicht, die Sie behalten wollen, und drücken Si
     </message>
     <message>
         <source>S&amp;top Building Overviews</source>
-        <translation>Bauen der Übersichten an&amp;halten</translation>
+        <translation>Erstellen der Übersichten an&amp;halten</translation>
     </message>
     <message>
         <source>Stop building the overviews of a large map; it can be resumed later</source>
-        <translation>Das Bauen der Übersichten einer großen Karte anhalten; es kann später fortgesetzt werden</translation>
+        <translation>Das Erstellen der Übersichten einer großen Karte anhalten; es kann später fortgesetzt werden</translation>
     </message>
     <message>
         <source>&amp;Quit</source>
@@ -5869,11 +5961,11 @@ Bewegen Sie die Karte zu einer Ansicht, die Sie behalten wollen, und drücken Si
     </message>
     <message>
         <source>&amp;Build Overviews</source>
-        <translation>Ü&amp;bersichten bauen</translation>
+        <translation>Ü&amp;bersichten erstellen</translation>
     </message>
     <message>
         <source>Build the overviews of a large map, to see and touch all of it</source>
-        <translation>Die Übersichten einer großen Karte bauen, um sie ganz zu sehen und zu ertasten</translation>
+        <translation>Die Übersichten einer großen Karte erstellen, um sie ganz zu sehen und zu ertasten</translation>
     </message>
     <message>
         <source>E&amp;xport Contours…</source>
@@ -5997,7 +6089,7 @@ Bewegen Sie die Karte zu einer Ansicht, die Sie behalten wollen, und drücken Si
     </message>
     <message>
         <source>&amp;Keys and Mouse</source>
-        <translation>&amp;Tasten und Maus</translation>
+        <translation>&amp;Tastatur und Maus</translation>
     </message>
     <message>
         <source>&amp;What&apos;s This?</source>
@@ -6407,7 +6499,7 @@ A scene: the one that suits the layers</extracomment>
     <message>
         <source>Resume Forces</source>
         <extracomment>On a button: after an emergency stop of the haptic device</extracomment>
-        <translation>Kräfte wieder einschalten</translation>
+        <translation>Kräfte einschalten</translation>
     </message>
     <message>
         <source>Save Diagnostic Log…</source>
@@ -6508,11 +6600,11 @@ A scene: the one that suits the layers</extracomment>
     <message>
         <source>%1 is shown as a preview. Build its overviews to see and touch all of it</source>
         <extracomment>%1 is a layer</extracomment>
-        <translation>%1 wird als Vorschau gezeigt. Bauen Sie seine Übersichten, um alles zu sehen und zu ertasten</translation>
+        <translation>%1 wird als Vorschau gezeigt. Erstellen Sie seine Übersichten, um alles zu sehen und zu ertasten</translation>
     </message>
     <message>
         <source>Build Overviews</source>
-        <translation>Übersichten bauen</translation>
+        <translation>Übersichten erstellen</translation>
     </message>
     <message>
         <source>Try Again</source>
@@ -6522,7 +6614,7 @@ A scene: the one that suits the layers</extracomment>
     <message>
         <source>%1 is shown as a preview while its overviews are being built</source>
         <extracomment>%1 is a layer</extracomment>
-        <translation>%1 wird als Vorschau gezeigt, während seine Übersichten gebaut werden</translation>
+        <translation>%1 wird als Vorschau gezeigt, während seine Übersichten erstellt werden</translation>
     </message>
     <message>
         <source>Samples of %1 are shown as nodata, although the file declares no nodata value</source>

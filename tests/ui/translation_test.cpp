@@ -22,11 +22,13 @@
 #include "ui/window/window_actions.h"
 
 #include <QApplication>
+#include <QDialogButtonBox>
 #include <QFile>
 #include <QLabel>
 #include <QLineEdit>
 #include <QMap>
 #include <QMenuBar>
+#include <QPushButton>
 #include <QRegularExpression>
 #include <QScrollArea>
 #include <QSet>
@@ -322,6 +324,19 @@ TEST_F(GermanTest, ReachesTheWindowAndItsDialogs)
     expectGerman(PreferencesDialog({}, {}, &window));
     expectGerman(SavePictureDialog({800, 600}, {}, &window));
     expectGerman(GoToDialog(window.view()->map(), {}, {}, {}, &window));
+}
+
+// 2026-11: the hint told users to choose keys.
+TEST_F(GermanTest, NamesToolsAsTheirButtonsDoAndDefaultsAsDefaults)
+{
+    const QString touch = QCoreApplication::translate("Tool", "&Touch").remove(QLatin1Char('&'));
+    const QString hint = QCoreApplication::translate(
+        "marsview::GestureHint", "Choose Touch (T) and drag to feel the terrain");
+    EXPECT_TRUE(hint.contains(QStringLiteral("„%1“").arg(touch))) << qPrintable(hint);
+    const PreferencesDialog preferences({}, {}, nullptr);
+    const auto* buttons = preferences.findChild<QDialogButtonBox*>();
+    EXPECT_EQ(buttons->button(QDialogButtonBox::RestoreDefaults)->text(),
+              QStringLiteral("Stan&dardwerte wiederherstellen"));
 }
 
 // In a language with longer words and in one that is read from right to left.

@@ -83,6 +83,8 @@ PreferencesDialog::PreferencesDialog(const Preferences& preferences,
     groups->addStretch(1);
     auto* buttons =
         new QDialogButtonBox(QDialogButtonBox::Close | QDialogButtonBox::RestoreDefaults, this);
+    // Qt's own German text is the name of preferences.
+    buttons->button(QDialogButtonBox::RestoreDefaults)->setText(tr("Restore &Defaults"));
     // The Enter key must not discard the user's choices.
     buttons->button(QDialogButtonBox::RestoreDefaults)->setAutoDefault(false);
     buttons->button(QDialogButtonBox::Close)->setDefault(true);
@@ -104,6 +106,7 @@ PreferencesDialog::PreferencesDialog(const Preferences& preferences,
         connect(box, &QComboBox::currentIndexChanged, this, notify);
     }
     connect(antialiasing_, &QCheckBox::toggled, this, notify);
+    connect(reconnects_, &QCheckBox::toggled, this, notify);
     connect(coordinates_, &CoordinatesPage::changed, this, notify);
     connect(large_maps_, &LargeMapsPage::changed, this, notify);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
@@ -122,6 +125,7 @@ void PreferencesDialog::fill(const Preferences& preferences)
         height_unit_->findData(static_cast<int>(preferences.height_unit)));
     frame_rate_->setCurrentIndex(frame_rate_->findData(preferences.frames_per_s));
     antialiasing_->setChecked(preferences.has_antialiasing);
+    reconnects_->setChecked(preferences.reconnects_device);
     coordinates_->fill(preferences.coordinates);
     large_maps_->fill(preferences);
 }
@@ -133,6 +137,7 @@ Preferences PreferencesDialog::preferences() const
     preferences.theme = static_cast<Theme>(theme_->currentData().toInt());
     preferences.height_unit = static_cast<HeightUnit>(height_unit_->currentData().toInt());
     preferences.has_antialiasing = antialiasing_->isChecked();
+    preferences.reconnects_device = reconnects_->isChecked();
     preferences.frames_per_s = frame_rate_->currentData().toInt();
     preferences.coordinates = coordinates_->format();
     large_maps_->apply(preferences);
