@@ -3,14 +3,14 @@
 #include "ui/canvas/map_keys.h"
 #include "ui/canvas/terrain_view.h"
 #include "ui/globe/globe_view.h"
-#include "ui/panels/layers_panel.h"
 #include "ui/window/window_actions.h"
 #include "ui/window/window_docks.h"
 #include "ui/window/window_messages.h"
 
+#include <QAbstractItemView>
 #include <QAction>
 #include <QActionGroup>
-#include <QListView>
+#include <QDockWidget>
 #include <QMainWindow>
 
 #include <utility>
@@ -22,7 +22,14 @@ ViewCommands::ViewCommands(const Parts& parts)
 {
     TerrainView* view = &parts_.view;
     const WindowActions& actions = parts_.actions;
-    (new MapKeys(*view, this))->addTo(*parts_.layers.list());
+    auto* keys = new MapKeys(*view, this);
+    for (const QDockWidget* panel : parts_.window.findChildren<QDockWidget*>()) {
+        for (QAbstractItemView* list : panel->findChildren<QAbstractItemView*>()) {
+            if (list->window() == panel->window()) { // not the list of a combo box
+                keys->addTo(*list);
+            }
+        }
+    }
     connect(actions.tools, &QActionGroup::triggered, view,
             [view](QAction* action) { view->setTool(static_cast<Tool>(action->data().toInt())); });
     GlobeView* globe = &parts_.globe;

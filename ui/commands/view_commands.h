@@ -9,7 +9,6 @@ class QWidget;
 namespace marsview {
 
 class GlobeView;
-class LayersPanel;
 class TerrainView;
 class WindowDocks;
 class WindowMessages;
@@ -21,13 +20,12 @@ class ViewCommands final : public QObject {
 
 public:
     struct Parts {
+        /// The lists and tables of its panels take the keys of the map too.
         QMainWindow& window;
         const WindowActions& actions;
         TerrainView& view;
         GlobeView& globe;
         WindowDocks& docks;
-        /// Its list takes the keys of the map too.
-        LayersPanel& layers;
         WindowMessages& messages;
     };
 

@@ -117,7 +117,6 @@ WindowCommands::WindowCommands(const WindowParts& parts, const WindowOptions& op
             .view = parts.view,
             .globe = parts.globe,
             .docks = parts.docks,
-            .layers = parts.layers,
             .messages = parts.messages})
     , layers({.actions = parts.actions,
               .session = parts.session,

@@ -8,10 +8,12 @@
 #include "ui/window/keys_dialog.h"
 #include "ui/window/window_actions.h"
 
+#include <QAbstractItemView>
 #include <QAction>
 #include <QActionGroup>
 #include <QApplication>
 #include <QLabel>
+#include <QLineEdit>
 #include <QListView>
 #include <QMenu>
 #include <QMenuBar>
@@ -164,6 +166,34 @@ TEST_F(ToolsTest, KeysWorkWhileTheListOfLayersHasTheFocus)
     const double before = view().exaggeration();
     QTest::keyClick(layers, Qt::Key_Plus);
     EXPECT_GT(view().exaggeration(), before);
+}
+
+// 2026-11: with the focus in the measurements, the map's keys searched the rows.
+TEST_F(ToolsTest, KeysWorkInEveryListButWhileACellIsEdited)
+{
+    for (const char* name :
+         {"measurements", "measureResults", "annotations", "savedViews", "hapticDevices"}) {
+        SCOPED_TRACE(name);
+        auto* list = window_->findChild<QAbstractItemView*>(QString::fromLatin1(name));
+        if (list == nullptr) {
+            ADD_FAILURE();
+            continue;
+        }
+        actionFor(Tool::Pan)->trigger();
+        QTest::keyClick(list, Qt::Key_T);
+        EXPECT_EQ(view().tool(), Tool::Touch);
+    }
+    actionFor(Tool::Measure)->trigger();
+    press(middle());
+    release(middle());
+    auto* list = window_->findChild<QAbstractItemView*>(QStringLiteral("measurements"));
+    ASSERT_EQ(list->model()->rowCount(), 1);
+    list->edit(list->model()->index(0, 0));
+    auto* editor = list->findChild<QLineEdit*>();
+    ASSERT_NE(editor, nullptr);
+    QTest::keyClicks(editor, QStringLiteral("top"));
+    EXPECT_EQ(view().tool(), Tool::Measure);
+    EXPECT_EQ(editor->text(), QStringLiteral("top"));
 }
 
 // The window gets the keys first, also while a menu is open.
