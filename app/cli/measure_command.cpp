@@ -361,7 +361,7 @@ Status runCrater(const MeasureOptions& options)
         };
         const MeasuredDigits digits = digitsOf(*input);
         const auto height = [&](const char* label, double value_m) {
-            line(label, written(value_m, digits.elevation(value_m)) + " m");
+            line(label, written(value_m, digits.depth(*crater)) + " m");
         };
         const double rms_m = crater->hasResiduals() ? crater->rms_m : 0.0;
         const int place = lastPlaceOfPosition(*input, rms_m);
@@ -369,8 +369,8 @@ Status runCrater(const MeasureOptions& options)
         line("Diameter:",
              written(crater->diameter_m, digits.diameter(crater->diameter_m, rms_m)) + " m");
         height("Depth:", crater->depth_m);
-        line("d/D:", written(crater->depth_m / crater->diameter_m,
-                             digits.depthToDiameter(crater->depth_m, crater->diameter_m)));
+        line("d/D:",
+             written(crater->depth_m / crater->diameter_m, digits.depthToDiameter(*crater)));
         height("Rim:", crater->rim_m);
         height("Floor:", crater->floor_m);
         line("RMS:", crater->hasResiduals() ? writtenError(rms_m) + " m" : kNoErrors);

@@ -2,6 +2,7 @@
 
 #include "core/measure/attitude.h"
 #include "core/measure/constants.h"
+#include "core/measure/crater.h"
 
 #include <algorithm>
 #include <cmath>
@@ -77,12 +78,25 @@ int MeasuredDigits::diameter(double diameter_m, double rms_m) const
                                              : resolution_.ground_m);
 }
 
-int MeasuredDigits::depthToDiameter(double depth_m, double diameter_m) const
+double MeasuredDigits::depthError(const Crater& crater) const
 {
-    const double ratio = depth_m / diameter_m;
+    const double away_m =
+        std::max(resolution_.ground_m, crater.hasResiduals() ? crater.rms_m : 0.0);
+    return resolution_.height_m + 2.0 * std::abs(crater.depth_m) * away_m / crater.diameter_m;
+}
+
+int MeasuredDigits::depth(const Crater& crater) const
+{
+    return lastPlace(crater.depth_m, depthError(crater));
+}
+
+int MeasuredDigits::depthToDiameter(const Crater& crater) const
+{
+    const double ratio = crater.depth_m / crater.diameter_m;
     const double uncertainty =
-        (resolution_.height_m + std::abs(ratio) * resolution_.ground_m) / diameter_m;
-    return std::clamp(lastPlace(ratio, uncertainty), -3, -2);
+        (depthError(crater) + std::abs(ratio) * resolution_.ground_m) / crater.diameter_m;
+    const int second_digit = lastPlace(ratio, std::abs(ratio));
+    return std::clamp(lastPlace(ratio, uncertainty), std::min(-3, second_digit), -2);
 }
 
 int MeasuredDigits::direction(double length_m) const

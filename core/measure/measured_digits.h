@@ -9,6 +9,8 @@
 
 namespace marsview {
 
+struct Crater;
+
 /// The power of ten that the last digit of `value` counts. At least two and at most six digits
 /// remain; four if `uncertainty` is not a positive number.
 int lastPlace(double value, double uncertainty);
@@ -45,11 +47,19 @@ public:
     int volume(double volume_m3, double area_m2) const;
     /// Of a circle with an RMS distance of its points from it; 0 without residuals.
     int diameter(double diameter_m, double rms_m) const;
-    int depthToDiameter(double depth_m, double diameter_m) const;
+    /// Of the depth of a crater, and of the elevations of its rim and floor. Gridding cuts crests
+    /// and fills floors (Mouginis-Mark et al. 2018, doi:10.1111/maps.12895): a wall that rises by
+    /// the depth over the radius differs by that share of it from sample to sample, or over the
+    /// RMS distance of the rim if that is larger.
+    int depth(const Crater& crater) const;
+    /// At least two decimals, and more than three only for the second digit.
+    int depthToDiameter(const Crater& crater) const;
     /// In degrees, as the following ones: the direction of a line so long.
     int direction(double length_m) const;
 
 private:
+    double depthError(const Crater& crater) const;
+
     MeasuredResolution resolution_;
 };
 

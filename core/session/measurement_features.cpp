@@ -251,6 +251,24 @@ std::vector<FeatureCollection> measurementFeatures(std::span<const NamedMeasurem
     return collections;
 }
 
+std::string resultsText(const Measurement& measurement)
+{
+    std::string text;
+    if (!measurement.result || !measurement.result->values) {
+        return text;
+    }
+    const auto kind = std::find_if(kinds().begin(), kinds().end(),
+                                   [&](const Kind& each) { return each.kind == measurement.kind; });
+    const std::vector<FieldValue> values = std::visit(ResultValues{}, *measurement.result->values);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (const auto* value = std::get_if<double>(&values[i])) {
+            fmt::format_to(std::back_inserter(text), "{}{} {}", text.empty() ? "" : "; ",
+                           kind->results.at(i), *value);
+        }
+    }
+    return text;
+}
+
 Status writeMeasurements(std::span<const NamedMeasurement> measurements,
                          const std::filesystem::path& path)
 {

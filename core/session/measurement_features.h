@@ -31,6 +31,10 @@ struct NamedMeasurement {
 /// circle; without a result both are their points. Any thread.
 std::vector<FeatureCollection> measurementFeatures(std::span<const NamedMeasurement> measurements);
 
+/// "depth_m 807.6123; rim_m -1204.25": the results among those fields, in full and without those
+/// that are unknown; empty without a result.
+std::string resultsText(const Measurement& measurement);
+
 /// Writes the features as GeoPackages: to `path` if there is one collection, otherwise next to it
 /// with the body's name in theirs: "gale-mars.gpkg", "gale-moon.gpkg". Replaces such files when the
 /// new ones are complete. Blocks on the disk. Errors as writeVectorFile().

@@ -192,10 +192,11 @@ TEST(MeasureDistance, PrintsTheDigitsThatTheSamplesGive)
         measured("crater", bundledMars(), "226.1 18.9\n227.4 18.5\n226.4 17.8\n227.2 18.9\n").out,
         HasSubstr(fmt::format("Center:     {:.3f}, {:.3f}\n", crater["lon"].get<double>(),
                               crater["lat"].get<double>())));
+    // Its walls rise by the depth over a radius of two samples: the last digit counts 10 m.
     EXPECT_THAT(
         measured("crater", bundledMars(), "226.1 18.9\n227.4 18.5\n226.4 17.8\n227.2 18.9\n").out,
-        HasSubstr(fmt::format("Depth:      {:.1f} m\nd/D:        {:.2f}",
-                              crater["depth_m"].get<double>(),
+        HasSubstr(fmt::format("Depth:      {:.0f} m\nd/D:        {:.2f}",
+                              10.0 * std::round(0.1 * crater["depth_m"].get<double>()),
                               std::floor(100.0 * crater["depth_m"].get<double>() /
                                          crater["diameter_m"].get<double>()) /
                                   100.0)));

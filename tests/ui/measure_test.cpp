@@ -494,6 +494,16 @@ TEST_F(MeasureTest, NotesAndColorsAreStepsOfUndoAndPartOfTheProject)
     ASSERT_TRUE(isMeasured());
     const std::uint32_t id = measuring().current()->id;
     panel().list()->setTextAt(0, MeasureList::NoteColumn, QStringLiteral("a fault"));
+    ASSERT_EQ(panel().writeTable(path), QString());
+    file.close();
+    ASSERT_TRUE(file.open(QIODevice::ReadOnly));
+    const QString all = QString::fromUtf8(file.readAll());
+    const auto* crater = measuring().outcome(measuring().current()->id).as<Crater>();
+    ASSERT_NE(crater, nullptr);
+    EXPECT_EQ(
+        all.section(QStringLiteral("; depth_m "), 1).section(QLatin1Char(';'), 0, 0).toDouble(),
+        crater->depth_m)
+        << qPrintable(all);
     measuring().setColor(id, Rgb8{255, 0, 0});
     ASSERT_TRUE(QTest::qWaitFor([this] { return view().isPictureComplete(); }, kTimeout));
     const auto is_red_at = [this](QPoint position) {

@@ -2,6 +2,7 @@
 
 #include "core/measure/profile_statistics.h"
 #include "core/session/crater_count.h"
+#include "core/session/measurement_features.h"
 #include "core/session/measurement_tables.h"
 #include "ui/controllers/measure_controller.h"
 #include "ui/panels/attitudes_view.h"
@@ -414,15 +415,7 @@ QString MeasurePanel::tableCsv() const
 {
     QString text = QStringLiteral("name,kind,note,layer,time,results,points\n");
     for (const MeasureItem& item : controller_.state().items) {
-        const MeasureOutcome& outcome = controller_.outcome(item.id);
         const Layer* layer = controller_.layerOf(item);
-        QString results;
-        if (outcome.result) {
-            for (const MeasureRow& row : measureRows(*outcome.result, unit_)) {
-                results += (results.isEmpty() ? QString() : QStringLiteral("; ")) + row.label +
-                           QStringLiteral(": ") + row.value;
-            }
-        }
         const auto named = controller_.named(item.id);
         const QString points = named ? QString::fromStdString(pointsText(*named)) : QString();
         const QStringList fields{
@@ -464,6 +457,8 @@ void MeasurePanel::saveTable()
 }
 
 QString MeasurePanel::writeTable(const QString& path)
+        const QString results =
+            named ? QString::fromStdString(marsview::resultsText(named->measurement)) : QString();
 {
     const QString suffix = QFileInfo(path).suffix().toLower();
     if (suffix == QStringLiteral("gpkg")) {

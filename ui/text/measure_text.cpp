@@ -65,7 +65,7 @@ QString diameterText(const Crater& crater, const MeasuredDigits& digits)
 QString depthToDiameterText(const Crater& crater, const MeasuredDigits& digits)
 {
     const double ratio = crater.depth_m / crater.diameter_m;
-    const int last_place = digits.depthToDiameter(crater.depth_m, crater.diameter_m);
+    const int last_place = digits.depthToDiameter(crater);
     return std::isfinite(ratio) ? leftToRight(numberText(ratio, -last_place)) : missing();
 }
 
@@ -193,11 +193,13 @@ public:
     void operator()(const Crater& crater)
     {
         add(QT_TRANSLATE_NOOP("Measure", "Diameter"), diameterText(crater, digits_));
-        addElevation(QT_TRANSLATE_NOOP("Measure", "Depth"), crater.depth_m);
+        const int place = digits_.depth(crater);
+        const auto height = [&](double value_m) { return elevationText(value_m, place, unit_); };
+        add(QT_TRANSLATE_NOOP("Measure", "Depth"), height(crater.depth_m));
         add(QT_TRANSLATE_NOOP("Measure", "Depth to diameter"),
             depthToDiameterText(crater, digits_));
-        addElevation(QT_TRANSLATE_NOOP("Measure", "Rim"), crater.rim_m);
-        addElevation(QT_TRANSLATE_NOOP("Measure", "Floor"), crater.floor_m);
+        add(QT_TRANSLATE_NOOP("Measure", "Rim"), height(crater.rim_m));
+        add(QT_TRANSLATE_NOOP("Measure", "Floor"), height(crater.floor_m));
         if (crater.hasResiduals()) {
             addError(QT_TRANSLATE_NOOP("Measure", "RMS distance from the circle"), crater.rms_m);
         } else {
@@ -412,7 +414,7 @@ QString measureTableText(const MeasurementResult& result, HeightUnit unit)
     const MeasuredDigits digits(result.resolution);
     //: A crater: %1 is its diameter, %2 its depth, %3 depth to diameter
     return measureTr(QT_TRANSLATE_NOOP("Measure", "%1, depth %2, d/D %3"))
-        .arg(summary, elevationText(crater->depth_m, digits.elevation(crater->depth_m), unit),
+        .arg(summary, elevationText(crater->depth_m, digits.depth(*crater), unit),
              depthToDiameterText(*crater, digits));
 }
 

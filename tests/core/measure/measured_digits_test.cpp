@@ -1,3 +1,4 @@
+#include "core/measure/crater.h"
 #include "core/measure/measured_digits.h"
 
 #include <gtest/gtest.h>
@@ -66,8 +67,6 @@ TEST(MeasuredDigits, FollowTheSamplesOfAMap)
     EXPECT_EQ(mola.diameter(21345.67, 0.0), 1) << "three points: the samples' distance";
     EXPECT_EQ(mola.diameter(21345.67, 120.0), 1);
     EXPECT_EQ(mola.diameter(21345.67, 1e-6), 0) << "points on a circle by chance";
-    EXPECT_EQ(mola.depthToDiameter(1200.0, 21345.67), -3);
-    EXPECT_EQ(mola.depthToDiameter(100.0, 1500.0), -3);
     EXPECT_EQ(mola.direction(21345.67), -1) << "1.2°";
     EXPECT_EQ(mola.direction(1000.0), 0) << "25°";
     EXPECT_EQ(mola.direction(1e6), -2) << "at most two decimals";
@@ -76,6 +75,33 @@ TEST(MeasuredDigits, FollowTheSamplesOfAMap)
     EXPECT_EQ(anglePlace(0.004), -2);
     EXPECT_EQ(anglePlace(180.0), 0);
     EXPECT_EQ(anglePlace(kUnknown), kSlopePlace);
+}
+
+// 2026-11: "807.6 m" for a crater of 400 km on samples 14.8 km apart.
+TEST(MeasuredDigits, DepthsOfCratersFollowTheSamplesInTheirWalls)
+{
+    const auto crater = [](double depth_m, double diameter_m, double rms_m = 0.0) {
+        Crater made;
+        made.diameter_m = diameter_m;
+        made.rms_m = rms_m;
+        made.depth_m = depth_m;
+        made.points = 8;
+        return made;
+    };
+    const MeasuredDigits coarse({.ground_m = 14818.0, .height_m = 1.0});
+    EXPECT_EQ(coarse.depth(crater(807.6, 400e3)), 0) << "61 m";
+    EXPECT_EQ(coarse.depth(crater(807.6, 60e3)), 1) << "400 m";
+    EXPECT_EQ(coarse.depth(crater(-807.6, 60e3)), 1) << "a hill";
+    EXPECT_EQ(coarse.depth(crater(12.3, 20e3)), 0) << "two digits remain";
+    EXPECT_EQ(coarse.depthToDiameter(crater(807.6, 400e3)), -4) << "0.0020";
+    EXPECT_EQ(coarse.depthToDiameter(crater(2400.0, 60e3)), -3) << "0.040";
+    const MeasuredDigits mola({.ground_m = 463.0, .height_m = 1.0});
+    EXPECT_EQ(mola.depth(crater(1200.0, 21345.67)), 0) << "53 m";
+    EXPECT_EQ(mola.depth(crater(1200.0, 21345.67, 2000.0)), 1) << "226 m: not a circle";
+    EXPECT_EQ(mola.depthToDiameter(crater(1200.0, 21345.67)), -3);
+    const MeasuredDigits stereo({.ground_m = 1.0, .height_m = 0.1});
+    EXPECT_EQ(stereo.depth(crater(20.0, 100.0)), -2) << "0.5 m";
+    EXPECT_EQ(MeasuredDigits({}).depth(crater(1200.0, 20e3)), 0) << "unknown: four digits";
 }
 
 TEST(MeasuredDigits, ElevationsAreKnownToTheStepOfSamplesOrAShareOfTheirDistance)
