@@ -235,6 +235,10 @@ TEST_F(FirstMinuteTest, TheListOfKeysHasEveryKeyOfTheMenusInGroups)
         }
     }
     EXPECT_GT(count, 25);
+    for (const Qt::Key key : {Qt::Key_Enter, Qt::Key_Backspace, Qt::Key_Delete, Qt::Key_Escape}) {
+        const QString name = QKeySequence(key).toString(QKeySequence::NativeText);
+        EXPECT_TRUE(texts.contains(name)) << name.toStdString();
+    }
     QStringList titles;
     for (const QGroupBox* group : dialog->findChildren<QGroupBox*>()) {
         titles.append(group->title());

@@ -24,9 +24,13 @@
 #include <QApplication>
 #include <QClipboard>
 #include <QFile>
+#include <QFileDialog>
 #include <QFileInfo>
 #include <QLabel>
 #include <QLineEdit>
+#include <QMessageBox>
+#include <QPointer>
+#include <QSignalSpy>
 #include <QTableWidget>
 #include <QTest>
 #include <QUndoStack>
@@ -35,6 +39,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 namespace marsview {
 namespace {
@@ -280,11 +285,20 @@ TEST_F(MeasureTest, TheListNamesShowsAndRemoves)
 {
     ASSERT_NO_FATAL_FAILURE(choose(MeasurementKind::Attitude));
     click(at(-0.05, 0.0));
-    EXPECT_EQ(panel().findChild<QLabel*>(QStringLiteral("measureNote"))->text(),
-              QStringLiteral("Click to place 2 more points."));
+    const auto* note = panel().findChild<QLabel*>(QStringLiteral("measureNote"));
+    const auto* results = panel().findChild<QTableWidget*>(QStringLiteral("measureResults"));
+    EXPECT_TRUE(results->isHidden()) << "an empty table";
+    EXPECT_EQ(note->text(),
+              QStringLiteral("Click to place 2 more points; Backspace removes the last one."));
     click(at(0.05, 0.0));
     click(at(0.0, 0.08));
     ASSERT_TRUE(isMeasured());
+    const auto* hint = panel().findChild<QLabel*>(QStringLiteral("measureHint"));
+    EXPECT_EQ(hint->text(), QStringLiteral("Click to add a point, double-click to finish. "
+                                           "Backspace removes the last point."));
+    measuring().finish();
+    EXPECT_EQ(hint->text(), QStringLiteral("Drag a point to move it."));
+    EXPECT_FALSE(results->isHidden());
     ASSERT_EQ(panel().list()->rowCount(), 1);
     panel().list()->setTextAt(0, MeasureList::NameColumn, QStringLiteral("Layer of rock"));
     EXPECT_EQ(measuring().current()->name, QStringLiteral("Layer of rock"));
@@ -350,6 +364,31 @@ TEST_F(MeasureTest, AttitudesAreShownTogetherAndSaved)
     click(at(-0.1, 0.0));
     click(at(0.1, 0.0));
     EXPECT_FALSE(view.isVisible());
+}
+
+// 2026-11: a message box said why.
+TEST_F(MeasureTest, FailuresOfSavingAreReportedLikeAllOthers)
+{
+    ASSERT_NO_FATAL_FAILURE(choose(MeasurementKind::Profile));
+    click(at(-0.1, 0.0));
+    click(at(0.1, 0.0));
+    ASSERT_TRUE(isMeasured());
+    const QSignalSpy failures(window_.get(), &MainWindow::openFailed);
+    const QString file = maps_.path(QStringLiteral("none/file.csv"));
+    int count = 0;
+    for (const auto& ask : {std::function([this] { panel().saveTable(); }),
+                            std::function([this] { panel().saveProfile(); }),
+                            std::function([this] { panel().attitudes()->askFile(); })}) {
+        ask();
+        const QPointer<QFileDialog> dialog = panel().findChild<QFileDialog*>();
+        ASSERT_NE(dialog, nullptr);
+        Q_EMIT dialog->fileSelected(file);
+        dialog->reject();
+        ASSERT_TRUE(QTest::qWaitFor([&dialog] { return dialog == nullptr; }, kTimeout));
+        EXPECT_EQ(panel().findChild<QMessageBox*>(), nullptr);
+        ASSERT_EQ(failures.count(), ++count);
+        EXPECT_TRUE(failures.last()[0].toString().contains(file));
+    }
 }
 
 TEST_F(MeasureTest, AnAreaHasItsHypsometry)
@@ -455,6 +494,16 @@ TEST_F(MeasureTest, ResultsListThePointsInTheFormatOfThePreferences)
     }
     measuring().finish();
     ASSERT_TRUE(isMeasured());
+    ASSERT_EQ(panel().writeTable(path), QString());
+    file.close();
+    ASSERT_TRUE(file.open(QIODevice::ReadOnly));
+    const QString all = QString::fromUtf8(file.readAll());
+    const auto* crater = measuring().outcome(measuring().current()->id).as<Crater>();
+    ASSERT_NE(crater, nullptr);
+    EXPECT_EQ(
+        all.section(QStringLiteral("; depth_m "), 1).section(QLatin1Char(';'), 0, 0).toDouble(),
+        crater->depth_m)
+        << qPrintable(all);
     EXPECT_TRUE(panel().resultsText().contains(QStringLiteral("\nCenter\t18° 00′ ")))
         << qPrintable(panel().resultsText());
     EXPECT_TRUE(panel().resultsText().contains(QStringLiteral("\nPoint 4\t18° 54′ ")));
@@ -494,16 +543,6 @@ TEST_F(MeasureTest, NotesAndColorsAreStepsOfUndoAndPartOfTheProject)
     ASSERT_TRUE(isMeasured());
     const std::uint32_t id = measuring().current()->id;
     panel().list()->setTextAt(0, MeasureList::NoteColumn, QStringLiteral("a fault"));
-    ASSERT_EQ(panel().writeTable(path), QString());
-    file.close();
-    ASSERT_TRUE(file.open(QIODevice::ReadOnly));
-    const QString all = QString::fromUtf8(file.readAll());
-    const auto* crater = measuring().outcome(measuring().current()->id).as<Crater>();
-    ASSERT_NE(crater, nullptr);
-    EXPECT_EQ(
-        all.section(QStringLiteral("; depth_m "), 1).section(QLatin1Char(';'), 0, 0).toDouble(),
-        crater->depth_m)
-        << qPrintable(all);
     measuring().setColor(id, Rgb8{255, 0, 0});
     ASSERT_TRUE(QTest::qWaitFor([this] { return view().isPictureComplete(); }, kTimeout));
     const auto is_red_at = [this](QPoint position) {

@@ -2,8 +2,10 @@
 
 #include "ui/canvas/terrain_view.h"
 #include "ui/controllers/measure_controller.h"
+#include "ui/panels/measure_panel.h"
 #include "ui/window/window_actions.h"
 #include "ui/window/window_docks.h"
+#include "ui/window/window_messages.h"
 
 #include <QAction>
 #include <QActionGroup>
@@ -37,6 +39,8 @@ MeasureCommands::MeasureCommands(const Parts& parts)
     connect(actions.remove_measurements, &QAction::triggered, &measuring,
             &MeasureController::removeAll);
     connect(&measuring, &MeasureController::changed, this, &MeasureCommands::showState);
+    connect(&parts_.panel, &MeasurePanel::saved, &parts_.messages, &WindowMessages::showSaved);
+    connect(&parts_.panel, &MeasurePanel::failed, &parts_.messages, &WindowMessages::report);
     actions.measure->addAction(parts_.docks.measurements()->toggleViewAction());
     showState();
 }

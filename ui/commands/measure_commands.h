@@ -6,8 +6,10 @@
 namespace marsview {
 
 class MeasureController;
+class MeasurePanel;
 class TerrainView;
 class WindowDocks;
+class WindowMessages;
 struct WindowActions;
 
 /// GUI thread; must not outlive its parts.
@@ -20,6 +22,8 @@ public:
         MeasureController& measuring;
         TerrainView& view;
         WindowDocks& docks;
+        MeasurePanel& panel;
+        WindowMessages& messages;
     };
 
     explicit MeasureCommands(const Parts& parts);

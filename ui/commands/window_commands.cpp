@@ -180,7 +180,9 @@ WindowCommands::WindowCommands(const WindowParts& parts, const WindowOptions& op
     , measuring({.actions = parts.actions,
                  .measuring = parts.measuring,
                  .view = parts.view,
-                 .docks = parts.docks})
+                 .docks = parts.docks,
+                 .panel = parts.measure_panel,
+                 .messages = parts.messages})
     , annotating({.window = parts.window,
                   .actions = parts.actions,
                   .annotating = parts.annotating,

@@ -100,7 +100,11 @@ void AttitudesView::askFile()
     askChartFile(*this, {.title = tr("Save Attitudes"), .name = tr("attitudes"), .folder = folder_},
                  [this](const QString& path) {
                      folder_ = QFileInfo(path).absolutePath();
-                     return save(path);
+                     if (save(path)) {
+                         Q_EMIT saved(path);
+                     } else {
+                         Q_EMIT failed(tr("Cannot Save Attitudes"), notWrittenText(path));
+                     }
                  });
 }
 

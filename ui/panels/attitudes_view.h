@@ -31,6 +31,11 @@ public Q_SLOTS:
     /// Asks for a file.
     void askFile();
 
+Q_SIGNALS:
+    void saved(const QString& file);
+    /// The title says what was not done, the problem why.
+    void failed(const QString& title, const QString& problem);
+
 private:
     MeasureController& controller_;
     StereonetPlot* plot_ = nullptr;

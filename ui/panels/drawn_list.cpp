@@ -48,7 +48,7 @@ DrawnList::DrawnList(DrawingBase& drawing, const Columns& columns, QWidget* pare
     horizontalHeader()->setSortIndicatorClearable(true);
     sortByColumn(-1, Qt::AscendingOrder); // as they were made
     setSortingEnabled(true);
-    setMinimumWidth(260);
+    setMinimumWidth(180);
     connect(this, &QTableView::activated, this, [this](const QModelIndex& index) {
         if (index.column() == columns_.note) {
             edit(index);

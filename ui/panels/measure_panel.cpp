@@ -22,7 +22,6 @@
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
-#include <QMessageBox>
 #include <QPushButton>
 #include <QSaveFile>
 #include <QSplitter>
@@ -71,6 +70,8 @@ MeasurePanel::MeasurePanel(MeasureController& controller, QWidget* parent)
     splitter->addWidget(profile_side_);
     splitter->addWidget(hypsometry_side_);
     attitudes_ = new AttitudesView(controller_, this);
+    connect(attitudes_, &AttitudesView::saved, this, &MeasurePanel::saved);
+    connect(attitudes_, &AttitudesView::failed, this, &MeasurePanel::failed);
     splitter->addWidget(attitudes_);
     splitter->setStretchFactor(0, 3);
     splitter->setStretchFactor(1, 3);
@@ -79,7 +80,13 @@ MeasurePanel::MeasurePanel(MeasureController& controller, QWidget* parent)
     splitter->setStretchFactor(4, 3);
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(6, 4, 6, 6);
-    layout->addWidget(splitter);
+    layout->addWidget(splitter, 1);
+    hint_ = new QLabel(this);
+    hint_->setObjectName(QStringLiteral("measureHint"));
+    hint_->setForegroundRole(QPalette::PlaceholderText);
+    // On a small screen it is cut rather than the window widened.
+    hint_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+    layout->addWidget(hint_);
     connect(&controller_, &MeasureController::changed, this, &MeasurePanel::showItems);
     connect(&controller_, &MeasureController::measured, this, &MeasurePanel::showItems);
     connect(&controller_, &MeasureController::lineHovered, plot_, &ProfilePlot::setCursorAt);
@@ -108,6 +115,7 @@ void MeasurePanel::makeResults()
     results_side_->setMaximumWidth(kResultsWidthMax);
     title_ = makeCaption({}, results_side_);
     title_->setWordWrap(true);
+    title_->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Maximum);
     results_ = new QTableWidget(results_side_);
     results_->setObjectName(QStringLiteral("measureResults"));
     results_->setAccessibleName(tr("Results"));
@@ -124,6 +132,7 @@ void MeasurePanel::makeResults()
     results_->setMinimumWidth(220);
     note_ = new QLabel(results_side_);
     note_->setWordWrap(true);
+    note_->setAlignment(Qt::AlignLeading | Qt::AlignTop);
     note_->setObjectName(QStringLiteral("measureNote"));
     copy_ = new QPushButton(tr("&Copy"), results_side_);
     copy_->setToolTip(tr("Copy the results as text"));
@@ -248,6 +257,7 @@ void MeasurePanel::showResult()
     remove_->setEnabled(item != nullptr);
     std::vector<MeasureRow> rows;
     QString note;
+    QString hint;
     if (item == nullptr) {
         title_->setText(tr("No measurement is selected"));
         note = tr("Click on the map to begin, or choose another measurement in the Measure menu.");
@@ -257,9 +267,11 @@ void MeasurePanel::showResult()
         const std::size_t needed = verticesNeeded(item->kind);
         if (item->vertices.size() < needed) {
             const std::size_t missing = needed - item->vertices.size();
-            note = missing == 1 ? tr("Click to place one more point.")
-                                //: %1 is a number above 1
-                                : tr("Click to place %1 more points.").arg(missing);
+            note = missing == 1
+                       ? tr("Click to place one more point; Backspace removes the last one.")
+                       //: %1 is a number above 1
+                       : tr("Click to place %1 more points; Backspace removes the last one.")
+                             .arg(missing);
         } else if (outcome.result && !outcome.result->values) {
             note = QString::fromStdString(outcome.result->values.error().message);
             if (!note.isEmpty()) {
@@ -300,7 +312,12 @@ void MeasurePanel::showResult()
         } else if (outcome.is_running) {
             note = tr("Measuring…");
         }
+        if (item->vertices.size() >= needed) {
+            hint = nextStepText(*item);
+        }
     }
+    hint_->setText(hint);
+    hint_->setToolTip(hint);
     results_->setRowCount(static_cast<int>(rows.size()));
     for (std::size_t i = 0; i < rows.size(); ++i) {
         results_->setItem(static_cast<int>(i), 0, new QTableWidgetItem(rows[i].label));
@@ -309,8 +326,21 @@ void MeasurePanel::showResult()
         results_->setItem(static_cast<int>(i), 1, value);
     }
     results_->resizeRowsToContents();
+    results_->setVisible(!rows.empty()); // otherwise the note has its room
     note_->setText(note);
     note_->setVisible(!note.isEmpty());
+}
+
+// What the mouse and the keys can do with a measurement that has all the points it needs.
+QString MeasurePanel::nextStepText(const MeasureItem& item)
+{
+    if (!item.is_finished) {
+        return tr(
+            "Click to add a point, double-click to finish. Backspace removes the last point.");
+    }
+    return item.isLine() || item.isClosed()
+               ? tr("Drag a point to move it; drag the line to insert one.")
+               : tr("Drag a point to move it.");
 }
 
 void MeasurePanel::addPoints(std::vector<MeasureRow>& rows,
@@ -379,9 +409,19 @@ void MeasurePanel::saveProfile()
 {
     askChartFile(*this, {.title = tr("Save Profile"), .name = tr("profile"), .folder = folder_},
                  [this](const QString& path) {
-                     folder_ = QFileInfo(path).absolutePath();
-                     return writeProfile(path);
+                     endSaving(tr("Cannot Save Profile"), path,
+                               writeProfile(path) ? QString() : notWrittenText(path));
                  });
+}
+
+void MeasurePanel::endSaving(const QString& failure, const QString& path, const QString& problem)
+{
+    folder_ = QFileInfo(path).absolutePath();
+    if (problem.isEmpty()) {
+        Q_EMIT saved(path);
+    } else {
+        Q_EMIT failed(failure, problem);
+    }
 }
 
 bool MeasurePanel::writeProfile(const QString& path)
@@ -398,8 +438,8 @@ void MeasurePanel::saveHypsometry()
     askChartFile(*this,
                  {.title = tr("Save Hypsometry"), .name = tr("hypsometry"), .folder = folder_},
                  [this](const QString& path) {
-                     folder_ = QFileInfo(path).absolutePath();
-                     return writeHypsometry(path);
+                     endSaving(tr("Cannot Save Hypsometry"), path,
+                               writeHypsometry(path) ? QString() : notWrittenText(path));
                  });
 }
 
@@ -417,6 +457,8 @@ QString MeasurePanel::tableCsv() const
     for (const MeasureItem& item : controller_.state().items) {
         const Layer* layer = controller_.layerOf(item);
         const auto named = controller_.named(item.id);
+        const QString results =
+            named ? QString::fromStdString(marsview::resultsText(named->measurement)) : QString();
         const QString points = named ? QString::fromStdString(pointsText(*named)) : QString();
         const QStringList fields{
             field(item.name),
@@ -448,17 +490,12 @@ void MeasurePanel::saveTable()
     dialog->selectFile(tr("measurements") + QStringLiteral(".csv"));
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     connect(dialog, &QFileDialog::fileSelected, this, [this](const QString& path) {
-        folder_ = QFileInfo(path).absolutePath();
-        if (const QString problem = writeTable(path); !problem.isEmpty()) {
-            QMessageBox::warning(this, tr("Save Measurements"), problem);
-        }
+        endSaving(tr("Cannot Save Measurements"), path, writeTable(path));
     });
     dialog->open();
 }
 
 QString MeasurePanel::writeTable(const QString& path)
-        const QString results =
-            named ? QString::fromStdString(marsview::resultsText(named->measurement)) : QString();
 {
     const QString suffix = QFileInfo(path).suffix().toLower();
     if (suffix == QStringLiteral("gpkg")) {
@@ -475,9 +512,7 @@ QString MeasurePanel::writeTable(const QString& path)
     } else {
         text = tableCsv().toStdString();
     }
-    return writeText(path, text)
-               ? QString()
-               : tr("%1 cannot be written; choose another folder").arg(isolated(path));
+    return writeText(path, text) ? QString() : notWrittenText(path);
 }
 
 } // namespace marsview

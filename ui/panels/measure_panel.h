@@ -53,6 +53,11 @@ public Q_SLOTS:
     /// Asks for a file: all measurements with their results as CSV.
     void saveTable();
 
+Q_SIGNALS:
+    void saved(const QString& file);
+    /// The title says what was not done, the problem why.
+    void failed(const QString& title, const QString& problem);
+
 private:
     void makeList();
     void makeResults();
@@ -60,11 +65,14 @@ private:
     void makeHypsometry();
     void showItems();
     void showResult();
+    static QString nextStepText(const MeasureItem& item);
     void addPoints(std::vector<MeasureRow>& rows,
                    const MeasureItem& item,
                    const MeasurementResult& result) const;
     void showProfile();
     void showHypsometry();
+    // An empty problem: the file is written.
+    void endSaving(const QString& failure, const QString& path, const QString& problem);
     bool writeProfile(const QString& path);
     bool writeHypsometry(const QString& path);
     QString tableCsv() const;
@@ -77,6 +85,7 @@ private:
     QLabel* title_ = nullptr;
     QTableWidget* results_ = nullptr;
     QLabel* note_ = nullptr;
+    QLabel* hint_ = nullptr; // below everything: what can be done next
     QPushButton* copy_ = nullptr;
     QPushButton* remove_ = nullptr;
     AttitudesView* attitudes_ = nullptr;

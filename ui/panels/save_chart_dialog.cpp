@@ -4,7 +4,6 @@
 
 #include <QCoreApplication>
 #include <QFileDialog>
-#include <QMessageBox>
 
 namespace marsview {
 namespace {
@@ -17,7 +16,7 @@ struct SaveChart {
 
 void askChartFile(QWidget& parent,
                   const ChartFile& file,
-                  const std::function<bool(const QString& path)>& save)
+                  const std::function<void(const QString& path)>& save)
 {
     auto* dialog = new QFileDialog(&parent, file.title, file.folder);
     dialog->setAcceptMode(QFileDialog::AcceptSave);
@@ -31,16 +30,13 @@ void askChartFile(QWidget& parent,
     });
     dialog->selectFile(file.name + QStringLiteral(".csv"));
     dialog->setAttribute(Qt::WA_DeleteOnClose);
-    QObject::connect(dialog, &QFileDialog::fileSelected, &parent,
-                     [&parent, title = file.title, save](const QString& path) {
-                         if (!save(path)) {
-                             QMessageBox::warning(
-                                 &parent, title,
-                                 SaveChart::tr("%1 cannot be written; choose another folder")
-                                     .arg(isolated(path)));
-                         }
-                     });
+    QObject::connect(dialog, &QFileDialog::fileSelected, &parent, save);
     dialog->open();
+}
+
+QString notWrittenText(const QString& path)
+{
+    return SaveChart::tr("%1 cannot be written; choose another folder").arg(isolated(path));
 }
 
 } // namespace marsview

@@ -16,9 +16,11 @@ struct ChartFile {
 };
 
 /// Opens a file dialog over `parent` for a table or a picture (csv, png, svg, pdf). `save` gets the
-/// chosen path and returns whether the file was written; a message says so if not. Returns at once.
+/// chosen path. Returns at once.
 void askChartFile(QWidget& parent,
                   const ChartFile& file,
-                  const std::function<bool(const QString& path)>& save);
+                  const std::function<void(const QString& path)>& save);
+/// Why nothing was saved, if writing `path` failed.
+QString notWrittenText(const QString& path);
 
 } // namespace marsview

@@ -60,7 +60,7 @@ KeysDialog::KeysDialog(const QMenuBar& menus, QWidget* parent)
     : QDialog(parent)
 {
     setWindowTitle(tr("Keys and Mouse"));
-    QList<Group> groups{mouseGroup()};
+    QList<Group> groups{mouseGroup(), drawingGroup()};
     for (const QAction* action : menus.actions()) {
         if (action->menu() != nullptr) {
             addMenu(groups, *action->menu());
@@ -132,6 +132,27 @@ KeysDialog::Group KeysDialog::mouseGroup()
     group.lines.append({tr("Drop files"), tr("Open them")});
     group.lines.append({tr("SpaceMouse cap"), tr("Pan, zoom, turn and tilt")});
     group.lines.append({tr("SpaceMouse button 1"), tr("Show the whole map")});
+    return group;
+}
+
+// The keys that the map handles while a measurement or an annotation is drawn.
+KeysDialog::Group KeysDialog::drawingGroup()
+{
+    const auto name = [](Qt::Key key) {
+        return QKeySequence(key).toString(QKeySequence::NativeText);
+    };
+    //: A group of keys: those of the tools Measure and Annotate
+    Group group{.title = tr("Measure and Annotate"), .lines = {}};
+    group.lines.append({name(Qt::Key_Enter), tr("Place a point at the pointer or crosshair")});
+    //: %1 is a key
+    group.lines.append({tr("%1 again").arg(name(Qt::Key_Enter)), tr("In the same place: finish")});
+    group.lines.append(
+        {name(Qt::Key_Backspace), tr("Remove the last point, or the one under the pointer")});
+    group.lines.append(
+        {name(Qt::Key_Delete), tr("Remove the selected item, or the point under the pointer")});
+    group.lines.append({name(Qt::Key_Escape), tr("Discard an unfinished item, or deselect")});
+    group.lines.append({tr("Drag a point"), tr("Move it")});
+    group.lines.append({tr("Drag a line"), tr("Insert a point")});
     return group;
 }
 

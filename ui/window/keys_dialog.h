@@ -28,6 +28,7 @@ private:
     };
 
     static Group mouseGroup();
+    static Group drawingGroup();
     static void addMenu(QList<Group>& groups, const QMenu& menu);
     QWidget* makePage(const QList<Group>& groups, int columns);
     QWidget* makeGroup(const Group& group);
