@@ -14,12 +14,14 @@
 #include "ui/dialogs/save_picture_dialog.h"
 #include "ui/dialogs/stretch_dialog.h"
 #include "ui/panels/georeferencing_panel.h"
+#include "ui/panels/haptics_panel.h"
 #include "ui/panels/layer_model.h"
 #include "ui/panels/layers_panel.h"
 #include "ui/text/language.h"
 #include "ui/widgets/light_popup.h"
 #include "ui/window/keys_dialog.h"
 #include "ui/window/window_actions.h"
+#include "ui/window/window_docks.h"
 
 #include <QApplication>
 #include <QDialogButtonBox>
@@ -316,6 +318,10 @@ TEST_F(GermanTest, ReachesTheWindowAndItsDialogs)
             EXPECT_LE(area->widget()->minimumSizeHint().width(), area->viewport()->width());
         }
     }
+    window.docks()->reveal(*window.docks()->haptics());
+    QScrollArea* haptics = window.hapticsPanel()->findChild<QScrollArea*>();
+    ASSERT_TRUE(QTest::qWaitFor([haptics] { return haptics->isVisible(); }));
+    EXPECT_LE(haptics->widget()->minimumSizeHint().width(), haptics->viewport()->width());
     window.georeferencingPanel()->edit();
     expectGerman(window);
     expectGerman(AboutDialog(QString(), &window));

@@ -4,6 +4,7 @@
 #include "tests/ui/timeout.h"
 #include "ui/canvas/terrain_view.h"
 #include "ui/commands/window_commands.h"
+#include "ui/controllers/measure_controller.h"
 #include "ui/controllers/recent_files.h"
 #include "ui/dialogs/preferences_dialog.h"
 #include "ui/window/status_readout.h"
@@ -93,7 +94,7 @@ TEST_F(WindowMemoryTest, RestoresAPanelThatOnlyLackedRoom)
     {
         const auto window = makeWindow({1280, 800});
         EXPECT_TRUE(window->docks()->georeferencing()->isVisible());
-        window->resize(640, 480);
+        window->resize(560, 480);
         ASSERT_TRUE(QTest::qWaitFor([&] { return !window->docks()->georeferencing()->isVisible(); },
                                     kTimeout));
         window->close();
@@ -101,6 +102,28 @@ TEST_F(WindowMemoryTest, RestoresAPanelThatOnlyLackedRoom)
     const auto window = makeWindow({1280, 800});
     EXPECT_TRUE(
         QTest::qWaitFor([&] { return window->docks()->georeferencing()->isVisible(); }, kTimeout));
+}
+
+// 2026-11: an empty panel took a quarter of the first picture.
+TEST_F(WindowMemoryTest, MeasurementsReturnOnceThereAreSome)
+{
+    std::vector<ProjectMeasurement> saved;
+    {
+        const auto window = makeWindow({1280, 800});
+        ASSERT_TRUE(openAndWait(*window, maps_.mars()));
+        window->measuring()->begin(MeasurementKind::Slope);
+        window->measuring()->addPointAt({10.0, 10.0});
+        saved = window->measuring()->saved();
+        EXPECT_TRUE(window->docks()->measurements()->isVisible());
+        window->close();
+    }
+    const auto window = makeWindow();
+    EXPECT_FALSE(window->docks()->measurements()->isVisible());
+    ASSERT_TRUE(openAndWait(*window, maps_.mars()));
+    EXPECT_FALSE(window->docks()->measurements()->isVisible());
+    window->measuring()->open(saved, {window->session().layers.front().id});
+    EXPECT_TRUE(window->docks()->measurements()->isVisible());
+    EXPECT_FALSE(window->docks()->annotations()->isVisible());
 }
 
 TEST_F(WindowMemoryTest, OpensARecentFile)
@@ -219,15 +242,26 @@ TEST_F(WindowMemoryTest, TheMapKeepsTwoThirdsAtEveryWidth)
             kTimeout))
             << width << ": " << window->view()->width();
     }
-    // In a narrow window, the panel opened last replaces the other one.
+    // In a narrow window, panels are tabs on the side of the one that was opened last.
+    QDockWidget* layers = window->docks()->datasets();
+    QDockWidget* georeferencing = window->docks()->georeferencing();
     window->resize(800, 600);
-    QTest::qWait(50);
-    window->docks()->reveal(*window->docks()->georeferencing());
-    EXPECT_TRUE(window->docks()->georeferencing()->isVisible());
-    EXPECT_FALSE(window->docks()->datasets()->isVisible());
+    ASSERT_TRUE(QTest::qWaitFor(
+        [&] { return window->tabifiedDockWidgets(layers).contains(georeferencing); }, kTimeout));
+    EXPECT_EQ(window->dockWidgetArea(georeferencing), Qt::LeftDockWidgetArea);
+    window->docks()->reveal(*georeferencing);
+    EXPECT_TRUE(window->tabifiedDockWidgets(georeferencing).contains(layers));
+    EXPECT_EQ(window->dockWidgetArea(layers), Qt::RightDockWidgetArea);
+    EXPECT_FALSE(georeferencing->visibleRegion().isEmpty());
+    layers->raise();
+    window->resize(805, 600);
+    ASSERT_TRUE(QTest::qWaitFor([&] { return window->width() == 805; }, kTimeout));
+    EXPECT_FALSE(layers->visibleRegion().isEmpty()) << "the user has chosen the tab";
     window->resize(1600, 600);
-    EXPECT_TRUE(
-        QTest::qWaitFor([&] { return window->docks()->datasets()->isVisible(); }, kTimeout));
+    EXPECT_TRUE(QTest::qWaitFor(
+        [&] { return window->dockWidgetArea(layers) == Qt::LeftDockWidgetArea; }, kTimeout));
+    EXPECT_EQ(window->dockWidgetArea(georeferencing), Qt::RightDockWidgetArea);
+    EXPECT_TRUE(layers->isVisible());
 }
 
 } // namespace

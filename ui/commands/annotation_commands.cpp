@@ -77,7 +77,11 @@ void AnnotationCommands::showState()
     const AnnotationItem* item = parts_.annotating.current();
     parts_.actions.finish_annotation->setEnabled(item != nullptr && !item->is_finished);
     parts_.actions.remove_annotations->setEnabled(item != nullptr);
-    parts_.actions.export_annotations->setEnabled(!parts_.annotating.state().items.empty());
+    const bool has_items = !parts_.annotating.state().items.empty();
+    parts_.actions.export_annotations->setEnabled(has_items);
+    if (has_items) {
+        parts_.docks.showRestored(*parts_.docks.annotations());
+    }
 }
 
 void AnnotationCommands::askImport()

@@ -56,7 +56,11 @@ void MeasureCommands::showState()
     const MeasureItem* item = parts_.measuring.current();
     parts_.actions.finish_measurement->setEnabled(item != nullptr && !item->is_finished);
     parts_.actions.remove_measurement->setEnabled(item != nullptr);
-    parts_.actions.remove_measurements->setEnabled(!parts_.measuring.state().items.empty());
+    const bool has_items = !parts_.measuring.state().items.empty();
+    parts_.actions.remove_measurements->setEnabled(has_items);
+    if (has_items) {
+        parts_.docks.showRestored(*parts_.docks.measurements());
+    }
 }
 
 } // namespace marsview

@@ -19,6 +19,7 @@ constexpr int kStateVersion = 3; // of saveState(); raise when docks or toolbars
 constexpr int kDockShareOfWidth = 3;      // for the panels of both sides
 constexpr int kDockShareOfWidthAlone = 4; // for those of one side
 constexpr int kDockWidthMin = 200;
+constexpr int kDockWidthAloneMin = 260; // where a third of the window is wider
 constexpr int kDockWidthMax = 300;
 
 // The control of a panel that had the focus last; at first the first one; null if there is none.
@@ -73,9 +74,10 @@ WindowDocks::WindowDocks(QMainWindow& window, const DockContents& contents)
     window_.tabifyDockWidget(measurements_, annotations_);
     measurements_->hide();
     annotations_->hide();
-    for (const Dock* dock : all()) {
+    for (Dock* dock : all()) {
         connect(dock->widget, &QDockWidget::topLevelChanged, this, &WindowDocks::fit);
-        connect(dock->widget, &QDockWidget::dockLocationChanged, this, &WindowDocks::fit);
+        connect(dock->widget, &QDockWidget::dockLocationChanged, this,
+                [this, dock] { userMoved(*dock); });
     }
     datasets_.turn = ++turn_; // rather this one, where there is room for one
     fit();
@@ -164,6 +166,61 @@ void WindowDocks::fold(Dock& dock, bool is_folded)
     }
 }
 
+Qt::DockWidgetArea WindowDocks::homeOf(const Dock& dock) const
+{
+    return dock.left_side.value_or(window_.dockWidgetArea(dock.widget));
+}
+
+// As a tab of the panels that are there.
+void WindowDocks::moveTo(Dock& dock, Qt::DockWidgetArea side)
+{
+    const Qt::DockWidgetArea home = homeOf(dock);
+    const bool is_visible = dock.widget->isVisibleTo(&window_);
+    const std::array<Dock*, 4> docks = all();
+    const auto other = std::find_if(docks.begin(), docks.end(), [&](const Dock* each) {
+        return each != &dock && window_.dockWidgetArea(each->widget) == side &&
+               !each->widget->isFloating();
+    });
+    if (other != docks.end()) {
+        window_.tabifyDockWidget((*other)->widget, dock.widget);
+    } else {
+        window_.addDockWidget(side, dock.widget);
+    }
+    dock.widget->setVisible(is_visible);
+    dock.left_side = side == home ? std::nullopt : std::optional(home);
+}
+
+void WindowDocks::gather(const Dock& host, Qt::DockWidgetArea side)
+{
+    bool is_moved = false;
+    for (Dock* dock : all()) {
+        if (!dock->widget->isFloating() && window_.dockWidgetArea(dock->widget) != side) {
+            moveTo(*dock, side);
+            is_moved = true;
+        }
+    }
+    if (is_moved) { // otherwise the user has chosen the tab
+        host.widget->raise();
+    }
+}
+
+void WindowDocks::moveHome()
+{
+    for (Dock* dock : all()) {
+        if (dock->left_side) {
+            moveTo(*dock, *dock->left_side);
+        }
+    }
+}
+
+void WindowDocks::userMoved(Dock& dock)
+{
+    if (!is_fitting_) {
+        dock.left_side.reset();
+        fit();
+    }
+}
+
 void WindowDocks::fit()
 {
     if (is_fitting_) {
@@ -176,30 +233,40 @@ void WindowDocks::fit()
     const int separator =
         window_.style()->pixelMetric(QStyle::PM_DockWidgetSeparatorExtent, nullptr, &window_);
     const int width_max = window_.width() / kDockShareOfWidth - 2 * separator; // of all panels
-    // Each side that is in use takes its width once, however many panels are on it.
-    bool is_left_used = false;
-    bool is_right_used = false;
-    int sides = 0;
+    Dock& latest = *by_turn.front();
+    const auto is_open = [](const Dock* dock) {
+        return isDocked(*dock->widget) || dock->is_folded;
+    };
+    // What the user asked for last stays, even in a very narrow window.
+    const bool is_asked_for = latest.turn > 1 && is_open(&latest);
+    const bool has_room = kDockWidthMin <= width_max;
     for (Dock* dock : by_turn) {
-        if (!isDocked(*dock->widget) && !dock->is_folded) {
-            continue; // closed by the user, or floating
-        }
-        bool& is_used = window_.dockWidgetArea(dock->widget) == Qt::RightDockWidgetArea
-                            ? is_right_used
-                            : is_left_used;
-        const int sides_with_it = sides + (is_used ? 0 : 1);
-        // What the user asked for last stays, even in a narrow window.
-        const bool has_room = sides_with_it * kDockWidthMin <= width_max;
-        const bool is_asked_for = dock == by_turn.front() && dock->turn > 1;
-        fold(*dock, !has_room && !is_asked_for);
-        if (!dock->is_folded) {
-            is_used = true;
-            sides = sides_with_it;
+        if (is_open(dock)) {
+            fold(*dock, !has_room && !(is_asked_for && dock == &latest));
         }
     }
-    const int width = std::clamp(
-        std::min(width_max / std::max(1, sides), window_.width() / kDockShareOfWidthAlone),
-        kDockWidthMin, kDockWidthMax);
+    const auto host = std::find_if(by_turn.begin(), by_turn.end(), [](const Dock* dock) {
+        return isDocked(*dock->widget); // the latest panel that is open
+    });
+    if (host == by_turn.end()) {
+        return;
+    }
+    const Qt::DockWidgetArea side = homeOf(**host);
+    int sides = 1;
+    for (const Dock* dock : by_turn) {
+        if (isDocked(*dock->widget) && homeOf(*dock) != side) {
+            sides = 2;
+        }
+    }
+    if (sides == 2 && 2 * kDockWidthMin > width_max) {
+        sides = 1;
+        gather(**host, side);
+    } else {
+        moveHome();
+    }
+    const int width_alone = std::max(window_.width() / kDockShareOfWidthAlone, kDockWidthAloneMin);
+    const int width =
+        std::clamp(std::min(width_max / sides, width_alone), kDockWidthMin, kDockWidthMax);
     QList<QDockWidget*> docked;
     QList<int> widths;
     for (Dock* dock : by_turn) {
@@ -215,11 +282,12 @@ void WindowDocks::fit()
 
 void WindowDocks::save(QSettings& settings)
 {
-    // A folded panel counts as open.
+    // A folded panel counts as open, on its own side.
     const QScopedValueRollback fitting(is_fitting_, true);
     for (Dock* dock : all()) {
         fold(*dock, false);
     }
+    moveHome();
     settings.setValue(QStringLiteral("window/state"), window_.saveState(kStateVersion));
 }
 
@@ -227,10 +295,24 @@ void WindowDocks::restore(const QSettings& settings)
 {
     {
         const QScopedValueRollback fitting(is_fitting_, true); // panels are restored one by one
+        moveHome();
         window_.restoreState(settings.value(QStringLiteral("window/state")).toByteArray(),
                              kStateVersion);
+        for (QDockWidget* dock : {measurements_, annotations_}) {
+            if (dock->isVisibleTo(&window_)) {
+                dock->hide();
+                held_back_.append(dock);
+            }
+        }
     }
     fit();
+}
+
+void WindowDocks::showRestored(QDockWidget& dock)
+{
+    if (held_back_.removeOne(&dock)) {
+        dock.show();
+    }
 }
 
 } // namespace marsview

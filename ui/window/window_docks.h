@@ -1,9 +1,11 @@
 // The panels next to the map, and the width they may take.
 #pragma once
 
+#include <QList>
 #include <QObject>
 
 #include <array>
+#include <optional>
 
 class QDockWidget;
 class QMainWindow;
@@ -26,9 +28,10 @@ enum class FocusStep { Next, Previous };
 
 /// Layers on the left, with saved views as a second tab, closed at first; georeferencing on the
 /// right, with haptics as a second tab, closed at first. Docked panels leave two thirds of the
-/// width to the map and never become too narrow to read. In a narrow window, panels are hidden, the
-/// least recently requested first; they return when the window is wide enough. Measurements are
-/// below the map, with annotations as a second tab, closed at first.
+/// width to the map and never become too narrow to read. In a narrow window all are tabs on one
+/// side, that of the panel that was requested last, and return when the window is wide enough; in
+/// one that has no room for a panel at all, the others are hidden as long. Measurements are below
+/// the map, with annotations as a second tab, closed at first.
 class WindowDocks final : public QObject {
     Q_OBJECT
 
@@ -53,13 +56,18 @@ public:
     void fit();
 
     void save(QSettings& settings);
+    /// Panels below the map that were open stay closed until they have something to show.
     void restore(const QSettings& settings);
+    /// To be called when a panel below the map has something to show.
+    void showRestored(QDockWidget& dock);
 
 private:
     struct Dock {
         QDockWidget* widget = nullptr;
         bool is_folded = false; // away for want of room, not by the user
-        int turn = 0;           // when it was asked for; the greater, the later
+        /// The side that it left for want of room, not by the user.
+        std::optional<Qt::DockWidgetArea> left_side{};
+        int turn = 0; // when it was asked for; the greater, the later
     };
 
     QDockWidget* makeDockBelow(const QString& title, const QString& name, QWidget* content);
@@ -67,6 +75,11 @@ private:
     void userToggled(Dock& dock, bool is_visible);
     std::array<Dock*, 4> all() { return {&datasets_, &views_, &georeferencing_, &haptics_}; }
     void fold(Dock& dock, bool is_folded);
+    Qt::DockWidgetArea homeOf(const Dock& dock) const;
+    void moveTo(Dock& dock, Qt::DockWidgetArea side);
+    void gather(const Dock& host, Qt::DockWidgetArea side);
+    void moveHome();
+    void userMoved(Dock& dock);
 
     QMainWindow& window_;
     Dock datasets_;
@@ -76,6 +89,7 @@ private:
     // Below the map, so that they take no width.
     QDockWidget* measurements_ = nullptr;
     QDockWidget* annotations_ = nullptr;
+    QList<QDockWidget*> held_back_; // of those, by restore()
     int turn_ = 0;
     bool is_fitting_ = false;
 };
