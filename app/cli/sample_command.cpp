@@ -6,9 +6,11 @@
 #include "app/console/text_output.h"
 #include "core/base/bounded_text.h"
 #include "core/levels/level_file_use.h"
+#include "core/raster/sample_suggestions.h"
 #include "core/terrain/surface_reader.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <fmt/format.h>
@@ -61,6 +63,7 @@ public:
         , frame_(options.frame)
         , latitude_kind_(options.map.latitudeKind(raster.info.body))
         , is_json_(options.is_json)
+        , scale_(raster.info.elevationScale())
     {}
 
     Status print(Position position)
@@ -69,6 +72,12 @@ public:
         if (!height) {
             return std::move(height).error();
         }
+        if (std::isfinite(*height)) {
+            const double raw = (*height - scale_.offset_m) / scale_.gain;
+            ++statistics_.sample_count;
+            statistics_.raw_minimum = std::min(statistics_.raw_minimum, raw);
+            statistics_.raw_maximum = std::max(statistics_.raw_maximum, raw);
+        }
         if (is_json_) {
             printJson(withSchema(asReport(position, *height)), JsonLayout::OneLine);
         } else {
@@ -76,6 +85,9 @@ public:
         }
         return Done{};
     }
+
+    /// Of what was printed.
+    const SampleStatistics& statistics() const noexcept { return statistics_; }
 
 private:
     Result<double> heightAt(Position p)
@@ -143,6 +155,8 @@ private:
     PositionFrame frame_;
     LatitudeKind latitude_kind_;
     bool is_json_;
+    ElevationScale scale_;
+    SampleStatistics statistics_;
 };
 
 // Two numbers separated by blanks, a comma or a semicolon; "nan" is a number. An empty line is no
@@ -239,6 +253,9 @@ Status runSample(const SampleOptions& options)
                         ? sampleStdin(sampler)
                         : sampler.print({options.position.first, options.position.second});
     if (status) {
+        if (sampler.statistics().hasSamples()) {
+            noteUnit(raster->info, sampler.statistics());
+        }
         printNotices(raster->info);
     }
     return status;

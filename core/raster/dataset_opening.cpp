@@ -6,9 +6,15 @@
 #include "core/raster/label_elevation.h"
 #include "core/raster/large_blocks.h"
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <chrono>
+#include <cstdint>
+#include <filesystem>
 #include <fmt/format.h>
+#include <optional>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -77,6 +83,26 @@ Result<OpenedDataset> openRemote(const std::string& name)
         }
         std::this_thread::sleep_for(attempt * kPause);
     }
+}
+
+// GDAL recognizes a tile by its size.
+std::optional<std::string> refusalOfSrtmTile(const std::string& path)
+{
+    const std::filesystem::path file(path);
+    std::string ending = file.extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    constexpr std::uintmax_t kThreeSeconds = 1201 * 1201 * 2;
+    constexpr std::uintmax_t kOneSecond = 3601 * 3601 * 2;
+    std::error_code failure;
+    const std::uintmax_t bytes = std::filesystem::file_size(file, failure);
+    if (ending != ".hgt" || failure || bytes == kThreeSeconds || bytes == kOneSecond) {
+        return std::nullopt;
+    }
+    return fmt::format(
+        "has {} bytes, but SRTM tiles have {} (1201 × 1201 samples) or {} "
+        "(3601 × 3601); it may be cut short; fetch it again",
+        bytes, kThreeSeconds, kOneSecond);
 }
 
 } // namespace
@@ -170,9 +196,9 @@ Result<OpenedDataset> openDataset(const std::string& path, int band)
     };
     // The last of these words come from a driver that looks for JSON in any text.
     if (says("not recognized") || says("Maximum number of characters") || first_failure.empty()) {
-        first_failure =
+        first_failure = refusalOfSrtmTile(path).value_or(
             "is not a raster that GDAL can read, or is damaged; convert it to GeoTIFF or fetch it "
-            "again";
+            "again");
     } else if (says("No such file or directory")) {
         first_failure = fmt::format(
             "names a data file that is missing; put it next to this file ({})", first_failure);

@@ -362,10 +362,7 @@ void noteSuspiciousSamples(RasterInfo& info, const SampleStatistics& statistics)
     if (info.nodata_suggestion) {
         info.notices.push_back(noticeOfNodata(*info.nodata_suggestion));
     }
-    info.unit_suggestion = suggestUnit(info, statistics);
-    if (info.unit_suggestion) {
-        info.notices.push_back(noticeOf(*info.unit_suggestion));
-    }
+    noteUnit(info, statistics);
     constexpr double kHeightMaxM = 1e6; // if the body is unknown
     const double height_max_m = bodyRadius(info).value_or(kHeightMaxM);
     const bool is_of_earth = info.body != nullptr && info.body == bodyNamed("Earth");

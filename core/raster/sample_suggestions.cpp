@@ -79,6 +79,14 @@ std::optional<UnitSuggestion> suggestUnit(const RasterInfo& info,
     return suggestion.implausible_m || is_in_feet ? std::optional(suggestion) : std::nullopt;
 }
 
+void noteUnit(RasterInfo& info, const SampleStatistics& statistics)
+{
+    info.unit_suggestion = suggestUnit(info, statistics);
+    if (info.unit_suggestion) {
+        info.notices.push_back(noticeOf(*info.unit_suggestion));
+    }
+}
+
 std::string noticeOf(const UnitSuggestion& suggestion)
 {
     return fmt::format(

@@ -21,6 +21,10 @@ bool isOnEarth(double elevation_m);
 std::optional<UnitSuggestion> suggestUnit(const RasterInfo& info,
                                           const SampleStatistics& statistics);
 
+/// Sets the suggestion of `info` from the samples that are known, which may be a part of all, and
+/// adds its notice.
+void noteUnit(RasterInfo& info, const SampleStatistics& statistics);
+
 /// The corresponding sentence in RasterInfo::notices.
 std::string noticeOf(const UnitSuggestion& suggestion);
 /// The same for the command line, which sets a unit with --unit.

@@ -1,6 +1,7 @@
 #include "core/session/map.h"
 
 #include "core/base/free_memory.h"
+#include "core/raster/sample_suggestions.h"
 #include "core/terrain/seam.h"
 #include "core/view/exaggeration.h"
 #include "core/view/scene_box.h"
@@ -120,6 +121,7 @@ Result<std::shared_ptr<const Map>> analyzeMap(MapSource source, JobMonitor& moni
         noteSuspiciousSamples(source.info, source.statistics);
     } else {
         notePreview(source.info, source.heightfield);
+        noteUnit(source.info, source.statistics);
     }
     std::shared_ptr<Map> map(new Map(std::move(source), std::move(*analysis)));
     map->filled_ = std::make_shared<const FilledHeightfield>(std::move(*filled));

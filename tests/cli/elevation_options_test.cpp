@@ -71,6 +71,10 @@ TEST(ElevationOptions, InfoNamesTheOptionForElevationsInFeet)
     EXPECT_THAT(runCli({"info", path}).err, HasSubstr("--unit ft"));
     EXPECT_THAT(runCli({"render", path, "-o", folder.file("a.png"), "--size", "16x16"}).err,
                 HasSubstr("--unit ft"));
+    const ProgramOutput high = runCli({"sample", path, "--pixel", "1", "1"});
+    EXPECT_EQ(high.out, "14176.0\n");
+    EXPECT_THAT(high.err, HasSubstr("--unit ft"));
+    EXPECT_EQ(runCli({"sample", path, "--pixel", "0", "0"}).err, "") << "4458 m may be meters";
     const nlohmann::json in_feet = cliInfo(path, {"--unit", "ft"});
     EXPECT_TRUE(in_feet["vertical_unit_suggestion"].is_null());
     EXPECT_DOUBLE_EQ(in_feet["maximum"], 14176 * 0.3048);

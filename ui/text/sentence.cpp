@@ -22,6 +22,9 @@ constexpr std::array kMessages{
     QT_TRANSLATE_NOOP("CoreMessage",
                       "is not a raster that GDAL can read, or is damaged; convert it to GeoTIFF or "
                       "fetch it again"),
+    QT_TRANSLATE_NOOP("CoreMessage",
+                      "has %1 bytes, but SRTM tiles have %2 (1201 × 1201 samples) or %3 (3601 × "
+                      "3601); it may be cut short; fetch it again"),
     QT_TRANSLATE_NOOP("CoreMessage", "is a color picture, not an elevation map"),
     QT_TRANSLATE_NOOP("CoreMessage",
                       "is one band of a color picture, read as elevations; open an elevation map "

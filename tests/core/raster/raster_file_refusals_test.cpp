@@ -246,6 +246,18 @@ TEST(Refusal, RastersWithoutSamples)
               path + ": is damaged: its header says 0 × 64 samples; fetch it again");
 }
 
+TEST(Refusal, ATruncatedSrtmTileIsToldFromItsSize)
+{
+    const TempFolder folder;
+    const auto refused =
+        RasterFile::open(folder.write("N40W106.hgt", std::string(1'000'000, '\0')));
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(refused.error().message,
+                testing::EndsWith("has 1000000 bytes, but SRTM tiles have 2884802 (1201 × 1201 "
+                                  "samples) or 25934402 (3601 × 3601); it may be cut short; fetch "
+                                  "it again"));
+}
+
 TEST(Refusal, SgiPicturesAreNamed)
 {
     const TempFolder folder;

@@ -1,3 +1,4 @@
+#include "core/raster/sample_suggestions.h"
 #include "core/session/open_map.h"
 #include "core/session/preview.h"
 #include "tests/support/make_raster.h"
@@ -7,7 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -37,6 +40,23 @@ MapPoint outerCorner(const Georeference& georeference, bool is_right, bool is_lo
 {
     return georeference.toMap({is_right ? static_cast<double>(georeference.columns()) - 0.5 : -0.5,
                                is_lower ? static_cast<double>(georeference.rows()) - 0.5 : -0.5});
+}
+
+// 2026-11: only the whole map suggested feet.
+TEST(PreviewMap, SuggestsFeet)
+{
+    const test::TempFolder folder;
+    std::vector<std::int16_t> samples(40 * 40, 4458);
+    std::fill(samples.begin() + 800, samples.end(), std::int16_t{14176});
+    test::RasterRecipe recipe = test::recipeFor(40, samples);
+    recipe.srs = "EPSG:4267";
+    recipe.transform = {-105.0, 0.001, 0.0, 38.0, 0.0, -0.001};
+    const auto map = preview({.path = test::writeRaster(folder, "feet.tif", "GTiff", recipe)}, 100);
+    ASSERT_TRUE(map);
+    ASSERT_TRUE(map->isPreview());
+    ASSERT_TRUE(map->info().unit_suggestion);
+    EXPECT_EQ(map->info().unit_suggestion->unit.name, "ft");
+    EXPECT_EQ(map->info().notices.back(), noticeOf(*map->info().unit_suggestion));
 }
 
 TEST(PreviewMap, CoversTheSameAreaAsItsMap)
