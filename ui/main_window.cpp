@@ -154,7 +154,9 @@ MainWindow::MainWindow(const WindowOptions& options, QWidget* parent)
     commands_->preferences.set(options_.isRemembered() ? preferencesFrom(QSettings())
                                                        : Preferences{});
     showSession();
-    commands_->haptics.connectToRemembered();
+    commands_->haptics.connectToRemembered(preferences().reconnects_device
+                                               ? HapticsCommands::LastDevice::Connect
+                                               : HapticsCommands::LastDevice::Leave);
     view_->setFocus();
 }
 

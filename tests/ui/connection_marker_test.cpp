@@ -89,6 +89,24 @@ TEST_F(ConnectionMarker, ExistsAsLongAsADeviceIsConnected)
     EXPECT_TRUE(isConnectedSoon());
 }
 
+TEST_F(ConnectionMarker, LeavesTheDeviceIfPreferencesSaySo)
+{
+    QSettings().setValue(QStringLiteral("preferences/reconnectsDevice"), false);
+    makeWindow();
+    EXPECT_EQ(device().connection(), HapticsConnection::None);
+    EXPECT_EQ(haptics().settings().device, QStringLiteral("hand:")) << "still remembered";
+    QSettings().remove(QStringLiteral("preferences"));
+}
+
+// 2026-11: the simulated hand stroked the map at the next start.
+TEST_F(ConnectionMarker, LeavesTheSimulatedHand)
+{
+    QSettings().setValue(QStringLiteral("haptics/device"), QStringLiteral("sim:"));
+    makeWindow();
+    EXPECT_EQ(device().connection(), HapticsConnection::None);
+    EXPECT_EQ(device().notice(), QString());
+}
+
 TEST_F(ConnectionMarker, IsNotSetForARecordingThatIsReplayed)
 {
     makeWindow();

@@ -100,13 +100,18 @@ void HapticsCommands::connectActions()
             [this] { parts_.haptics.setStopped(true); });
 }
 
-void HapticsCommands::connectToRemembered()
+void HapticsCommands::connectToRemembered(LastDevice last)
 {
     DeviceSession& device = parts_.haptics.device();
     const auto& remembered = parts_.haptics.settings().device;
-    if (parts_.is_remembered && hasEndedWhileConnected()) {
+    const bool has_ended = parts_.is_remembered && hasEndedWhileConnected();
+    if (last == LastDevice::Leave) {
+        return;
+    }
+    if (has_ended) {
         device.holdBackRemembered(remembered);
-    } else {
+    } else if (!remembered.startsWith(QStringLiteral("sim:"))) {
+        // A hand that moves without having been asked to would be a surprise.
         device.connectToRemembered(remembered);
     }
 }

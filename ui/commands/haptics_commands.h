@@ -35,8 +35,11 @@ public:
     explicit HapticsCommands(const Parts& parts);
     ~HapticsCommands() override;
 
-    /// Connects to the device of the settings, unless the program ended while one was connected.
-    void connectToRemembered();
+    enum class LastDevice { Connect, Leave };
+
+    /// Connects to the device of the settings, unless it is a simulated one, or the program ended
+    /// while one was connected.
+    void connectToRemembered(LastDevice last);
     /// Lets go of the device.
     void close();
 

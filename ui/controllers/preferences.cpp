@@ -36,6 +36,11 @@ QString themeKey()
     return QStringLiteral("preferences/theme");
 }
 
+QString reconnectsKey()
+{
+    return QStringLiteral("preferences/reconnectsDevice");
+}
+
 QString languageKey()
 {
     return QStringLiteral("preferences/language");
@@ -168,6 +173,8 @@ Preferences preferencesFrom(const QSettings& settings)
     preferences.contact_model =
         contactModelKind(settings.value(contactModelKey()).toString().toStdString())
             .value_or(standard.contact_model);
+    preferences.reconnects_device =
+        settings.value(reconnectsKey(), standard.reconnects_device).toBool();
     const int tile_memory_mb = settings.value(tileMemoryKey()).toInt();
     preferences.tile_memory_mb =
         tile_memory_mb > 0 ? std::max(tile_memory_mb, kTileMemoryMbMin) : 0;
@@ -207,6 +214,7 @@ void save(const Preferences& preferences, QSettings& settings)
     const std::string_view model = contactModelName(preferences.contact_model);
     settings.setValue(contactModelKey(),
                       QString::fromUtf8(model.data(), static_cast<qsizetype>(model.size())));
+    settings.setValue(reconnectsKey(), preferences.reconnects_device);
     settings.setValue(tileMemoryKey(), preferences.tile_memory_mb);
     settings.setValue(mapFolderKey(), preferences.map_folder);
     settings.setValue(mapFolderBoundKey(), preferences.map_folder_gb);

@@ -27,10 +27,11 @@ struct Preferences {
     bool has_antialiasing = true;   // where the driver does it without effort
     int frames_per_s = 30;          // while something moves: 20, 30 or 60
     ContactModelKind contact_model = kContactModelDefault;
-    int tile_memory_mb = 0; // for tiles of large maps; 0: a quarter of memory
-    QString map_folder{};   // of prepared maps; empty: the user's cache folder
-    int map_folder_gb = 0;  // that they may take; 0: what suits the disk
-    int fetched_gb = 0;     // that tiles from servers may take on disk; 0: kFetchedBytesMax
+    bool reconnects_device = true; // at the start, if it was connected when the window closed
+    int tile_memory_mb = 0;        // for tiles of large maps; 0: a quarter of memory
+    QString map_folder{};          // of prepared maps; empty: the user's cache folder
+    int map_folder_gb = 0;         // that they may take; 0: what suits the disk
+    int fetched_gb = 0;            // that tiles from servers may take on disk; 0: kFetchedBytesMax
 
     bool operator==(const Preferences&) const = default;
 };

@@ -78,6 +78,14 @@ PreferencesDialog::PreferencesDialog(const Preferences& preferences,
     picture->addRow(tr("&Frame rate while moving"), frame_rate_);
     picture->addRow(QString(), antialiasing_);
     //: A group of the preferences
+    QFormLayout* haptics = add_group(tr("Haptics"));
+    reconnects_ = new QCheckBox(tr("Connect the last &device at the start"), this);
+    reconnects_->setObjectName(QStringLiteral("reconnectsDevice"));
+    reconnects_->setToolTip(
+        tr("The device that was connected when MarsView was closed. The "
+           "simulated hand is never connected by itself"));
+    haptics->addRow(QString(), reconnects_);
+    //: A group of the preferences
     QFormLayout* memory = add_group(tr("Memory"));
     memory->addRow(tr("Tiles of &large maps"), large_maps_->memoryField());
     groups->addStretch(1);

@@ -40,6 +40,7 @@ private:
     QComboBox* theme_ = nullptr;
     QComboBox* height_unit_ = nullptr;
     QComboBox* frame_rate_ = nullptr;
+    QCheckBox* reconnects_ = nullptr;
     QCheckBox* antialiasing_ = nullptr;
     CoordinatesPage* coordinates_ = nullptr;
     LargeMapsPage* large_maps_ = nullptr;
