@@ -4,6 +4,7 @@
 #include "ui/commands/name_search.h"
 #include "ui/commands/window_commands.h"
 #include "ui/dialogs/go_to_dialog.h"
+#include "ui/overlay/map_labels.h"
 #include "ui/overlay/map_overlays.h"
 #include "ui/overlay/place_mark.h"
 #include "ui/window/main_tool_bar.h"
@@ -18,6 +19,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -69,6 +71,16 @@ TEST_F(NameSearchTest, TypingANameFliesThereSoThatTheFeatureFillsTheView)
                 1e-6);
     EXPECT_TRUE(window_->overlays()->isPlaceMarked());
     EXPECT_TRUE(field().text().isEmpty());
+    // 2026-11: the pin covered the name.
+    const auto* pin = view().findChild<PlaceMark*>();
+    ASSERT_NE(pin, nullptr);
+    EXPECT_TRUE(waitFor([&] {
+        const auto& names = window_->overlays()->labels()->nameLabels();
+        return std::any_of(names.begin(), names.end(), [&](const MapLabels::Label& name) {
+            return name.text == QStringLiteral("Olympus Mons") &&
+                   !name.box.intersects(QRectF(pin->geometry()));
+        });
+    }));
     // 610 km take between half and all of the picture's height.
     const double height_m =
         metersPerPixel(view().camera(), view().viewport()) * view().viewport().height;

@@ -1,8 +1,7 @@
 #include "ui/overlay/force_meter.h"
 
-#include "core/view/round_numbers.h"
 #include "ui/overlay/overlay_text.h"
-#include "ui/text/number_text.h"
+#include "ui/text/haptics_text.h"
 #include "ui/widgets/plate.h"
 
 #include <QFontMetrics>
@@ -27,12 +26,6 @@ constexpr double kRimShown = 0.85;
 
 // Forces weaker than this share of the largest have no direction worth showing.
 constexpr double kDirectionFrom = 0.01;
-
-QString forceText(double force_n, double step_n)
-{
-    //: A force in newtons
-    return leftToRight(ForceMeter::tr("%1 N").arg(numberText(force_n, step_n)));
-}
 
 } // namespace
 
@@ -77,21 +70,16 @@ void ForceMeter::release()
     }
 }
 
-// A hand distinguishes about two digits of the largest force.
-double ForceMeter::step() const
-{
-    return roundNumberBelow(force_n_max_ / 100.0);
-}
-
 QString ForceMeter::text() const
 {
-    return forceText(length(force_n_), step());
+    return forceText(length(force_n_), force_n_max_);
 }
 
 QString ForceMeter::spokenText() const
 {
     //: %1 is a force, for example "1.2 N", coarse enough not to change all the time
-    return tr("Force %1").arg(forceText(length(force_n_), roundNumberAbove(force_n_max_ / 20.0)));
+    constexpr double kCoarser = 10.0; // one decimal less
+    return tr("Force %1").arg(forceText(length(force_n_), kCoarser * force_n_max_));
 }
 
 QSize ForceMeter::sizeHint() const
@@ -100,7 +88,7 @@ QSize ForceMeter::sizeHint() const
         return {0, 0};
     }
     const QFontMetrics metrics(font());
-    const int number = metrics.horizontalAdvance(forceText(force_n_max_, step()));
+    const int number = metrics.horizontalAdvance(forceText(force_n_max_, force_n_max_));
     const int space = metrics.height() * 9 / 4;
     return {space + kGap + kBarWidth + kGap + number + 2 * kPlatePadding,
             space + 2 * (kPlatePadding - 3)};

@@ -35,7 +35,6 @@ protected:
     void paintEvent(QPaintEvent* event) override;
 
 private:
-    double step() const;
     QString spokenText() const;
 
     Vec3 force_n_{};

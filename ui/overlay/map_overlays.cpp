@@ -102,7 +102,8 @@ MapOverlays::MapOverlays(TerrainView& view)
         }
         return boxes;
     });
-    const QList<QWidget*> obstacles = plates();
+    QList<QWidget*> obstacles = plates();
+    obstacles.append(place_mark_); // a pin does not cover the name that it marks
     labels_->setObstacles({obstacles.begin(), obstacles.end()});
     const auto add = [this](const QString& text, const QString& name, bool is_on, auto show) {
         auto* action = new QAction(text, this);

@@ -45,12 +45,6 @@ constexpr int kUriRole = Qt::UserRole;
 constexpr int kUsableRole = Qt::UserRole + 1;
 constexpr int kReasonRole = Qt::UserRole + 2; // why it cannot be used
 
-QString forceText(double force_n)
-{
-    //: A force in newtons
-    return leftToRight(HapticsPanel::tr("%1 N").arg(numberText(force_n, 2)));
-}
-
 QLabel* makeText(QWidget* parent, const QString& name)
 {
     auto* label = new QLabel(parent);
@@ -536,7 +530,7 @@ void HapticsPanel::showNoState()
 {
     if (!device_.isRunning()) {
         force_->setValue(0);
-        force_->setFormat(forceText(0.0));
+        force_->setFormat(forceText(0.0, kForceNMax));
         reason_->setText(device_.loop() != nullptr ? letGoText(ForceOffReason::NoTouch)
                                                    : QString());
         rest_->hide();
@@ -558,9 +552,10 @@ void HapticsPanel::showState(const LoopState& state)
         most_n > 0.0 ? static_cast<int>(std::lround(std::min(1.0, force_n / most_n) * kForceSteps))
                      : 0);
     //: %1 is a force, like "0.45 N"
-    force_->setFormat(state.is_force_recorded ? tr("%1 when recorded").arg(forceText(force_n))
+    const QString text_n = forceText(force_n, most_n); // as over the map
+    force_->setFormat(state.is_force_recorded ? tr("%1 when recorded").arg(text_n)
                       : is_replay             ? tr("No force recorded")
-                                              : forceText(force_n));
+                                              : text_n);
     if (is_replay) {
         replayed_->setValue(static_cast<int>(std::lround(device_.replayedShare() * kReplaySteps)));
     }

@@ -1,6 +1,7 @@
 #include "ui/text/haptics_text.h"
 
 #include "core/geo/body.h"
+#include "core/view/round_numbers.h"
 #include "haptics/trace/replay_check.h"
 #include "ui/text/body_text.h"
 #include "ui/text/contact_model_text.h"
@@ -160,6 +161,15 @@ QString replayEndText(const QString& file)
 {
     //: %1 is a file
     return tr("%1 was replayed to its end").arg(isolated(QFileInfo(file).fileName()));
+}
+
+QString forceText(double force_n, double force_n_max)
+{
+    constexpr double kDistinguished = 0.01; // of the largest
+    const int decimals =
+        force_n_max > 0.0 ? decimalsOf(roundNumberBelow(kDistinguished * force_n_max)) : 2;
+    //: A force in newtons
+    return leftToRight(tr("%1 N").arg(numberText(force_n, decimals)));
 }
 
 QString spanText(std::chrono::nanoseconds span)

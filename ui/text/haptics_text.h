@@ -34,6 +34,8 @@ QString savedTicksText(const SavedTicks& saved);
 QString replayText(const QString& file, const ReplayFit& fit, const TouchedGround& ground);
 /// That a recording was replayed to its end.
 QString replayEndText(const QString& file);
+/// "0.45 N", to about the hundredth of the largest force, which a hand distinguishes.
+QString forceText(double force_n, double force_n_max);
 /// "12 µs", "3.4 ms"; two significant digits at least.
 QString spanText(std::chrono::nanoseconds span);
 

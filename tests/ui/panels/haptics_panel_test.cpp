@@ -106,6 +106,11 @@ TEST_F(HapticsPanelTest, ShowsForceAndTimesWhileConnected)
     auto& force = part<QProgressBar>("force");
     EXPECT_TRUE(waitFor([&] { return force.value() > 10; }));
     EXPECT_EQ(text("letGoReason"), QStringLiteral("Touching the terrain"));
+    // The meter over the map says the same.
+    auto* meter = window_->findChild<ForceMeter*>();
+    EXPECT_TRUE(waitFor([&] {
+        return meter->text() == force.format() && meter->text() != QStringLiteral("0.00 N");
+    }));
     EXPECT_TRUE(waitFor([&] {
         return panel().findChild<TimePlot*>()->moments().size() > 2 && !text("times").isEmpty();
     }));
@@ -157,6 +162,13 @@ TEST_F(HapticsPanelTest, ShowsAReplaysProgressAndStopsIt)
     EXPECT_EQ(window_->findChild<ForceMeter*>()->sizeHint(), QSize(0, 0)) << "not in use";
     EXPECT_EQ(text("hapticStatus"), QStringLiteral("Replaying touch.csv"));
     EXPECT_EQ(replay.text(), QStringLiteral("Stop Re&play"));
+    auto& stop = part<QPushButton>("emergencyStop");
+    EXPECT_TRUE(stop.isEnabled());
+    stop.click();
+    EXPECT_TRUE(haptics().isStopped());
+    EXPECT_TRUE(waitFor([&] { return text("letGoReason").contains(QStringLiteral("emergency")); }));
+    stop.click();
+    EXPECT_TRUE(waitFor([&] { return text("letGoReason") == QStringLiteral("Replaying"); }));
     replay.click();
     EXPECT_EQ(device().connection(), HapticsConnection::None);
     EXPECT_TRUE(progress.isHidden());
