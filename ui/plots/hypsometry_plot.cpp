@@ -274,6 +274,11 @@ void HypsometryPlot::changeEvent(QEvent* event)
     QWidget::changeEvent(event);
 }
 
+QSize HypsometryPlot::pictureSize()
+{
+    return kHypsometrySize;
+}
+
 bool HypsometryPlot::savePicture(const QString& path)
 {
     const QString suffix = QFileInfo(path).suffix().toLower();

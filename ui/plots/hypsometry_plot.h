@@ -31,6 +31,8 @@ public:
     /// What is read: elevation and share. Empty for nothing.
     QString cursorText() const;
 
+    /// Of the picture that savePicture() draws, in units; its labels have the font of the widget.
+    static QSize pictureSize();
     /// The plot's image in the format that the suffix names: png, svg or pdf. False where the file
     /// cannot be written.
     bool savePicture(const QString& path);

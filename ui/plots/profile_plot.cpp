@@ -503,6 +503,11 @@ void ProfilePlot::changeEvent(QEvent* event)
     QWidget::changeEvent(event);
 }
 
+QSize ProfilePlot::pictureSize()
+{
+    return kPictureSize;
+}
+
 bool ProfilePlot::savePicture(const QString& path)
 {
     fitTicks(kPictureSize.height());

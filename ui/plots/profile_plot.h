@@ -58,6 +58,8 @@ public:
     const std::optional<DistanceRange>& stretch() const noexcept { return stretch_; }
     void setStretch(const std::optional<DistanceRange>& stretch);
 
+    /// Of the picture that savePicture() draws, in units; its labels have the font of the widget.
+    static QSize pictureSize();
     /// The plot's image in the format that the suffix names: png, svg or pdf. False where the file
     /// cannot be written.
     bool savePicture(const QString& path);

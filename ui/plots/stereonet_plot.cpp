@@ -221,6 +221,11 @@ void StereonetPlot::drawRose(QPainter& painter, const QRectF& circle, const Colo
     }
 }
 
+QSize StereonetPlot::pictureSize()
+{
+    return {kPictureSide, kPictureSide};
+}
+
 bool StereonetPlot::savePicture(const QString& path) const
 {
     const Colors colors{
@@ -237,6 +242,7 @@ bool StereonetPlot::savePicture(const QString& path) const
         if (!painter.begin(&file)) {
             return false;
         }
+        painter.setFont(font());
         draw(painter, page, colors);
         return painter.end();
     }
@@ -250,6 +256,7 @@ bool StereonetPlot::savePicture(const QString& path) const
         if (!painter.begin(&file)) {
             return false;
         }
+        painter.setFont(font());
         draw(painter, page, colors);
         return painter.end();
     }
@@ -257,6 +264,7 @@ bool StereonetPlot::savePicture(const QString& path) const
     image.fill(Qt::white);
     QPainter painter(&image);
     painter.scale(kPngScale, kPngScale);
+    painter.setFont(font());
     draw(painter, page, colors);
     painter.end();
     return image.save(path);

@@ -42,6 +42,8 @@ public:
     /// Where the pole of a plane is drawn, in the widget; empty for an unknown plane.
     std::optional<QPointF> placeOf(std::uint32_t id) const;
 
+    /// Of the picture that savePicture() draws, in units; its labels have the font of the widget.
+    static QSize pictureSize();
     /// The diagram in the format that the suffix names: png, svg or pdf. False where the file
     /// cannot be written.
     bool savePicture(const QString& path) const;

@@ -60,8 +60,8 @@ struct ReportSection {
     QString title;
     QString note{};
     QList<ReportFact> facts{};
-    std::optional<ReportTable> table{};
     QList<ReportFigure> figures{};
+    std::optional<ReportTable> table{};
 };
 
 struct Report {

@@ -18,6 +18,8 @@
 #include <QDateTime>
 #include <QFile>
 #include <QFileInfo>
+#include <QFont>
+#include <QGuiApplication>
 #include <QLocale>
 #include <QSvgRenderer>
 #include <QTemporaryDir>
@@ -56,6 +58,18 @@ std::optional<ReportFigure> figureOf(Plot& plot, const QString& caption)
     return figure.size.isEmpty() ? std::nullopt : std::optional(std::move(figure));
 }
 
+// Labels are eight points high on paper, where the sheet is 174 mm wide and a figure takes `share`
+// of it with so many units.
+QFont figureFont(double width_units, double share)
+{
+    constexpr double kLabelPoints = 8.0;
+    constexpr double kSheetPoints = 174.0 / 25.4 * 72.0;
+    QFont font = QGuiApplication::font();
+    font.setPixelSize(
+        static_cast<int>(std::ceil(kLabelPoints * width_units / (share * kSheetPoints))));
+    return font;
+}
+
 // Of paper, whatever the theme of the window is.
 QPalette paperPalette()
 {
@@ -71,6 +85,7 @@ profileFigure(const MeasureItem& item, const Profile& profile, HeightUnit unit)
 {
     ProfilePlot plot;
     plot.setPalette(paperPalette());
+    plot.setFont(figureFont(ProfilePlot::pictureSize().width(), 1.0));
     plot.setHeightUnit(unit);
     ProfileCurve curve;
     curve.name = item.name;
@@ -81,7 +96,7 @@ profileFigure(const MeasureItem& item, const Profile& profile, HeightUnit unit)
         curve.distance_m.push_back(point.distance_m);
         curve.elevation_m.push_back(point.elevation_m);
     }
-    plot.resize(1200, 500);
+    plot.resize(ProfilePlot::pictureSize());
     plot.setCurves({std::move(curve)});
     plot.showEverything();
     // Drawn first: the axes get the size that they have in the figure.
@@ -104,6 +119,7 @@ std::optional<ReportFigure> hypsometryFigure(const TerrainArea& area, HeightUnit
     }
     HypsometryPlot plot;
     plot.setPalette(paperPalette());
+    plot.setFont(figureFont(HypsometryPlot::pictureSize().width(), 1.0));
     plot.setHeightUnit(unit);
     plot.setHypsometry(area.hypsometry, area.is_approximate);
     return figureOf(plot, reportTr(QT_TRANSLATE_NOOP(
@@ -180,7 +196,9 @@ ReportMap mapOf(const ReportSource& source, const QSize& picture)
     const auto place = viewCamera(map.georeference(), camera, view.exaggeration());
     made.north_deg = -(place ? place->azimuth : camera.azimuth).degrees();
     //: Below a map; %1 is the position in its middle, %2 a body and a CRS, %3 a factor
-    made.caption = reportTr(QT_TRANSLATE_NOOP("Report", "%1. %2. Vertical exaggeration ×%3"))
+    made.caption = reportTr(QT_TRANSLATE_NOOP("Report",
+                                              "The view in the window, with %1 in its middle. %2. "
+                                              "Vertical exaggeration ×%3"))
                        .arg(positionText(source.format, map,
                                          map.georeference().sceneFrame().toGrid(camera.target),
                                          metersPerPixel(camera, viewport)),
@@ -354,6 +372,7 @@ std::optional<ReportSection> attitudesSection(const ReportSource& source)
         return std::nullopt;
     }
     StereonetPlot plot;
+    plot.setFont(figureFont(StereonetPlot::pictureSize().width(), 0.5));
     plot.setPlanes(std::move(planes), 0);
     auto figure =
         figureOf(plot, reportTr(QT_TRANSLATE_NOOP(

@@ -16,6 +16,7 @@ body { font: 15px/1.5 system-ui, "Noto Sans", "DejaVu Sans", sans-serif; margin:
 main { max-width: 960px; margin: 24px auto; padding: 40px 48px; background: #ffffff;
   box-shadow: 0 1px 4px rgba(0, 0, 0, 0.18); }
 header { border-bottom: 2px solid #b03a1e; padding-bottom: 12px; margin-bottom: 20px; }
+h1, h2, p, td, dd { overflow-wrap: anywhere; }
 h1 { font-size: 28px; line-height: 1.2; margin: 0; font-weight: 600; }
 h2 { font-size: 19px; margin: 36px 0 8px; font-weight: 600; }
 .subtitle { color: #5b5b60; margin: 4px 0 0; }
@@ -104,9 +105,6 @@ QString sectionHtml(const ReportSection& section)
     if (!section.facts.isEmpty()) {
         html += factsHtml(section.facts);
     }
-    if (section.table) {
-        html += tableHtml(*section.table);
-    }
     for (const ReportFigure& figure : section.figures) {
         const bool is_square = figure.size.width() < 1.3 * figure.size.height();
         html += QStringLiteral(
@@ -114,6 +112,9 @@ QString sectionHtml(const ReportSection& section)
                     "<figcaption>%2</figcaption></figure>\n")
                     .arg(is_square ? QStringLiteral("square") : QStringLiteral("drawing"),
                          escaped(figure.caption), dataAddress(figure.svg, "image/svg+xml"));
+    }
+    if (section.table) {
+        html += tableHtml(*section.table);
     }
     return html + QStringLiteral("</section>\n");
 }

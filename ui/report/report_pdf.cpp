@@ -32,10 +32,12 @@ const QColor kFaint(91, 91, 96);
 const QColor kRule(214, 214, 214);
 const QColor kAccent(176, 58, 30);
 
-double dots(double mm)
+constexpr double dots(double mm)
 {
     return mm / 25.4 * kDotsPerInch;
 }
+
+constexpr double kFactGap = dots(8.0); // between the columns of facts
 
 // ReportPages from top to bottom. Lengths are dots.
 class ReportPages {
@@ -106,11 +108,19 @@ private:
         }
     }
 
+    // Long names, such as those of files, break anywhere.
+    static QTextOption wrapped(Qt::Alignment alignment = Qt::AlignLeft)
+    {
+        QTextOption option(alignment);
+        option.setWrapMode(QTextOption::WrapAtWordBoundaryOrAnywhere);
+        return option;
+    }
+
     double heightOf(const QString& text, const QFont& font, double width) const
     {
-        return metrics(font)
-            .boundingRect(QRectF(0.0, 0.0, width, 1e6), Qt::TextWordWrap, text)
-            .height();
+        painter_.setFont(font);
+        const QRectF box = painter_.boundingRect(QRectF(0.0, 0.0, width, 1e6), text, wrapped());
+        return std::max(box.height(), metrics(font).height());
     }
 
     void paragraph(const QString& text,
@@ -123,7 +133,7 @@ private:
         ensure(height);
         painter_.setFont(used);
         painter_.setPen(color);
-        painter_.drawText(QRectF(0.0, y_, width_, height), Qt::TextWordWrap, text);
+        painter_.drawText(QRectF(0.0, y_, width_, height), text, wrapped());
         y_ += height;
     }
 
@@ -173,8 +183,18 @@ private:
     void writeSection(const ReportSection& section)
     {
         const QFont heading = font(kHeadingPoints, QFont::DemiBold);
-        // A heading is never alone at the bottom of a page.
-        ensure(metrics(heading).height() + dots(25.0));
+        // A heading is never alone at the bottom of a page, and on that of its figures.
+        double below = 0.0;
+        for (const ReportFigure& figure : section.figures) {
+            below += figureHeight(figure);
+        }
+        if (below > 0.0) {
+            below +=
+                factsHeight(section.facts) + dots(5.0) +
+                (section.note.isEmpty() ? 0.0 : heightOf(section.note, font(kTextPoints), width_));
+        }
+        const double top = metrics(heading).height() + dots(5.0);
+        ensure(top + (top + below <= height_ ? std::max(below, dots(20.0)) : dots(20.0)));
         y_ += y_ > 0.0 ? dots(4.0) : 0.0;
         paragraph(section.title, kHeadingPoints, kInk, QFont::DemiBold);
         y_ += dots(1.0);
@@ -185,37 +205,52 @@ private:
         if (!section.facts.isEmpty()) {
             writeFacts(section.facts);
         }
-        if (section.table) {
-            writeTable(*section.table);
-        }
         for (const ReportFigure& figure : section.figures) {
             writeFigure(figure);
         }
+        if (section.table) {
+            writeTable(*section.table);
+        }
     }
+
+    // Of the row of two facts that begins with `first`.
+    double factRowHeight(const QList<ReportFact>& facts, qsizetype first) const
+    {
+        const QFont used = font(kTextPoints);
+        double height = metrics(used).height();
+        for (qsizetype k = first; k < std::min(first + 2, facts.size()); ++k) {
+            const double label = metrics(used).horizontalAdvance(facts[k].label) + dots(3.0);
+            height = std::max(height, heightOf(facts[k].value, used, factColumn() - label));
+        }
+        return height;
+    }
+    double factsHeight(const QList<ReportFact>& facts) const
+    {
+        double height = dots(2.0);
+        for (qsizetype i = 0; i < facts.size(); i += 2) {
+            height += factRowHeight(facts, i) + dots(1.6);
+        }
+        return height;
+    }
+    double factColumn() const { return (width_ - kFactGap) / 2.0; }
 
     // In two columns, row by row.
     void writeFacts(const QList<ReportFact>& facts)
     {
         const QFont used = font(kTextPoints);
-        const double gap = dots(8.0);
-        const double column = (width_ - gap) / 2.0;
-        const double line = metrics(used).height();
+        const double column = factColumn();
         for (qsizetype i = 0; i < facts.size(); i += 2) {
-            double height = line;
-            for (qsizetype k = i; k < std::min(i + 2, facts.size()); ++k) {
-                const double label = metrics(used).horizontalAdvance(facts[k].label) + dots(3.0);
-                height = std::max(height, heightOf(facts[k].value, used, column - label));
-            }
+            const double height = factRowHeight(facts, i);
             ensure(height + dots(1.6));
             for (qsizetype k = i; k < std::min(i + 2, facts.size()); ++k) {
-                const double left = k == i ? 0.0 : column + gap;
+                const double left = k == i ? 0.0 : column + kFactGap;
                 const double label = metrics(used).horizontalAdvance(facts[k].label) + dots(3.0);
                 painter_.setFont(used);
                 painter_.setPen(kFaint);
                 painter_.drawText(QRectF(left, y_, column, height), Qt::AlignLeft, facts[k].label);
                 painter_.setPen(kInk);
-                painter_.drawText(QRectF(left + label, y_, column - label, height),
-                                  Qt::AlignRight | Qt::TextWordWrap, facts[k].value);
+                painter_.drawText(QRectF(left + label, y_, column - label, height), facts[k].value,
+                                  wrapped(Qt::AlignRight));
                 painter_.setPen(QPen(kRule, dots(0.15)));
                 const double bottom = y_ + height + dots(0.6);
                 painter_.drawLine(QPointF(left, bottom), QPointF(left + column, bottom));
@@ -277,8 +312,8 @@ private:
         painter_.setPen(kInk);
         double left = 0.0;
         for (std::size_t i = 0; i < widths.size(); ++i) {
-            painter_.drawText(QRectF(left, y_, widths[i] - dots(3.0), height), Qt::TextWordWrap,
-                              row[static_cast<qsizetype>(i)]);
+            painter_.drawText(QRectF(left, y_, widths[i] - dots(3.0), height),
+                              row[static_cast<qsizetype>(i)], wrapped());
             left += widths[i];
         }
         y_ += height + dots(0.8);
@@ -310,14 +345,24 @@ private:
         y_ += dots(2.0);
     }
 
+    double figureWidth(const ReportFigure& figure) const
+    {
+        return figure.size.height() > 0.75 * figure.size.width() ? 0.5 * width_ : width_;
+    }
+    // With its caption.
+    double figureHeight(const ReportFigure& figure) const
+    {
+        const double caption =
+            figure.caption.isEmpty() ? 0.0 : heightOf(figure.caption, font(kSmallPoints), width_);
+        return figureWidth(figure) * figure.size.height() / figure.size.width() + caption +
+               dots(2.0);
+    }
+
     void writeFigure(const ReportFigure& figure)
     {
-        const double ratio = static_cast<double>(figure.size.height()) / figure.size.width();
-        const double width = ratio > 0.75 ? 0.5 * width_ : width_;
-        const double height = width * ratio;
-        const double caption =
-            figure.caption.isEmpty() ? 0.0 : metrics(font(kSmallPoints)).height();
-        ensure(height + caption + dots(2.0));
+        const double width = figureWidth(figure);
+        const double height = width * figure.size.height() / figure.size.width();
+        ensure(figureHeight(figure));
         drawing(figure.svg, QRectF(0.0, y_, width, height));
         y_ += height;
         if (!figure.caption.isEmpty()) {

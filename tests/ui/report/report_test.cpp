@@ -158,6 +158,26 @@ TEST_F(ReportTest, TheWebPageHoldsEverythingAndNeedsNoOtherFile)
         ++images;
     }
     EXPECT_EQ(images, 4) << "the map, the profile, the hypsometry, the stereonet";
+    // 2026-11: labels were 4 pixels high. A drawing is 720 pixels wide, a square one 420.
+    const QRegularExpression drawn(
+        QStringLiteral("class=\"(drawing|square)\"><img[^>]*data:image/svg.xml;base64,([^\"]+)\""));
+    const QRegularExpression view_box(QStringLiteral("viewBox=\"0 0 (\\d+) "));
+    const QRegularExpression size(QStringLiteral("font-size=\"(\\d+)\"[^>]*>\\s*<text"));
+    int labels = 0;
+    for (auto it = drawn.globalMatch(page); it.hasNext();) {
+        const QRegularExpressionMatch figure = it.next();
+        const QString svg =
+            QString::fromUtf8(QByteArray::fromBase64(figure.captured(2).toLatin1()));
+        const double pixels = (figure.captured(1) == QStringLiteral("square") ? 420.0 : 720.0) /
+                              view_box.match(svg).captured(1).toDouble();
+        for (auto label = size.globalMatch(svg); label.hasNext(); ++labels) {
+            EXPECT_GE(label.next().captured(1).toDouble() * pixels, 11.0);
+        }
+    }
+    EXPECT_GT(labels, 20);
+    EXPECT_LT(page.indexOf(QStringLiteral("class=\"drawing\"")),
+              page.indexOf(QStringLiteral(">Point</th>")))
+        << "a diagram is below the results, not below all points";
     EXPECT_FALSE(page.contains(QStringLiteral("<script")));
     const QRegularExpression picture(QStringLiteral("data:image/jpeg;base64,([^\"]+)\""));
     const QImage map = QImage::fromData(
@@ -269,6 +289,26 @@ TEST_F(ReportTest, UnitsAreThoseOfThePreferences)
         EXPECT_TRUE(page.contains(row.value.toHtmlEscaped())) << row.value.toStdString();
     }
     EXPECT_TRUE(page.contains(QStringLiteral("Elevation (ft)")));
+}
+
+// 2026-11: they ended at the edge of their column.
+TEST_F(ReportTest, LongNamesWrapInThePdf)
+{
+    const auto pagesWith = [this](const QString& name) {
+        Report report{.title = QStringLiteral("names"), .sections = {}};
+        report.map.picture = QImage(80, 20, QImage::Format_RGB32);
+        ReportSection section{.title = QStringLiteral("Layers")};
+        section.table = ReportTable{.header = {QStringLiteral("Layer"), QStringLiteral("Pixel")},
+                                    .rows = {{name, QStringLiteral("1 m")}}};
+        report.sections.append(section);
+        EXPECT_TRUE(writeReportPdf(report, path("names.pdf"), QPageSize::A4));
+        QFile file(path("names.pdf"));
+        EXPECT_TRUE(file.open(QIODevice::ReadOnly));
+        const QRegularExpression count(QStringLiteral("/Count (\\d+)"));
+        return count.match(QString::fromLatin1(file.readAll())).captured(1).toInt();
+    };
+    EXPECT_EQ(pagesWith(QStringLiteral("mars_mola.tif")), 1);
+    EXPECT_EQ(pagesWith(QString(2400, QLatin1Char('m'))), 2);
 }
 
 TEST_F(ReportTest, LongTablesContinueOnFurtherPagesOfThePdf)
