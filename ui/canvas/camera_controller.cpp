@@ -1,7 +1,11 @@
 #include "ui/canvas/camera_controller.h"
 
+#include "core/raster/open_raster.h"
+#include "core/view/camera.h"
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace marsview {
@@ -160,9 +164,21 @@ void CameraController::flyToPlace(const ScenePoint& place)
     }
 }
 
-void CameraController::flyNearer(GridPoint grid)
+void CameraController::flyNearer(GridPoint grid, double pixels_per_point)
 {
-    flyTo(grid, onGround(navigator_.goal()).distance_m * kFlyFactor);
+    if (scene_.isEmpty()) {
+        return;
+    }
+    constexpr double kSamplePoints = 8.0; // nearer, the picture shows no more
+    double sample_m = std::numeric_limits<double>::infinity();
+    for (const ShownLayer& layer : scene_.layers()) {
+        const Georeference samples = georeferenceOf(layer.map->info()); // not those of a preview
+        sample_m = std::min({sample_m, samples.pixelWidthMeters(), samples.pixelHeightMeters()});
+    }
+    const OrbitCamera from = onGround(navigator_.goal());
+    const double factor_min =
+        sample_m / (kSamplePoints * pixels_per_point * metersPerPixel(from, viewport_()));
+    flyTo(grid, from.distance_m * std::clamp(factor_min, kFlyFactor, 1.0));
 }
 
 void CameraController::lookAt(const ScenePoint& place)

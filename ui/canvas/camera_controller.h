@@ -58,8 +58,9 @@ public:
     void flyTo(GridPoint grid, double distance_m);
     /// From the same side and distance.
     void flyToPlace(const ScenePoint& place);
-    /// To a place of the topmost layer and much nearer to it.
-    void flyNearer(GridPoint grid);
+    /// To a place of the topmost layer and much nearer to it, until a sample of the finest layer is
+    /// as large as some points of the screen.
+    void flyNearer(GridPoint grid, double pixels_per_point);
     /// At once, from the same side and distance.
     void lookAt(const ScenePoint& place);
 

@@ -190,7 +190,7 @@ void MapMouse::doubleClick(const QMouseEvent& event)
     if (!ground || action != MapAction::FlyThere) {
         return;
     }
-    parts_.camera.flyNearer(parts_.scene.onTopmost(*ground).grid);
+    parts_.camera.flyNearer(parts_.scene.onTopmost(*ground).grid, parts_.view.devicePixelRatioF());
     Q_EMIT gestureMade(MapAction::FlyThere);
 }
 

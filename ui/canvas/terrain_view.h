@@ -108,7 +108,7 @@ public:
     /// The same to a place of the scene, from the same side and distance.
     void flyToPlace(const ScenePoint& place) { camera_.flyToPlace(place); }
     /// Flies to what surfaceAt() found, and much nearer to it.
-    void flyNearer(const RayHit& hit) { camera_.flyNearer(hit.grid); }
+    void flyNearer(const RayHit& hit) { camera_.flyNearer(hit.grid, devicePixelRatioF()); }
     /// Flies until the camera is this one, within the limits.
     void flyTo(const OrbitCamera& camera) { camera_.flyTo(camera); }
     /// Looks at a place of the scene at once, from the same side and distance.
@@ -132,6 +132,8 @@ public:
     bool isCrosshairShown() const { return reader_.isCrosshairShown(); }
     /// Meters on the terrain in one point of the screen at a place that surfaceAt() found.
     double metersPerPoint(const RayHit& hit) const;
+    /// Emits pointerMoved() with what is there now.
+    void readAgain() { reader_.report(); }
     /// Keeps the crosshair while another widget that shows the reading has the focus.
     void setReadElsewhere(bool is_read) { reader_.setReadElsewhere(is_read); }
     /// False for pictures of the window: no crosshair in them.

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -225,15 +226,38 @@ TEST_F(TerrainViewTest, StaysAboveTheGroundWhileItMoves)
 TEST_F(TerrainViewTest, FliesToWhereItIsDoubleClicked)
 {
     const QPointF pointer = *view().positionOf(GridPoint{20.0, 12.0});
-    const double before = view().camera().distance_m;
     QTest::mouseDClick(&view(), Qt::LeftButton, {}, pointer.toPoint());
     EXPECT_TRUE(view().isMoving());
     ASSERT_TRUE(arrive());
-    EXPECT_LT(view().camera().distance_m, 0.5 * before);
     const auto hit = view().surfaceAt(QPointF(view().width() / 2.0, view().height() / 2.0));
     ASSERT_TRUE(hit);
     EXPECT_NEAR(hit->grid.column, 20.0, 0.3);
     EXPECT_NEAR(hit->grid.row, 12.0, 0.3);
+}
+
+// 2026-11: it flew on to where a few samples filled the picture.
+TEST_F(TerrainViewTest, FliesNearerAsLongAsThatShowsMore)
+{
+    const double sample_m = view().map()->georeference().pixelWidthMeters();
+    const auto samplePoints = [&] {
+        return sample_m / view().metersPerPoint(*view().surfaceAt(middle()));
+    };
+    OrbitCamera camera = view().camera();
+    camera.distance_m *= 100.0; // as far as its limits allow
+    view().setCamera(camera);
+    const double before = samplePoints();
+    ASSERT_LT(before, 4.0);
+    for (int i = 0; i < 3; ++i) {
+        QTest::mouseDClick(&view(), Qt::LeftButton, {}, middle());
+        ASSERT_TRUE(arrive());
+        EXPECT_NEAR(samplePoints(), i == 0 ? std::min(8.0, before / 0.3) : 8.0, 0.6);
+    }
+    camera = view().camera();
+    camera.distance_m *= 0.5; // by other means
+    view().setCamera(camera);
+    QTest::mouseDClick(&view(), Qt::LeftButton, {}, middle());
+    ASSERT_TRUE(arrive());
+    EXPECT_NEAR(samplePoints(), 16.0, 1.2);
 }
 
 TEST_F(TerrainViewTest, StopsFlyingWhenPressed)
