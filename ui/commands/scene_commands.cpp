@@ -307,6 +307,9 @@ void SceneCommands::setGlobeShown(bool is_shown)
         parts_.layer_list->setSceneOfBody(is_shown);
     }
     parts_.readout.setPlace(std::nullopt);
+    if (!is_shown) {
+        view.readAgain();
+    }
     Q_EMIT shownChanged(is_shown);
 }
 

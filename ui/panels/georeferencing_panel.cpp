@@ -90,10 +90,11 @@ void GeoreferencingPanel::makeFactsPage()
     facts_->setHorizontalSpacing(12);
     facts_->setVerticalSpacing(0);
     facts_->setRowWrapPolicy(QFormLayout::WrapAllRows);
-    layout->addLayout(facts_);
+    // What is unusual is seen without scrolling.
     notices_ = new QVBoxLayout;
-    notices_->setContentsMargins(0, 6, 0, 0);
+    notices_->setContentsMargins(0, 0, 0, 6);
     layout->addLayout(notices_);
+    layout->addLayout(facts_);
     override_button_ = new QPushButton(tr("Set &Body, CRS…"), content);
     override_button_->setObjectName(QStringLiteral("override"));
     override_button_->setToolTip(

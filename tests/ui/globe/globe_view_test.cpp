@@ -237,5 +237,16 @@ TEST_F(GlobeTest, RandomInputNeverTakesTheCameraUnderTheGround)
     }
 }
 
+// 2026-11: "outside the map" until the next input.
+TEST_F(GlobeTest, TheFlatMapIsReadAsSoonAsItReturns)
+{
+    ASSERT_TRUE(focusMap());
+    view().step(NavigationStep::PanLeft); // by keys: the crosshair is read
+    ASSERT_TRUE(showGlobe());
+    scene(1)->trigger();
+    EXPECT_TRUE(globe().isHidden());
+    EXPECT_FALSE(window_->readout()->plainPosition().isEmpty());
+}
+
 } // namespace
 } // namespace marsview
