@@ -224,7 +224,8 @@ void printJson(const BenchViewOptions& options, const std::vector<ViewBenchResul
     for (const ViewBenchResult& result : results) {
         maps.push_back(asJson(result, results.front(), options.isOnBody()));
     }
-    Json json = {{"processor", processorName()},
+    Json json = {{"scene", sceneName(bench.scene)},
+                 {"processor", processorName()},
                  {"core_count", std::thread::hardware_concurrency()},
                  {"graphics_driver", results.front().driver},
                  {"width_px", bench.viewport.width},
@@ -232,9 +233,6 @@ void printJson(const BenchViewOptions& options, const std::vector<ViewBenchResul
                  {"target_ms", options.target_ms},
                  {"frame_count", bench.frame_count},
                  {"error_threshold_at_rest_px", bench.error_px}};
-    if (options.isOnBody()) {
-        json["scene"] = "body";
-    }
     json["maps"] = std::move(maps);
     marsview::printJson(withSchema(json));
 }

@@ -1,6 +1,6 @@
 #include "app/console/flight_plot.h"
 
-#include "core/view/round_numbers.h"
+#include "core/base/round_numbers.h"
 
 #include <algorithm>
 #include <array>

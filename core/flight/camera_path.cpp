@@ -302,8 +302,9 @@ void CameraPath::setKnots(const std::vector<Parts>& points, const Weights& weigh
 
 double CameraPath::clockSpeed(double s, const Weights& weights) const
 {
-    const Parts value = partsAt(s);
-    const Parts slope = slopeAt(s);
+    const Knot knot = knotAt(s);
+    const Parts& value = knot.value;
+    const Parts& slope = knot.slope;
     const double pan = std::hypot(slope[0], slope[1], slope[2]) / std::exp(value[3]) * weights.pan;
     const double turn = std::hypot(slope[4], slope[5], slope[6]) * weights.turn;
     return std::hypot(std::hypot(pan, slope[3] * weights.zoom, turn), kClockFloor);
@@ -349,7 +350,7 @@ double CameraPath::parameterAt(double time) const
         .value;
 }
 
-CameraPath::Parts CameraPath::partsAt(double s) const
+CameraPath::Knot CameraPath::knotAt(double s) const
 {
     const auto after =
         std::upper_bound(knots_.begin() + 1, knots_.end() - 1, s,
@@ -357,30 +358,15 @@ CameraPath::Parts CameraPath::partsAt(double s) const
     const Knot& to = *after;
     const Knot& from = *(after - 1);
     const double width = to.s - from.s;
-    Parts parts;
+    Knot knot{.s = s};
     for (std::size_t i = 0; i < kParts; ++i) {
-        parts[i] = hermite((s - from.s) / width, width, {from.value[i], from.slope[i]},
-                           {to.value[i], to.slope[i]})
-                       .value;
+        const ValueAndSlope part =
+            hermite((s - from.s) / width, width, {from.value[i], from.slope[i]},
+                    {to.value[i], to.slope[i]});
+        knot.value[i] = part.value;
+        knot.slope[i] = part.slope;
     }
-    return parts;
-}
-
-CameraPath::Parts CameraPath::slopeAt(double s) const
-{
-    const auto after =
-        std::upper_bound(knots_.begin() + 1, knots_.end() - 1, s,
-                         [](double value, const Knot& knot) { return value < knot.s; });
-    const Knot& to = *after;
-    const Knot& from = *(after - 1);
-    const double width = to.s - from.s;
-    Parts parts;
-    for (std::size_t i = 0; i < kParts; ++i) {
-        parts[i] = hermite((s - from.s) / width, width, {from.value[i], from.slope[i]},
-                           {to.value[i], to.slope[i]})
-                       .slope;
-    }
-    return parts;
+    return knot;
 }
 
 // The share of the length that is behind the camera.
@@ -401,7 +387,7 @@ OrbitCamera CameraPath::at(double share) const
         return cameraOf(knots_.front().value);
     }
     const double bounded = std::clamp(share, 0.0, 1.0);
-    OrbitCamera camera = cameraOf(partsAt(parameterAt(paced(bounded) * length_)));
+    OrbitCamera camera = cameraOf(knotAt(parameterAt(paced(bounded) * length_)).value);
     camera.target.z += liftAt(bounded);
     return camera;
 }

@@ -72,8 +72,8 @@ private:
     void setClock(const Weights& weights);
     double clockSpeed(double s, const Weights& weights) const;
     double parameterAt(double time) const;
-    Parts partsAt(double s) const;
-    Parts slopeAt(double s) const;
+    /// Parts and their slopes at `s`.
+    Knot knotAt(double s) const;
     double paced(double share) const;
     double liftAt(double share) const;
 

@@ -1,5 +1,6 @@
 #include "core/globe/body_navigation.h"
 
+#include "core/view/clear_tilt.h"
 #include "core/view/navigation.h"
 
 #include <algorithm>
@@ -63,15 +64,6 @@ GeographicPoint withinArea(const GeographicPoint& place, const BodyArea& area)
                            : area.middle;
 }
 
-// The maximum height of the target above the terrain at which that terrain is still well inside the
-// picture. Infinite if the view is so steep that it always is.
-double hangMax(const BodyCamera& camera)
-{
-    const double slope = kGroundLowest * std::tan(camera.field_of_view.radians() / 2.0);
-    const double fall = std::sin(camera.tilt.radians()) - slope * std::cos(camera.tilt.radians());
-    return fall > 0.0 ? camera.distance_m * slope / fall : HUGE_VAL;
-}
-
 // How much the eye is too low. Negative if it is high enough or not above terrain.
 double
 clearanceMissing(const BodyCamera& camera, const BodyLimits& limits, const BodyGround& ground)
@@ -85,37 +77,14 @@ clearanceMissing(const BodyCamera& camera, const BodyLimits& limits, const BodyG
     return std::isfinite(ground_m) ? ground_m + clear_m - eye.height_m : -1.0;
 }
 
-// The largest tilt, at most the camera's, at which the eye is clear of the terrain: searched in
-// steps, because the terrain may rise and fall under the eye, then by bisection, so that it changes
-// smoothly.
-Angle clearTilt(BodyCamera camera, const BodyLimits& limits, const BodyGround& ground)
-{
-    constexpr int kSteps = 32;
-    constexpr int kBisections = 24;
-    const Angle tilt = camera.tilt;
-    const auto is_clear = [&](double share) {
-        camera.tilt = tilt * share;
-        return clearanceMissing(camera, limits, ground) <= 0.0;
-    };
-    int step = kSteps - 1;
-    while (step > 0 && !is_clear(static_cast<double>(step) / kSteps)) {
-        --step;
-    }
-    double clear = static_cast<double>(step) / kSteps;
-    double blocked = static_cast<double>(step + 1) / kSteps;
-    for (int i = 0; i < kBisections; ++i) {
-        const double middle = (clear + blocked) / 2.0;
-        (is_clear(middle) ? clear : blocked) = middle;
-    }
-    return tilt * clear;
-}
-
 BodyCamera cleared(BodyCamera camera, const BodyLimits& limits, const BodyGround& ground)
 {
     const double ground_m = ground(camera.target);
     double highest_m = limits.highest_m;
     if (std::isfinite(ground_m)) {
-        highest_m = std::clamp(highest_m, ground_m, ground_m + hangMax(camera));
+        highest_m =
+            std::clamp(highest_m, ground_m,
+                       ground_m + hangMax(camera.distance_m, camera.tilt, camera.field_of_view));
         camera.height_m = std::max(camera.height_m, ground_m);
     }
     camera.height_m = std::min(camera.height_m, highest_m);
@@ -125,7 +94,11 @@ BodyCamera cleared(BodyCamera camera, const BodyLimits& limits, const BodyGround
         camera.height_m =
             std::min(camera.height_m + 1.01 * missing_m + 1e-6 * camera.distance_m, highest_m);
         if (clearanceMissing(camera, limits, ground) > 0.0) {
-            camera.tilt = clearTilt(camera, limits, ground);
+            camera.tilt = clearTilt(camera.tilt, [&](Angle tilt) {
+                BodyCamera tilted = camera;
+                tilted.tilt = tilt;
+                return clearanceMissing(tilted, limits, ground) <= 0.0;
+            });
         }
     }
     return camera;

@@ -177,23 +177,15 @@ public:
 
     Status keepBand(const LevelBand& band)
     {
-        for (std::size_t first = 0; first < band.samples.columns(); first += kTileSide) {
-            if (monitor_.isCanceled()) {
-                return Error{ErrorCode::Canceled, "canceled"};
-            }
-            const TileId id{.kind = TileKind::Samples,
-                            .level = static_cast<std::uint8_t>(band.level),
-                            .column = static_cast<std::uint32_t>(first / kTileSide),
-                            .row = static_cast<std::uint32_t>(band.tile_row)};
-            const SampleGrid tile = columnsOf(band.samples, first, layout_.tileWidth(id));
+        const auto keep = [&](const TileId& id, const SampleGrid& tile) {
             ordered_.put(
                 {lastTileRowOf(layout_, band.level, band.tile_row), band.level, id.row, id.column},
                 packedSamples(tile),
                 [to = &found_.samples_index[keptTileNumber(layout_, id)]](const FilePart& part) {
                     *to = part;
                 });
-        }
-        return Done{};
+        };
+        return forEachTile(band, layout_, monitor_, keep);
     }
 
 private:

@@ -37,6 +37,26 @@ SampleGrid zeros(SampleType type, std::size_t columns, std::size_t rows)
     return grid;
 }
 
+// The samples [first_column, first_column + columns) of all rows of a grid.
+SampleGrid columnsOf(const SampleGrid& samples, std::size_t first_column, std::size_t columns)
+{
+    SampleGrid part = SampleGrid::create(samples.type(), columns, samples.rows()).value();
+    samples.visit([&](auto values) {
+        for (std::size_t row = 0; row < samples.rows(); ++row) {
+            std::memcpy(part.rowData(row), values.row(row).data() + first_column,
+                        columns * sizeof(values(0, 0)));
+        }
+    });
+    for (std::size_t row = 0; samples.hasVoids() && row < samples.rows(); ++row) {
+        for (std::size_t column = 0; column < columns; ++column) {
+            if (samples.isVoid(first_column + column, row)) {
+                part.markVoid(column, row);
+            }
+        }
+    }
+    return part;
+}
+
 } // namespace
 
 NestedLevels::NestedLevels(const TileLayout& layout,
@@ -208,23 +228,22 @@ NestedLevels::merge(CheckpointReader& from, std::size_t first, std::size_t end)
     return complete;
 }
 
-SampleGrid columnsOf(const SampleGrid& samples, std::size_t first_column, std::size_t columns)
+Status forEachTile(const LevelBand& band,
+                   const TileLayout& layout,
+                   const JobMonitor& monitor,
+                   const std::function<void(const TileId&, const SampleGrid&)>& take)
 {
-    SampleGrid part = SampleGrid::create(samples.type(), columns, samples.rows()).value();
-    samples.visit([&](auto values) {
-        for (std::size_t row = 0; row < samples.rows(); ++row) {
-            std::memcpy(part.rowData(row), values.row(row).data() + first_column,
-                        columns * sizeof(values(0, 0)));
+    for (std::size_t first = 0; first < band.samples.columns(); first += kTileSide) {
+        if (monitor.isCanceled()) {
+            return Error{ErrorCode::Canceled, "canceled"};
         }
-    });
-    for (std::size_t row = 0; samples.hasVoids() && row < samples.rows(); ++row) {
-        for (std::size_t column = 0; column < columns; ++column) {
-            if (samples.isVoid(first_column + column, row)) {
-                part.markVoid(column, row);
-            }
-        }
+        const TileId id{.kind = TileKind::Samples,
+                        .level = static_cast<std::uint8_t>(band.level),
+                        .column = static_cast<std::uint32_t>(first / kTileSide),
+                        .row = static_cast<std::uint32_t>(band.tile_row)};
+        take(id, columnsOf(band.samples, first, layout.tileWidth(id)));
     }
-    return part;
+    return Done{};
 }
 
 } // namespace marsview

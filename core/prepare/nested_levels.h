@@ -1,12 +1,15 @@
 // Collects the samples of coarser levels from tiles of the finest.
 #pragma once
 
+#include "core/base/job_monitor.h"
+#include "core/base/result.h"
 #include "core/prepare/checkpoint_file.h"
 #include "core/raster/sample_grid.h"
 #include "core/tiles/tile.h"
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -68,7 +71,10 @@ private:
     std::map<std::pair<std::size_t, std::size_t>, Band> bands_; // by level and row of tiles
 };
 
-/// The samples [first_column, first_column + columns) of all rows of a grid.
-SampleGrid columnsOf(const SampleGrid& samples, std::size_t first_column, std::size_t columns);
+/// Passes the tiles of a band on, from the left. Errors: Canceled.
+Status forEachTile(const LevelBand& band,
+                   const TileLayout& layout,
+                   const JobMonitor& monitor,
+                   const std::function<void(const TileId& id, const SampleGrid& tile)>& take);
 
 } // namespace marsview

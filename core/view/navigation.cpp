@@ -1,6 +1,7 @@
 #include "core/view/navigation.h"
 
 #include "core/base/check.h"
+#include "core/view/clear_tilt.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,47 +26,12 @@ Angle wrapped(Angle azimuth)
     return Angle::radians(std::remainder(azimuth.radians(), 2.0 * std::numbers::pi));
 }
 
-// The maximum height of the target above the terrain at which that terrain is still well inside the
-// picture. Infinite if the view is so steep that it always is.
-double hangMax(const OrbitCamera& camera)
-{
-    const double slope = kGroundLowest * std::tan(camera.field_of_view.radians() / 2.0);
-    const double fall = std::sin(camera.tilt.radians()) - slope * std::cos(camera.tilt.radians());
-    return fall > 0.0 ? camera.distance_m * slope / fall : HUGE_VAL;
-}
-
 // How much the eye is too low. Negative if it is high enough or not above terrain.
 double clearanceMissing(const OrbitCamera& camera, const GroundQuery& ground)
 {
     const ScenePoint eye = eyeOf(camera);
     const double ground_z = ground(eye.x, eye.y);
     return std::isfinite(ground_z) ? ground_z + kClearanceShare * camera.distance_m - eye.z : -1.0;
-}
-
-// The largest tilt, at most the camera's, at which the eye is clear of the terrain: searched in
-// steps, because the terrain may rise and fall under the eye, then by bisection, so that it changes
-// smoothly. If the target is on or above the terrain, the eye is clear at 0, straight above the
-// target.
-Angle clearTilt(OrbitCamera camera, const GroundQuery& ground)
-{
-    constexpr int kSteps = 32;
-    constexpr int kBisections = 24;
-    const Angle tilt = camera.tilt;
-    const auto is_clear = [&](double share) {
-        camera.tilt = tilt * share;
-        return clearanceMissing(camera, ground) <= 0.0;
-    };
-    int step = kSteps - 1;
-    while (step > 0 && !is_clear(static_cast<double>(step) / kSteps)) {
-        --step;
-    }
-    double clear = static_cast<double>(step) / kSteps;
-    double blocked = static_cast<double>(step + 1) / kSteps;
-    for (int i = 0; i < kBisections; ++i) {
-        const double middle = (clear + blocked) / 2.0;
-        (is_clear(middle) ? clear : blocked) = middle;
-    }
-    return tilt * clear;
 }
 
 // The first point accepted by `accepts` on rings around `center`, from `radius_min_m` on. Radii
@@ -116,7 +82,9 @@ OrbitCamera cleared(OrbitCamera camera, const SceneBox& box, const GroundQuery& 
     const double ground_z = ground(camera.target.x, camera.target.y);
     double highest = box.maximum.z;
     if (std::isfinite(ground_z)) {
-        highest = std::clamp(highest, ground_z, ground_z + hangMax(camera));
+        highest =
+            std::clamp(highest, ground_z,
+                       ground_z + hangMax(camera.distance_m, camera.tilt, camera.field_of_view));
     }
     camera.target.z = std::min(camera.target.z, highest);
     const double missing = clearanceMissing(camera, ground);
@@ -124,7 +92,11 @@ OrbitCamera cleared(OrbitCamera camera, const SceneBox& box, const GroundQuery& 
         // The surplus compensates for rounding.
         camera.target.z = std::min(camera.target.z + missing + 1e-6 * camera.distance_m, highest);
         if (clearanceMissing(camera, ground) > 0.0) {
-            camera.tilt = clearTilt(camera, ground);
+            camera.tilt = clearTilt(camera.tilt, [&](Angle tilt) {
+                OrbitCamera tilted = camera;
+                tilted.tilt = tilt;
+                return clearanceMissing(tilted, ground) <= 0.0;
+            });
         }
     }
     return camera;

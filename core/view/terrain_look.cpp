@@ -1,6 +1,6 @@
 #include "core/view/terrain_look.h"
 
-#include "core/view/round_numbers.h"
+#include "core/base/round_numbers.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "ui/dialogs/stretch_dialog.h"
 
-#include "core/view/round_numbers.h"
+#include "core/base/round_numbers.h"
 #include "ui/dialogs/stretch_plot.h"
 #include "ui/widgets/elevation_box.h"
 

@@ -1,8 +1,8 @@
 // What the colors on the map mean.
 #pragma once
 
+#include "core/base/round_numbers.h"
 #include "core/view/color_ramp.h"
-#include "core/view/round_numbers.h"
 #include "core/view/slope_range.h"
 #include "core/view/terrain_look.h"
 #include "ui/text/number_text.h"

@@ -1,6 +1,6 @@
 #include "ui/overlay/overlay_text.h"
 
-#include "core/view/round_numbers.h"
+#include "core/base/round_numbers.h"
 #include "ui/text/number_text.h"
 
 #include <QCoreApplication>

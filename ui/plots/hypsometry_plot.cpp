@@ -2,12 +2,11 @@
 
 #include "ui/plots/custom_plot.h"
 #include "ui/plots/number_ticker.h"
+#include "ui/plots/plot_look.h"
 
 #include <QEvent>
-#include <QFileInfo>
 #include <QKeyEvent>
 #include <QMouseEvent>
-#include <QSvgGenerator>
 #include <QVBoxLayout>
 
 #include <algorithm>
@@ -137,34 +136,15 @@ void HypsometryPlot::applyColors()
 {
     const QPalette& colors = palette();
     QCustomPlot& plot = *parts_->plot;
-    const QColor text = colors.color(QPalette::Text);
-    QColor faint = text;
-    faint.setAlpha(60);
-    QColor fainter = text;
-    fainter.setAlpha(26);
-    plot.setBackground(colors.color(QPalette::Base));
-    for (QCPAxis* axis : {plot.xAxis, plot.xAxis2, plot.yAxis}) {
-        axis->setBasePen(QPen(faint));
-        axis->setTickPen(QPen(faint));
-        axis->setSubTickPen(QPen(fainter));
-        axis->setTickLabelColor(text);
-        axis->setLabelColor(text);
-        axis->setTickLabelFont(font());
-        axis->setLabelFont(font());
-        axis->grid()->setPen(QPen(fainter));
-        axis->grid()->setZeroLinePen(QPen(fainter));
-    }
-    QColor bar = text;
+    paintAxes(plot, {plot.xAxis, plot.xAxis2, plot.yAxis}, colors, font());
+    const PlotInk ink = plotInk(colors);
+    QColor bar = ink.text;
     bar.setAlpha(70);
     parts_->bars->setPen(Qt::NoPen);
     parts_->bars->setBrush(bar);
     parts_->curve->setPen(QPen(colors.color(QPalette::Highlight), 1.8));
-    parts_->cursor_line->setPen(QPen(text, 1.0));
-    parts_->cursor_text->setColor(text);
-    parts_->cursor_text->setFont(font());
-    QColor plate = colors.color(QPalette::Base);
-    plate.setAlpha(220);
-    parts_->cursor_text->setBrush(plate);
+    parts_->cursor_line->setPen(QPen(ink.text, 1.0));
+    paintCursorText(*parts_->cursor_text, colors, font());
     plot.replot(QCustomPlot::rpQueuedReplot);
 }
 
@@ -281,25 +261,7 @@ QSize HypsometryPlot::pictureSize()
 
 bool HypsometryPlot::savePicture(const QString& path)
 {
-    const QString suffix = QFileInfo(path).suffix().toLower();
-    if (suffix == QStringLiteral("svg")) {
-        QSvgGenerator file;
-        file.setFileName(path);
-        file.setSize(kHypsometrySize);
-        file.setViewBox(QRect(QPoint(0, 0), kHypsometrySize));
-        file.setTitle(tr("Hypsometry"));
-        QCPPainter painter;
-        if (!painter.begin(&file)) {
-            return false;
-        }
-        parts_->plot->toPainter(&painter, kHypsometrySize.width(), kHypsometrySize.height());
-        return painter.end();
-    }
-    if (suffix == QStringLiteral("pdf")) {
-        return parts_->plot->savePdf(path, kHypsometrySize.width(), kHypsometrySize.height());
-    }
-    return parts_->plot->savePng(path, kHypsometrySize.width(), kHypsometrySize.height(),
-                                 kHypsometryScale);
+    return savePlot(*parts_->plot, path, kHypsometrySize, kHypsometryScale, tr("Hypsometry"));
 }
 
 } // namespace marsview

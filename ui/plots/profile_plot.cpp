@@ -2,14 +2,13 @@
 
 #include "ui/plots/custom_plot.h"
 #include "ui/plots/number_ticker.h"
+#include "ui/plots/plot_look.h"
 
 #include <QEvent>
-#include <QFileInfo>
 #include <QKeyEvent>
 #include <QMouseEvent>
 #include <QResizeEvent>
 #include <QScopeGuard>
-#include <QSvgGenerator>
 #include <QVBoxLayout>
 
 #include <algorithm>
@@ -201,42 +200,26 @@ void ProfilePlot::applyColors()
 {
     const QPalette& colors = palette();
     QCustomPlot& plot = *parts_->plot;
-    const QColor text = colors.color(QPalette::Text);
-    QColor faint = text;
-    faint.setAlpha(60);
-    QColor fainter = text;
-    fainter.setAlpha(26);
-    plot.setBackground(colors.color(QPalette::Base));
+    paintAxes(plot, {plot.xAxis, plot.yAxis, plot.yAxis2}, colors, font());
+    const PlotInk ink = plotInk(colors);
     for (QCPAxis* axis : {plot.xAxis, plot.yAxis, plot.yAxis2}) {
-        axis->setBasePen(QPen(faint));
-        axis->setTickPen(QPen(faint));
-        axis->setSubTickPen(QPen(fainter));
-        axis->setTickLabelColor(text);
-        axis->setLabelColor(text);
-        axis->setTickLabelFont(font());
-        axis->setLabelFont(font());
-        axis->grid()->setPen(QPen(fainter));
-        axis->grid()->setZeroLinePen(QPen(faint));
+        axis->grid()->setZeroLinePen(QPen(ink.faint));
     }
     for (std::size_t i = 0; i < curves_.size(); ++i) {
         plot.graph(static_cast<int>(i))->setPen(QPen(curves_[i].color, 1.8));
     }
     if (parts_->slope != nullptr) {
-        QColor slope = text;
+        QColor slope = ink.text;
         slope.setAlpha(110);
         parts_->slope->setPen(QPen(slope, 1.0));
     }
     for (QCPItemStraightLine* bend : parts_->bends) {
-        bend->setPen(QPen(faint, 1.0, Qt::DashLine));
+        bend->setPen(QPen(ink.faint, 1.0, Qt::DashLine));
     }
-    parts_->cursor_line->setPen(QPen(text, 1.0));
-    parts_->cursor_dot->setPen(QPen(text, 1.5));
+    parts_->cursor_line->setPen(QPen(ink.text, 1.0));
+    parts_->cursor_dot->setPen(QPen(ink.text, 1.5));
     parts_->cursor_dot->setBrush(colors.color(QPalette::Base));
-    parts_->cursor_text->setColor(text);
-    parts_->cursor_text->setFont(font());
-    QColor plate = colors.color(QPalette::Base);
-    plate.setAlpha(220);
-    parts_->cursor_text->setBrush(plate);
+    paintCursorText(*parts_->cursor_text, colors, font());
     QColor picked = colors.color(QPalette::Highlight);
     picked.setAlpha(60);
     parts_->stretch->setBrush(picked);
@@ -512,24 +495,7 @@ bool ProfilePlot::savePicture(const QString& path)
 {
     fitTicks(kPictureSize.height());
     const auto fit_again = qScopeGuard([this] { fitTicks(parts_->plot->height()); });
-    const QString suffix = QFileInfo(path).suffix().toLower();
-    if (suffix == QStringLiteral("svg")) {
-        QSvgGenerator file;
-        file.setFileName(path);
-        file.setSize(kPictureSize);
-        file.setViewBox(QRect(QPoint(0, 0), kPictureSize));
-        file.setTitle(tr("Profile"));
-        QCPPainter painter;
-        if (!painter.begin(&file)) {
-            return false;
-        }
-        parts_->plot->toPainter(&painter, kPictureSize.width(), kPictureSize.height());
-        return painter.end();
-    }
-    if (suffix == QStringLiteral("pdf")) {
-        return parts_->plot->savePdf(path, kPictureSize.width(), kPictureSize.height());
-    }
-    return parts_->plot->savePng(path, kPictureSize.width(), kPictureSize.height(), kPictureScale);
+    return savePlot(*parts_->plot, path, kPictureSize, kPictureScale, tr("Profile"));
 }
 
 } // namespace marsview

@@ -1,4 +1,4 @@
-#include "core/view/round_numbers.h"
+#include "core/base/round_numbers.h"
 
 #include "core/base/check.h"
 

@@ -1,4 +1,4 @@
-#include "core/view/round_numbers.h"
+#include "core/base/round_numbers.h"
 #include "tests/support/random.h"
 
 #include <gmock/gmock.h>
