@@ -326,7 +326,7 @@ private:
     double twist_rad_ = 0.0;
     double energy_j_ = 0.0;
     bool is_energy_noted_ = false;
-    bool has_event_ = true; // less than two seconds ago: it has put the surface elsewhere
+    bool has_event_ = true; // an event that moves the surface, less than two seconds ago
     std::uint64_t event_tick_ = 0;
     std::uint64_t map_id_ = 1;
     std::size_t kind_ = 0; // of the terrain

@@ -316,7 +316,7 @@ Status runLoop(const LoopOptions& options)
                       .statistics = loop.statistics(),
                       .grants = loop.grants(),
                       .state = loop.state(),
-                      .let_go_ticks = watch.forceOffTicks(),
+                      .force_off_ticks = watch.forceOffTicks(),
                       .last_reason = watch.lastReason()};
 #ifdef MARSVIEW_COUNTS_ALLOCATIONS
     report.allocations = RtScope::allocationCount() - allocations_before;
@@ -324,7 +324,7 @@ Status runLoop(const LoopOptions& options)
     (void)allocations_before;
 #endif
     if (map->touch) {
-        report.feeder = map->touch->statistics();
+        report.streamer = map->touch->statistics();
     }
     const Status recorded = recorder ? recorder->finish() : Done{};
     if (recorder) {

@@ -72,14 +72,14 @@ std::string histogramOf(const TimeHistogram& times)
 }
 
 // Why and for how long the force was off, with the last reason at the end.
-std::string letGoLine(const LoopReport& report)
+std::string forceOffLine(const LoopReport& report)
 {
     std::string text;
-    for (std::size_t i = 0; i < report.let_go_ticks.size(); ++i) {
-        if (report.let_go_ticks[i] > 0) {
+    for (std::size_t i = 0; i < report.force_off_ticks.size(); ++i) {
+        if (report.force_off_ticks[i] > 0) {
             text += fmt::format("{}{} {:.3f} s", text.empty() ? "" : ", ",
                                 forceOffReasonName(static_cast<ForceOffReason>(i)),
-                                static_cast<double>(report.let_go_ticks[i]) / report.rate_hz);
+                                static_cast<double>(report.force_off_ticks[i]) / report.rate_hz);
         }
     }
     if (report.last_reason == ForceOffReason::None) {
@@ -115,7 +115,7 @@ Json asJson(const LoopReport& report)
                  {"skipped", s.skipped},
                  {"in_contact", c.in_contact},
                  {"cut_short", c.cut_short},
-                 {"let_go", c.let_go},
+                 {"force_off", c.force_off},
                  {"damped", c.damped},
                  {"device_errors", c.read_errors},
                  {"ticks_with_tile_misses", c.ticks_with_misses},
@@ -128,22 +128,22 @@ Json asJson(const LoopReport& report)
                  {"real_time_scheduling", reasonOrTrue(report.grants.scheduling_refusal)},
                  {"locked_memory", reasonOrTrue(report.grants.locking_refusal)},
                  {"last_reason", forceOffReasonName(report.last_reason)}};
-    Json let_go_s = Json::object();
-    for (std::size_t i = 0; i < report.let_go_ticks.size(); ++i) {
-        if (report.let_go_ticks[i] > 0) {
-            let_go_s[std::string(forceOffReasonName(static_cast<ForceOffReason>(i)))] =
-                static_cast<double>(report.let_go_ticks[i]) / report.rate_hz;
+    Json force_off_s = Json::object();
+    for (std::size_t i = 0; i < report.force_off_ticks.size(); ++i) {
+        if (report.force_off_ticks[i] > 0) {
+            force_off_s[std::string(forceOffReasonName(static_cast<ForceOffReason>(i)))] =
+                static_cast<double>(report.force_off_ticks[i]) / report.rate_hz;
         }
     }
-    json["let_go_s"] = let_go_s;
+    json["force_off_s"] = force_off_s;
     Json histogram = Json::array();
     s.tick.visit([&histogram](TimeHistogram::Span end, std::uint64_t count) {
         histogram.push_back({end.count(), count});
     });
     json["update_histogram_ns"] = histogram;
-    if (report.feeder) {
-        json["tiles"] = {{"windows_published", report.feeder->published},
-                         {"tiles_put", report.feeder->tiles_put}};
+    if (report.streamer) {
+        json["tiles"] = {{"windows_published", report.streamer->published},
+                         {"tiles_put", report.streamer->tiles_put}};
     }
     return json;
 }
@@ -159,8 +159,8 @@ std::string asText(const LoopReport& report)
     text += fmt::format("missed deadlines {} by the tick, {} by late wake-ups; {} turns skipped\n",
                         s.missed_by_tick, s.missed_by_waking, s.skipped);
     text += fmt::format("in contact {}, cut short {}, force off {}, damped {}\n", c.in_contact,
-                        c.cut_short, c.let_go, c.damped);
-    text += letGoLine(report);
+                        c.cut_short, c.force_off, c.damped);
+    text += forceOffLine(report);
     text +=
         fmt::format("tile misses in {} ticks, {} samples\n", c.ticks_with_misses, c.samples_missed);
     text += fmt::format("page faults {} minor, {} major; allocations {}\n", s.minor_faults,

@@ -23,9 +23,9 @@ struct LoopReport {
     LoopStatistics statistics;
     RealTimeGrants grants;
     LoopState state;                                                // the last
-    std::array<std::uint64_t, kForceOffReasonCount> let_go_ticks{}; // LoopWatch's
+    std::array<std::uint64_t, kForceOffReasonCount> force_off_ticks{}; // LoopWatch's
     ForceOffReason last_reason = ForceOffReason::None;
-    std::optional<WindowFeederStatistics> feeder{};
+    std::optional<ClipmapStreamerStatistics> streamer{};
     std::optional<std::uint64_t> allocations{}; // empty if allocations are not counted
     std::uint64_t recorded = 0;                 // updates
 };

@@ -132,7 +132,7 @@ private:
                 }
                 const auto* felt = std::get_if<GroundFelt>(&record);
                 const auto toucher =
-                    felt != nullptr ? touchers_.find(felt->told_part) : touchers_.end();
+                    felt != nullptr ? touchers_.find(felt->changed_part) : touchers_.end();
                 if (toucher != touchers_.end()) {
                     toucher->second.map_model->terrainChanged();
                 }

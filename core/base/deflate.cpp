@@ -24,7 +24,7 @@ struct Free {
 
 std::uint32_t crc32Of(std::span<const std::byte> bytes, std::uint32_t before) noexcept
 {
-    // Without an address libdeflate starts again.
+    // For a null address libdeflate returns the initial checksum.
     return bytes.empty() ? before : libdeflate_crc32(before, bytes.data(), bytes.size());
 }
 

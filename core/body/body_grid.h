@@ -49,7 +49,7 @@ public:
         return row < positions_.firstRow() || row >= positions_.firstRow() + positions_.rows();
     }
     /// The pole at the first row, or next to it on a map around the body, and that at the last row.
-    /// If isPole() says no of the row, triangles from it to the pole close the map.
+    /// Unless isPole() of the row, triangles from it to the pole close the map.
     Pole poleAtFirstRow() const noexcept { return first_pole_; }
     Pole poleAtLastRow() const noexcept { return last_pole_; }
 

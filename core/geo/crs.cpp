@@ -400,7 +400,7 @@ Status Crs::Impl::readHorizontal()
         kind = CrsKind::Geographic;
         base = srs;
         readBase();
-        // GeoTIFF stores the name of IAU_2015:49902 and the like, but not their spherical axes.
+        // GeoTIFF stores the name of systems such as IAU_2015:49902, but not their spherical axes.
         if (containsText(name, "ocentric")) {
             latitude_kind = LatitudeKind::Planetocentric;
         }

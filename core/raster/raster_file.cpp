@@ -73,7 +73,7 @@ struct RasterFile::Impl {
     mutable std::optional<TiffStrips> strips;
     bool has_plain_strips = false; // read without caching more than requested
     // After a read that failed, GDAL 3.6 silently returns wrong samples.
-    mutable bool is_spoilt = false;
+    mutable bool is_unreliable = false;
     bool prints = false; // a library prints lines to stderr
 
     Status renew();
@@ -300,7 +300,7 @@ static std::string withoutRows(const std::string& failure)
 
 Error RasterFile::Impl::readFailure(const GdalMessages& messages, const GridWindow& window) const
 {
-    is_spoilt = true;
+    is_unreliable = true;
     if (remote) {
         return remoteFailure(info.path, *remote, messages,
                              fmt::format("reading rows {} to {} failed, {}; try again", window.row,
@@ -321,7 +321,7 @@ Error RasterFile::Impl::readFailure(const GdalMessages& messages, const GridWind
 // Reopens the dataset after a failed read.
 Status RasterFile::Impl::renew()
 {
-    if (!is_spoilt) {
+    if (!is_unreliable) {
         return Done{};
     }
     Dataset fresh;
@@ -374,7 +374,7 @@ Status RasterFile::Impl::renew()
     }
     dataset = std::move(fresh);
     band = same;
-    is_spoilt = false;
+    is_unreliable = false;
     return Done{};
 }
 
@@ -662,7 +662,7 @@ Result<SampleStatistics> RasterFile::scan(JobMonitor& monitor, const VoidRule& v
             }
             const GridWindow window{column, row, std::min(step->columns, info.columns - column),
                                     rows};
-            if (!impl_->is_spoilt && !impl_->isStored(window)) {
+            if (!impl_->is_unreliable && !impl_->isStored(window)) {
                 const Result<SampleStatistics> part = impl_->scanUnstored(window, voids);
                 if (!part) {
                     return part.error();

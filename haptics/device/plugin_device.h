@@ -60,8 +60,8 @@ private:
     std::atomic<std::uint32_t> strange_answer_{0}; // last unknown status; 0: none
     std::atomic<std::uint32_t> answer_{MARSVIEW_FINE};
 
-    // The plugin is asked for its message on a watched thread, rarely, and never again once it did
-    // not return.
+    // The plugin is asked for its message on a watched thread, rarely, and not again after a call
+    // that did not return.
     mutable std::mutex message_mutex_;
     mutable std::string message_;
     mutable std::uint32_t message_answer_ = MARSVIEW_FINE; // the status that the message is about

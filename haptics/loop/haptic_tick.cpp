@@ -89,8 +89,8 @@ public:
     }
 
 private:
-    // Walls and the map's edge hold back a hand that may press them as hard as it likes. Where the
-    // sum is too strong they yield, not the surface below the hand.
+    // A hand may press walls and the map's edge with any force. If the sum of all forces exceeds
+    // the limit, theirs are reduced, not that of the surface.
     struct Forces {
         Vec3 force_n{};
         Vec3 yielding_n{};

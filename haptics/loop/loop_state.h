@@ -20,7 +20,7 @@ struct LoopCounts {
     std::uint64_t cut_short = 0;         // contact updates that reached their bound
     std::uint64_t ticks_with_misses = 0; // some terrain was not available at full resolution
     std::uint64_t samples_missed = 0;
-    std::uint64_t let_go = 0;       // ticks with the force off, for any reason
+    std::uint64_t force_off = 0;    // ticks with the force off, for any reason
     std::uint64_t damped = 0;       // ticks with added damping for passivity
     std::uint64_t read_errors = 0;  // of the device
     std::uint64_t not_recorded = 0; // ticks that did not fit into a recording

@@ -54,7 +54,7 @@ struct LoopTick {
     bool is_preparation = false; // of turn `number`; the outcome is ignored
 };
 
-enum class LoopOutcome : std::uint8_t { GoOn, Stop };
+enum class LoopOutcome : std::uint8_t { Continue, Stop };
 
 /// Turns begin at whole periods after the first, by the clock, so that lateness does not
 /// accumulate. The loop around the ticks does not allocate, lock or log; the tick is responsible

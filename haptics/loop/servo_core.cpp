@@ -156,7 +156,7 @@ LoopOutcome ServoCore::turnInside(LoopTime begin, bool has_missed_deadline) noex
         counts_ = {};
     }
     if (!takeDevice()) {
-        return LoopOutcome::GoOn; // the watchdog is bringing it to rest
+        return LoopOutcome::Continue; // the watchdog is bringing it to rest
     }
     const WorkspacePoint before = sample_.position;
     const DeviceStatus status = device_->read(sample_);
@@ -212,7 +212,7 @@ LoopOutcome ServoCore::turnInside(LoopTime begin, bool has_missed_deadline) noex
     if (is_over) {
         askToEnd();
     }
-    return LoopOutcome::GoOn;
+    return LoopOutcome::Continue;
 }
 
 // The motors have no force: the next force starts from zero.
@@ -249,7 +249,7 @@ void ServoCore::publish(const StepResult& result, double tick_s) noexcept
     counts_.cut_short += result.goals.count > 0 ? result.contact.counters.cut_short : 0U;
     counts_.samples_missed += result.missed_samples;
     counts_.ticks_with_misses += result.missed_samples > 0 ? 1U : 0U;
-    counts_.let_go += result.reason != ForceOffReason::None ? 1U : 0U;
+    counts_.force_off += result.reason != ForceOffReason::None ? 1U : 0U;
     counts_.damped += result.damping_n_s_per_m > 0.0 ? 1U : 0U;
     record(result, tick_s);
     state_.write({.tick = ticks_,

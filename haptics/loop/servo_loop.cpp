@@ -81,7 +81,7 @@ void ServoLoop::start()
                                               LoopTime{}](const LoopTick& tick) mutable noexcept {
             if (tick.is_preparation) {
                 core->prepareTurn();
-                return LoopOutcome::GoOn;
+                return LoopOutcome::Continue;
             }
             const LoopTime now = steady_clock::now();
             // Skipped turns, or one that is later than a whole period.

@@ -1,4 +1,4 @@
-// Data exchanged between the servo thread and the feeder of its window.
+// Data exchanged between the servo thread and the streamer of its window.
 #pragma once
 
 #include "haptics/sync/seq_lock.h"
@@ -19,7 +19,7 @@ struct ClipmapExchange {
 
     SeqLock<HandMotion> motion;                           // the servo writes
     TripleBuffer<std::shared_ptr<const Clipmap>> windows; // the servo reads
-    /// The feeder's last round, ns of the steady clock; 0: never. If it stops, the servo's window
+    /// The streamer's last round, ns of the steady clock; 0: never. If it stops, the servo's window
     /// may be outdated.
     std::atomic<std::int64_t> fed_ns{0};
 };

@@ -53,7 +53,7 @@ TileId idAt(const Clipmap::Level& level, std::size_t k, std::size_t i)
 Result<std::unique_ptr<ClipmapStreamer>>
 ClipmapStreamer::create(const TiledRaster& raster,
                         std::shared_ptr<const TileHeights> heights,
-                        const WindowFeederOptions& options)
+                        const ClipmapStreamerOptions& options)
 {
     const std::size_t top_level = raster.layout().topLevel();
     auto top = raster.get({TileKind::Samples, static_cast<std::uint8_t>(top_level), 0, 0});
@@ -67,7 +67,7 @@ ClipmapStreamer::create(const TiledRaster& raster,
 ClipmapStreamer::ClipmapStreamer(const TiledRaster& raster,
                                  std::shared_ptr<const TileHeights> heights,
                                  std::shared_ptr<const Tile> top,
-                                 const WindowFeederOptions& options)
+                                 const ClipmapStreamerOptions& options)
     : raster_(raster)
     , heights_(std::move(heights))
     , options_(options)
@@ -111,7 +111,7 @@ void ClipmapStreamer::stop()
     }
 }
 
-WindowFeederStatistics ClipmapStreamer::statistics() const
+ClipmapStreamerStatistics ClipmapStreamer::statistics() const
 {
     const std::lock_guard lock(mutex_);
     return statistics_;

@@ -20,7 +20,7 @@
 
 namespace marsview {
 
-struct WindowFeederOptions {
+struct ClipmapStreamerOptions {
     WindowPlanOptions plan;
     /// Polling interval of the hand while there is one, unless a tile arrives sooner; idle_period
     /// otherwise.
@@ -28,7 +28,7 @@ struct WindowFeederOptions {
     std::chrono::milliseconds idle_period{50};
 };
 
-struct WindowFeederStatistics {
+struct ClipmapStreamerStatistics {
     std::uint64_t published = 0;  // windows published
     std::uint64_t tiles_put = 0;  // not in the previous window
     std::size_t finest_level = 0; // that could be loaded in time at the last round
@@ -48,28 +48,28 @@ public:
     static Result<std::unique_ptr<ClipmapStreamer>>
     create(const TiledRaster& raster,
            std::shared_ptr<const TileHeights> heights,
-           const WindowFeederOptions& options = {});
+           const ClipmapStreamerOptions& options = {});
     /// `heights` have the raster's layout, and `top` is the tile of its coarsest level. Does not
     /// wait.
     ClipmapStreamer(const TiledRaster& raster,
                     std::shared_ptr<const TileHeights> heights,
                     std::shared_ptr<const Tile> top,
-                    const WindowFeederOptions& options = {});
+                    const ClipmapStreamerOptions& options = {});
     /// Stops.
     ~ClipmapStreamer();
     ClipmapStreamer(const ClipmapStreamer&) = delete;
     ClipmapStreamer& operator=(const ClipmapStreamer&) = delete;
 
     /// Call when a hand arrives over the map, and stop() when it leaves: in between nothing runs
-    /// and no tiles are requested. Both for the thread that owns the feeder.
+    /// and no tiles are requested. Both for the thread that owns the streamer.
     void start();
     void stop();
 
-    /// For the one servo thread, which may keep it longer than the feeder.
+    /// For the one servo thread, which may keep it longer than the streamer.
     const std::shared_ptr<ClipmapExchange>& exchange() const noexcept { return exchange_; }
     const std::shared_ptr<const TileHeights>& heights() const noexcept { return heights_; }
     /// Any thread.
-    WindowFeederStatistics statistics() const;
+    ClipmapStreamerStatistics statistics() const;
 
     using Clock = std::chrono::steady_clock;
     /// Runs one round of the thread's work; only while the thread is stopped. Returns whether there
@@ -85,7 +85,7 @@ private:
     TiledRaster raster_;
     std::shared_ptr<const TileHeights> heights_;
     std::shared_ptr<const Tile> top_;
-    WindowFeederOptions options_;
+    ClipmapStreamerOptions options_;
     std::shared_ptr<ClipmapExchange> exchange_;
 
     // Used by the thread, or by the caller of feed().
@@ -99,7 +99,7 @@ private:
     mutable std::mutex mutex_; // guards the members below
     std::condition_variable_any changed_;
     bool has_arrived_ = false;
-    WindowFeederStatistics statistics_;
+    ClipmapStreamerStatistics statistics_;
 
     TileRequests requests_; // after the members that its notifications use
     std::jthread thread_;

@@ -43,7 +43,8 @@ struct GroundTile {
 
 /// Applies the records before this one.
 struct GroundFelt {
-    std::uint64_t told_part = 0; // part whose model got MapContactModel::terrainChanged(); 0: none
+    std::uint64_t changed_part =
+        0; // part whose model got MapContactModel::terrainChanged(); 0: none
 
     bool operator==(const GroundFelt&) const = default;
 };

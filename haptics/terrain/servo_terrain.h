@@ -38,7 +38,7 @@ public:
         return terrain_->advance(motion.at, seconds) || is_shown;
     }
 
-    /// Time since the feeder's last sign of life; 0 before it has started.
+    /// Time since the streamer's last sign of life; 0 before it has started.
     std::chrono::nanoseconds silence(std::chrono::steady_clock::time_point now) const noexcept
     {
         const std::int64_t fed_ns = exchange_->fed_ns.load(std::memory_order_relaxed);

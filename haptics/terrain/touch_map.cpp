@@ -83,7 +83,7 @@ bool TouchMap::follow(MapContactModel& model, const ScenePoint& hand)
     return true;
 }
 
-std::optional<WindowFeederStatistics> TouchMap::statistics() const
+std::optional<ClipmapStreamerStatistics> TouchMap::statistics() const
 {
     return streamer_ ? std::optional(streamer_->statistics()) : std::nullopt;
 }

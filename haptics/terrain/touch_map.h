@@ -41,7 +41,7 @@ public:
     bool follow(MapContactModel& model, const ScenePoint& hand);
 
     /// Of loading tiles; empty for a map in memory.
-    std::optional<WindowFeederStatistics> statistics() const;
+    std::optional<ClipmapStreamerStatistics> statistics() const;
 
 private:
     SceneMap map_;

@@ -37,7 +37,7 @@ struct Writer {
     }
     std::string operator()(const GroundFelt& felt) const
     {
-        return fmt::format("felt/{}", felt.told_part);
+        return fmt::format("felt/{}", felt.changed_part);
     }
 };
 
@@ -120,7 +120,7 @@ std::optional<GroundRecord> parseRecord(std::string_view word)
         return reader.isDone() && is_weight ? std::optional(record) : std::nullopt;
     } else if (kind == "felt") {
         GroundFelt felt;
-        reader.take(felt.told_part);
+        reader.take(felt.changed_part);
         record = felt;
     } else {
         return std::nullopt;

@@ -222,12 +222,12 @@
         <translation>0° bis 360° West</translation>
     </message>
     <message>
-        <source>As Usual on the Body</source>
+        <source>Default for the Body</source>
         <extracomment>The range of longitudes that suits the map's body</extracomment>
         <translation>Wie auf dem Himmelskörper üblich</translation>
     </message>
     <message>
-        <source>As Usual on %1 (%2)</source>
+        <source>Default for %1 (%2)</source>
         <extracomment>The range of longitudes that suits a body: %1 is its name, %2 the range</extracomment>
         <translation>Wie auf %1 üblich (%2)</translation>
     </message>
@@ -1347,7 +1347,7 @@
 <context>
     <name>WhatsThis</name>
     <message>
-        <source>The terrain. A drag with the left button does what the tool says: pan, touch or orbit. A drag with the right button turns and tilts, the wheel zooms to the pointer, a double click flies there, and a right click opens a menu for the place.</source>
+        <source>The terrain. A drag with the left button uses the selected tool: pan, touch or orbit. A drag with the right button turns and tilts, the wheel zooms to the pointer, a double click flies there, and a right click opens a menu for the place.</source>
         <translation>Das Gelände. Ziehen mit der linken Taste tut, was das Werkzeug sagt: verschieben, ertasten oder drehen. Ziehen mit der rechten Taste dreht und neigt, das Rad vergrößert zum Zeiger hin, ein Doppelklick fliegt dorthin, und ein Rechtsklick öffnet ein Menü für den Ort.</translation>
     </message>
     <message>
@@ -1587,7 +1587,7 @@
         <translation>Kraft aus: Gerät nicht bereit; kalibrieren Sie es oder lösen Sie seinen eigenen Notaus</translation>
     </message>
     <message>
-        <source>Force off: the device answers too late</source>
+        <source>Force off: the device responds too late</source>
         <translation>Kraft aus: Das Gerät antwortet zu spät</translation>
     </message>
     <message>
@@ -3408,7 +3408,7 @@ y %2</translation>
         <translation>Höchstgröße der vorbereiteten Karten</translation>
     </message>
     <message>
-        <source>When a new map needs room, the maps that have not been used for the longest time are removed</source>
+        <source>When a new map needs room, the least recently used maps are removed</source>
         <translation>Braucht eine neue Karte Platz, werden die am längsten nicht benutzten Karten entfernt</translation>
     </message>
     <message>
@@ -3455,7 +3455,7 @@ In place of the number 0: a usual bound; %1 is a size</extracomment>
         <translation>Höchstgröße der Kacheln von Servern</translation>
     </message>
     <message>
-        <source>When new tiles need room, the tiles that have not been used for the longest time are removed</source>
+        <source>When new tiles need room, the least recently used tiles are removed</source>
         <translation>Brauchen neue Kacheln Platz, werden die am längsten nicht benutzten Kacheln entfernt</translation>
     </message>
     <message>
@@ -3749,7 +3749,7 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
     </message>
     <message>
         <source>&amp;Reset</source>
-        <extracomment>Puts the light back to the north-west</extracomment>
+        <extracomment>Resets the light to the north-west</extracomment>
         <translation>&amp;Zurücksetzen</translation>
     </message>
 </context>
@@ -5074,7 +5074,7 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
         <translation>Ansicht &amp;speichern</translation>
     </message>
     <message>
-        <source>Keep the present camera and exaggeration in the project</source>
+        <source>Save the current camera and exaggeration in the project</source>
         <translation>Die gegenwärtige Kamera und Überhöhung im Projekt behalten</translation>
     </message>
     <message>
@@ -5090,7 +5090,7 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
         <translation>Ansicht &amp;aktualisieren</translation>
     </message>
     <message>
-        <source>Give the selected view the present camera and exaggeration</source>
+        <source>Update the selected view to the current camera and exaggeration</source>
         <translation>Der ausgewählten Ansicht die gegenwärtige Kamera und Überhöhung geben</translation>
     </message>
     <message>
@@ -5421,7 +5421,7 @@ Bewegen Sie die Karte zu einer Ansicht, die Sie behalten wollen, und drücken Si
         <translation>Detail %1 px</translation>
     </message>
     <message>
-        <source>What the position lies under</source>
+        <source>Source of the position</source>
         <translation>Worunter die Position liegt</translation>
     </message>
     <message>
@@ -5446,7 +5446,7 @@ Bewegen Sie die Karte zu einer Ansicht, die Sie behalten wollen, und drücken Si
     </message>
     <message>
         <source>loading…</source>
-        <extracomment>In place of how far the picture may be from the full map: pieces are on their way</extracomment>
+        <extracomment>Shown instead of the error of the picture: pieces are on their way</extracomment>
         <translation>lädt …</translation>
     </message>
     <message>
@@ -6028,7 +6028,7 @@ Bewegen Sie die Karte zu einer Ansicht, die Sie behalten wollen, und drücken Si
         <translation>&amp;Kontaktmodell</translation>
     </message>
     <message>
-        <source>How the point that touches the ground follows the hand</source>
+        <source>How the point of contact follows the stylus over the terrain</source>
         <translation>Wie der Punkt, der den Boden berührt, der Hand folgt</translation>
     </message>
     <message>

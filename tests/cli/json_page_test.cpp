@@ -66,7 +66,7 @@ void addNames(const nlohmann::json& json, const std::string& prefix, Names& name
     }
 }
 
-// Names below one that is documented as free ("let_go_s.*") are not listed separately.
+// Names below one that is documented as free ("force_off_s.*") are not listed separately.
 Names withoutFree(const Names& names, const DocumentedFields& documented)
 {
     Names kept;

@@ -275,7 +275,7 @@ TEST(LoopCommand, TheEndOfItsTimeIsNotAFailure)
     const nlohmann::json loop = looped({"--device", "sim:swipe=3", "--seconds", "0.5"});
     ASSERT_FALSE(loop.is_null());
     EXPECT_GT(loop["in_contact"], 100) << "the test needs a force that can be switched off";
-    EXPECT_FALSE(loop["let_go_s"].contains("device unready")) << loop["let_go_s"];
+    EXPECT_FALSE(loop["force_off_s"].contains("device unready")) << loop["force_off_s"];
     EXPECT_NE(loop["last_reason"], "device unready");
 }
 

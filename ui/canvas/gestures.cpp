@@ -15,7 +15,7 @@ constexpr std::array kBindings{
     GestureBinding{Gesture::Drag, Qt::MiddleButton, Qt::ShiftModifier, std::nullopt,
                    MapAction::Pan},
     GestureBinding{Gesture::Drag, Qt::RightButton, Qt::ShiftModifier, std::nullopt, MapAction::Pan},
-    // The left button does what the tool says.
+    // The left button uses the selected tool.
     GestureBinding{Gesture::Drag, Qt::LeftButton, Qt::NoModifier, Tool::Pan, MapAction::Pan},
     GestureBinding{Gesture::Drag, Qt::LeftButton, Qt::NoModifier, Tool::Touch, MapAction::Touch},
     GestureBinding{Gesture::Drag, Qt::LeftButton, Qt::NoModifier, Tool::Orbit, MapAction::Orbit},

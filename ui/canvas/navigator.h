@@ -12,7 +12,7 @@
 
 namespace marsview {
 
-/// The nearest camera that is allowed; a camera that is allowed it leaves alone.
+/// Returns the nearest allowed camera: an allowed camera itself.
 using CameraBound = std::function<OrbitCamera(const OrbitCamera&)>;
 
 /// Holds the camera and moves it towards a goal, within bounds all the way. Its timer runs only

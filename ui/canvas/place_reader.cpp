@@ -41,7 +41,7 @@ bool PlaceReader::isStylusRead() const
     return parts_.touch.device() && !lead_timer_.isActive();
 }
 
-// The pointer, or the keys, have moved: with a device at hand as well, they are read for a while.
+// The pointer or the crosshair has moved: even with a device, it is read for a while.
 void PlaceReader::lead()
 {
     if (parts_.touch.device()) {

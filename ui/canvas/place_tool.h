@@ -32,7 +32,7 @@ public:
     // The stylus of a haptic device. Places are those of the topmost map's grid on the terrain
     // below the stylus.
 
-    /// The button of the stylus was pressed: sets a point, or takes hold of one that is there.
+    /// The button of the stylus was pressed: sets a point, or picks up an existing one.
     virtual void pressStylus(const RayHit& place) = 0;
     /// The stylus moved, with its button pressed or not.
     virtual void moveStylus(const RayHit& place) = 0;

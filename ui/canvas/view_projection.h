@@ -27,7 +27,7 @@ public:
     PixelPoint pixelAt(QPointF position) const;
     /// The terrain behind a position, at full resolution.
     std::optional<GroundPoint> groundUnder(QPointF position) const;
-    /// The same, or where `camera` places a position outside the terrain.
+    /// The same; off the terrain, anchorBesideMap() of `camera`.
     ScenePoint anchorAt(QPointF position, const OrbitCamera& camera) const;
     /// Nothing where the place is behind the eye.
     std::optional<QPointF> positionOf(const ScenePoint& place) const;

@@ -92,7 +92,8 @@ SessionController::SessionController(TerrainView& view, QObject* parent)
     });
     connect(loader_, &LoadController::succeeded, this, &SessionController::accept);
     connect(loader_, &LoadController::failed, this, [this](const LoadFailure& failure) {
-        // Nothing is left without those samples. A copy: accept() ends the load that has the map.
+        // Without those samples the map would be empty. A copy: accept() ends the load with the
+        // map.
         if (const std::shared_ptr<const Map> declared = current_->as_declared) {
             accept(declared);
             return;

@@ -131,8 +131,8 @@ bool SessionController::isCompleting(LayerId id) const
     return (current_ && is_it(*current_)) || std::any_of(waiting_.begin(), waiting_.end(), is_it);
 }
 
-// The overviews of every preview in the session are in progress or wait, unless that was stopped or
-// failed; those of other maps are not.
+// Starts or queues building the overviews of every preview in the session, unless that was stopped
+// or failed, and cancels building those of other maps.
 void SessionController::lookAfterPreviews()
 {
     if (are_previews_left_alone_) {

@@ -123,7 +123,7 @@ private:
     PostedCall draw_soon_{[this] { drawLines(); }}; // gathers reasons to draw the lines again
     bool is_hasty_ = false;       // the camera has moved since the picture was complete
     QElapsedTimer drawn_at_;      // since the lines were made last
-    qint64 hasty_drawing_ns_ = 0; // for that, if it was in haste
+    qint64 hasty_drawing_ns_ = 0; // time for that while is_hasty_
     int running_ = 0;
     QThreadPool pool_;
 };

@@ -88,9 +88,7 @@ LargeMapsPage::LargeMapsPage(const LargeMapDefaults& standard, QWidget* parent)
     bound_->setGroupSeparatorShown(true);
     bound_->setKeyboardTracking(false);
     bound_->setAccessibleName(tr("Maximum size of prepared maps"));
-    bound_->setToolTip(
-        tr("When a new map needs room, the maps that have not been used for the longest time are "
-           "removed"));
+    bound_->setToolTip(tr("When a new map needs room, the least recently used maps are removed"));
     maps_->setAccessibleName(tr("Prepared maps"));
     maps_->setObjectName(QStringLiteral("preparedMaps"));
     // As low as the first page; it grows with the dialog.
@@ -172,8 +170,7 @@ QWidget* LargeMapsPage::makeFetchedBox()
     fetched_bound_->setKeyboardTracking(false);
     fetched_bound_->setAccessibleName(tr("Maximum size of tiles from servers"));
     fetched_bound_->setToolTip(
-        tr("When new tiles need room, the tiles that have not been used for the longest time are "
-           "removed"));
+        tr("When new tiles need room, the least recently used tiles are removed"));
     fetched_total_->setObjectName(QStringLiteral("fetchedTotal"));
     empty_button_->setObjectName(QStringLiteral("emptyFetched"));
     empty_button_->setAutoDefault(false);

@@ -48,7 +48,7 @@ public:
 
     void setContent(const StretchContent& content);
     void setHeightUnit(HeightUnit unit);
-    /// Puts the focus into what `kind` lets people enter.
+    /// Moves the keyboard focus to the first field of `kind`.
     void edit(StretchKind kind);
 
 Q_SIGNALS:

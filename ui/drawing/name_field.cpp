@@ -112,8 +112,8 @@ void NameField::close()
     }
 }
 
-// Keys that are no text go on to the map or the menus, with the name kept: the next point can be
-// placed, the placing undone or the project saved without a key in between.
+// Other keys than those of text are passed to the map or the menus, and the name is kept: the next
+// point can be placed, the placing undone or the project saved at once.
 bool NameField::event(QEvent* event)
 {
     if (event->type() != QEvent::ShortcutOverride || item_ == 0) {

@@ -101,7 +101,7 @@ bool MapLabels::isOnCursor(const Mark& mark) const
     return cursor_ && mark.label.box.intersects(aroundCursor(*cursor_));
 }
 
-// Looks do not move names: only other maps do.
+// Names stay where they are unless the maps change.
 void MapLabels::showScene()
 {
     const auto& maps = view_.ground().maps();

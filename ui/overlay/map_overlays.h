@@ -77,9 +77,9 @@ public:
         bool has_scale = true;  // compass and scale bar
         bool has_labels = true; // names, values of the graticule, elevations of contours
     };
-    /// Overlays for a picture of any size that `camera` has of what the view shows, as they are
-    /// now: as large as in the view where it is as high, and at the same distance from their
-    /// corners.
+    /// The overlays for a picture of any size that `camera` takes of the same layers. Their size
+    /// grows with the height of the picture: they are as large as in the view if it is as high as
+    /// the view. They keep their distances from the corners.
     std::vector<PicturePart>
     partsFor(const OrbitCamera& camera, const QSize& picture, const PictureParts& parts) const;
 
@@ -93,7 +93,7 @@ public:
     void setCovered(int height);
     int coveredHeight() const noexcept { return covered_height_; }
 
-    /// Checkable actions that show and hide the overlays which people may not want; each has an
+    /// Checkable actions that show and hide optional overlays; each has an
     /// object name to be remembered by.
     const QList<QAction*>& visibilityActions() const noexcept { return actions_; }
     /// The same for what lies on the terrain: names and graticule.

@@ -156,7 +156,7 @@ void HapticsPanel::makeForce(QBoxLayout& layout)
     force_->setRange(0, kForceSteps);
     layout.addWidget(force_);
     reason_ = makeText(this, tr("Touch state"));
-    reason_->setObjectName(QStringLiteral("letGoReason"));
+    reason_->setObjectName(QStringLiteral("forceOffReason"));
     // As high with one line as with two, so that the widgets below do not move.
     reason_->setMinimumHeight(fontMetrics().height() * 2);
     reason_->setAlignment(Qt::AlignLeading | Qt::AlignTop);
@@ -531,7 +531,7 @@ void HapticsPanel::showNoState()
     if (!device_.isRunning()) {
         force_->setValue(0);
         force_->setFormat(forceText(0.0, kForceNMax));
-        reason_->setText(device_.loop() != nullptr ? letGoText(ForceOffReason::NoTouch)
+        reason_->setText(device_.loop() != nullptr ? forceOffText(ForceOffReason::NoTouch)
                                                    : QString());
         rest_->hide();
         times_->clear();
@@ -562,7 +562,7 @@ void HapticsPanel::showState(const LoopState& state)
     const std::string trouble =
         state.reason == ForceOffReason::DeviceUnready ? device_.loop()->trouble() : std::string();
     const QString reason = trouble.empty()
-                               ? letGoText(state.reason)
+                               ? forceOffText(state.reason)
                                //: %1 is the device's error
                                : tr("Force off: %1").arg(QString::fromStdString(trouble));
     const QString text = !reason.isEmpty()  ? reason

@@ -211,14 +211,14 @@ struct ProjectController::Saving {
     std::filesystem::path bundled;
     std::shared_ptr<JobMonitor> monitor;
 
-    std::filesystem::path fileBeside(const char* ending) const
+    std::filesystem::path companionFile(const char* ending) const
     {
         return path.parent_path() / (path.stem().string() + ending);
     }
     // Files for other programs.
-    Beside writeBeside(std::vector<Annotation> annotations) const
+    Companions writeCompanions(std::vector<Annotation> annotations) const
     {
-        Beside beside;
+        Companions companions;
         const auto write = [&](const std::vector<FeatureCollection>& features,
                                const std::string& file) -> std::optional<Error> {
             if (features.empty()) {
@@ -228,14 +228,14 @@ struct ProjectController::Saving {
                 return done.error();
             }
             const auto files = collectionPaths(features, file);
-            beside.files.insert(beside.files.end(), files.begin(), files.end());
+            companions.files.insert(companions.files.end(), files.begin(), files.end());
             return std::nullopt;
         };
-        beside.measurements =
-            write(measurementFeatures(measurements), fileBeside("-measurements.gpkg").string());
-        beside.annotations = write(annotationFeatures(annotations, FeatureLayers::ByShape),
-                                   fileBeside("-annotations.gpkg").string());
-        return beside;
+        companions.measurements =
+            write(measurementFeatures(measurements), companionFile("-measurements.gpkg").string());
+        companions.annotations = write(annotationFeatures(annotations, FeatureLayers::ByShape),
+                                       companionFile("-annotations.gpkg").string());
+        return companions;
     }
 };
 
@@ -271,7 +271,7 @@ void ProjectController::saveAs(const QString& file, const std::function<void()>&
                 takeSaved(path, status, then);
             },
             Qt::QueuedConnection);
-        Beside beside;
+        Companions companions;
         if (is_saved) {
             const JobPart part(*saving.monitor, kProjectShare, 1.0);
             std::vector<Annotation> annotations;
@@ -280,15 +280,15 @@ void ProjectController::saveAs(const QString& file, const std::function<void()>&
                 annotations.push_back(std::move(drawn.annotation));
             }
             project = {};
-            beside = saving.writeBeside(std::move(annotations));
+            companions = saving.writeCompanions(std::move(annotations));
         }
         QMetaObject::invokeMethod(
             this,
-            [this, path, is_saved, beside, monitor = saving.monitor] {
+            [this, path, is_saved, companions, monitor = saving.monitor] {
                 --writing_;
                 work_.end(monitor);
                 if (is_saved) {
-                    reportBeside(path, beside);
+                    reportCompanions(path, companions);
                 }
             },
             Qt::QueuedConnection);
@@ -326,20 +326,20 @@ ProjectController::~ProjectController()
     pool_.waitForDone(); // posted results are discarded with this object
 }
 
-void ProjectController::reportBeside(const QString& path, const Beside& beside)
+void ProjectController::reportCompanions(const QString& path, const Companions& companions)
 {
     QStringList files{path};
-    for (const std::filesystem::path& file : beside.files) {
+    for (const std::filesystem::path& file : companions.files) {
         files.append(QString::fromStdString(file.string()));
     }
     Q_EMIT written(files);
-    if (beside.measurements && beside.measurements->code != ErrorCode::Canceled) {
+    if (companions.measurements && companions.measurements->code != ErrorCode::Canceled) {
         Q_EMIT failed(tr("The project is saved, but not the GeoPackage of its measurements: %1")
-                          .arg(QString::fromStdString(beside.measurements->message)));
+                          .arg(QString::fromStdString(companions.measurements->message)));
     }
-    if (beside.annotations && beside.annotations->code != ErrorCode::Canceled) {
+    if (companions.annotations && companions.annotations->code != ErrorCode::Canceled) {
         Q_EMIT failed(tr("The project is saved, but not the GeoPackage of its annotations: %1")
-                          .arg(QString::fromStdString(beside.annotations->message)));
+                          .arg(QString::fromStdString(companions.annotations->message)));
     }
 }
 

@@ -127,13 +127,13 @@ private:
                   const std::function<Result<Project>(JobMonitor&)>& read,
                   const std::function<void(const ReadProject&)>& then);
     void takeSaved(const QString& path, const Status& status, const std::function<void()>& then);
-    // What became of the files next to a project.
-    struct Beside {
+    // The outcome of writing the files next to a project.
+    struct Companions {
         std::optional<Error> measurements;
         std::optional<Error> annotations;
         std::vector<std::filesystem::path> files; // that are written
     };
-    void reportBeside(const QString& path, const Beside& beside);
+    void reportCompanions(const QString& path, const Companions& companions);
     ProjectState state() const;
     void replace(const Project& project, const QString& file);
     bool isNothingToKeep() const;

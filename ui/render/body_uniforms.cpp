@@ -18,7 +18,7 @@ GLfloat asFloat(double value)
     return static_cast<GLfloat>(value);
 }
 
-// A pole of the map that the triangles next to a row lead to, and its height.
+// The pole that the triangles next to the first or last row end at, and its height.
 std::array<GLfloat, 4>
 poleFromEye(const CameraPose& pose, const BodySubject& subject, BodyGrid::Pole pole, float height_m)
 {

@@ -99,7 +99,7 @@ std::optional<std::chrono::steady_clock::time_point> ReliefLoader::nextRetry() c
 {
     std::optional<std::chrono::steady_clock::time_point> next;
     for (const Failure& failure : failures_) {
-        if (!failure.is_told) {
+        if (!failure.is_reported) {
             next = next ? std::min(*next, failure.retry_at) : failure.retry_at;
         }
     }
@@ -110,8 +110,8 @@ bool ReliefLoader::takeDueRetries()
 {
     bool is_any = false;
     for (Failure& failure : failures_) {
-        if (!failure.is_told && failure.retry_at <= std::chrono::steady_clock::now()) {
-            failure.is_told = true;
+        if (!failure.is_reported && failure.retry_at <= std::chrono::steady_clock::now()) {
+            failure.is_reported = true;
             is_any = true;
         }
     }

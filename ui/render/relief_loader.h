@@ -31,7 +31,7 @@ struct ReliefResult {
     ReliefTile tile;
 };
 
-/// The tile that node (level, column, row) wears. `level` >= kReliefLevelMin.
+/// The tile that is drawn over a node. Its `level` >= kReliefLevelMin.
 ReliefTileId reliefTileOf(const DetailNode& node);
 
 /// All members are for the thread that owns it; the threads that make tiles are its own.
@@ -62,7 +62,7 @@ private:
         LayerNode key;
         std::chrono::steady_clock::time_point retry_at;
         Error error;
-        bool is_told = false; // that it may be tried again
+        bool is_reported = false; // that it may be tried again
     };
 
     void run();

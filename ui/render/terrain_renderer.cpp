@@ -137,18 +137,18 @@ struct Layer {
     CoverTexture cover;
     std::optional<TileRequests> requests; // of a tiled map
     std::vector<TileId> missing;          // of this picture
-    std::function<void()> tell;
+    std::function<void()> notify;
 
     Layer(const TerrainLayer& layer,
           std::uint32_t layer_number,
-          const std::function<void()>& notify)
+          const std::function<void()>& notify_when_drawable)
         : source(layer)
         , number(layer_number)
         , body_number(layer_number)
         , surface(*source.heightfield, source.analysis->means)
         , selector(selectorOf(source))
         , cover(*source.heightfield, source.analysis->means)
-        , tell(notify)
+        , notify(notify_when_drawable)
     {
         sendRamp();
         if (source.body) {
@@ -180,10 +180,10 @@ struct Layer {
         requests->request(wanted);
         const TiledRaster& raster = source.heightfield->tiles()->raster();
         // A tile that arrived between the reading and the request causes no other notification.
-        if (tell && std::any_of(wanted.begin(), wanted.end(), [&raster](const TileId& id) {
+        if (notify && std::any_of(wanted.begin(), wanted.end(), [&raster](const TileId& id) {
                 return raster.find(id) != nullptr;
             })) {
-            tell();
+            notify();
         }
         for (const TileId& id : wanted) {
             std::optional<Error> failure = raster.failure(id);
@@ -334,13 +334,13 @@ struct TerrainRenderer::Impl {
          std::string name,
          bool has_no_gpu,
          const StoreSizes& stores,
-         std::function<void()> tell)
+         std::function<void()> notify_when_drawable)
         : shaders(std::move(compiled))
         , driver_name(std::move(name))
         , is_software(has_no_gpu)
         , atlas(stores.atlas_columns, stores.atlas_rows)
-        , reliefs(stores.relief_tiles, tell)
-        , notify(std::move(tell))
+        , reliefs(stores.relief_tiles, notify_when_drawable)
+        , notify(std::move(notify_when_drawable))
         , batches(reliefs.pageCount())
     {
         makeNodeMesh();

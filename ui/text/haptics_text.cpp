@@ -36,7 +36,7 @@ QString deviceName(const std::string& name)
     return name == "Simulated hand" ? tr("Simulated hand") : QString::fromStdString(name);
 }
 
-QString letGoText(ForceOffReason reason)
+QString forceOffText(ForceOffReason reason)
 {
     switch (reason) {
     case ForceOffReason::None:
@@ -50,7 +50,7 @@ QString letGoText(ForceOffReason reason)
     case ForceOffReason::DeviceUnready:
         return tr("Force off: device not ready; calibrate it, or release its own emergency stop");
     case ForceOffReason::DeviceStale:
-        return tr("Force off: the device answers too late");
+        return tr("Force off: the device responds too late");
     case ForceOffReason::DeviceImplausible:
         return tr("Force off: implausible device reading");
     case ForceOffReason::NotHeld:

@@ -17,20 +17,20 @@ struct ReplayFit;
 struct SavedTicks;
 struct TouchedGround;
 
-/// The name that a driver gives its device, in the language of the window where it is ours.
+/// The name of a device; those of the built-in devices are translated.
 QString deviceName(const std::string& name);
 /// A sentence: why the force is off; empty if it is on.
-QString letGoText(ForceOffReason reason);
+QString forceOffText(ForceOffReason reason);
 /// What the hand is doing.
 QString modeText(StylusMode mode, bool is_in_contact);
-/// A sentence, and that all works without.
+/// A sentence about real-time scheduling; touching works without it.
 QString realTimeText(const RealTimeGrants& grants);
 /// "touch.csv: 12,345 updates recorded", and why it ended if the user did not stop it.
 QString recordedText(const QString& file, qulonglong updates, RecordingEnd end);
 /// "flight.csv: 10,000 ticks of 10.0 s".
 QString savedTicksText(const SavedTicks& saved);
-/// Sentences: where a recording does not go with the maps that are open, or was touched in another
-/// way than `ground` is; empty where all is the same.
+/// The differences between a recording and the open maps or `ground`, as sentences; empty if there
+/// are none.
 QString replayText(const QString& file, const ReplayFit& fit, const TouchedGround& ground);
 /// That a recording was replayed to its end.
 QString replayEndText(const QString& file);

@@ -68,12 +68,12 @@ void SavedViews::makeActions()
         return action;
     };
     actions_.save = make(tr("&Save View"), QStringLiteral("save-view"),
-                         tr("Keep the present camera and exaggeration in the project"));
+                         tr("Save the current camera and exaggeration in the project"));
     actions_.save->setObjectName(QStringLiteral("saveView"));
     actions_.save->setShortcut(QKeySequence(Qt::CTRL | Qt::Key_B));
     actions_.go_to = make(tr("&Go to View"), QStringLiteral("fly"), tr("Fly to the selected view"));
     actions_.update = make(tr("Upda&te View"), QStringLiteral("views"),
-                           tr("Give the selected view the present camera and exaggeration"));
+                           tr("Update the selected view to the current camera and exaggeration"));
     actions_.rename =
         make(tr("Re&name View"), QStringLiteral("rename"), tr("Rename the selected view"));
     actions_.rename->setShortcut(Qt::Key_F2);

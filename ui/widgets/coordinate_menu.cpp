@@ -45,11 +45,11 @@ QString usualLongitudesText(const Body* body)
 {
     if (body == nullptr) {
         //: The range of longitudes that suits the map's body
-        return menuText("As Usual on the Body");
+        return menuText("Default for the Body");
     }
     const QString name = bodyName(*body);
     //: The range of longitudes that suits a body: %1 is its name, %2 the range
-    return menuText("As Usual on %1 (%2)")
+    return menuText("Default for %1 (%2)")
         .arg(name, longitudeNotationText(CoordinateFormat{}.longitudesOn(body)));
 }
 

@@ -148,7 +148,7 @@ LightPopup::LightPopup(QWidget* parent)
     auto* form = new QFormLayout;
     form->addRow(tr("A&zimuth"), azimuth_);
     form->addRow(tr("A&ltitude"), altitude_);
-    //: Puts the light back to the north-west
+    //: Resets the light to the north-west
     auto* reset = new QPushButton(tr("&Reset"), this);
     auto* layout = new QVBoxLayout(this);
     layout->addWidget(pad_, 0, Qt::AlignHCenter);

@@ -80,7 +80,7 @@ StatusReadout::StatusReadout(QWidget* parent)
     , height_rule_(makeRule(this))
     , detail_rule_(makeRule(this))
 {
-    source_->setAccessibleName(tr("What the position lies under"));
+    source_->setAccessibleName(tr("Source of the position"));
     source_->setObjectName(QStringLiteral("readingSource"));
     source_->setForegroundRole(QPalette::PlaceholderText);
     coordinate_->setAccessibleName(tr("Position under the pointer, the stylus or the crosshair"));
@@ -192,14 +192,14 @@ void StatusReadout::showDetail()
 {
     if (is_loading_ || has_problem_) {
         detail_->setWholeText(
-            //: In place of how far the picture may be from the full map: pieces are on their way
+            //: Shown instead of the error of the picture: pieces are on their way
             is_loading_ ? tr("loading…")
                         //: The same: pieces of it cannot be read
                         : tr("incomplete"));
         return;
     }
     detail_->setWholeText(scene_ && scene_->isPreview()
-                              //: In place of how far the picture may be from the full map
+                              //: Shown instead of the error of the picture
                               ? tr("preview")
                               //: How far the picture may be from the full map, in pixels
                               : leftToRight(tr("detail %1 px").arg(numberText(detail_px_, 1))));

@@ -30,7 +30,7 @@ void explainControls(const ExplainedControls& controls)
 {
     controls.view->setWhatsThis(helpTr(QT_TRANSLATE_NOOP(
         "WhatsThis",
-        "The terrain. A drag with the left button does what the tool says: pan, touch or orbit. "
+        "The terrain. A drag with the left button uses the selected tool: pan, touch or orbit. "
         "A drag with the right button turns and tilts, the wheel zooms to the pointer, a double "
         "click flies there, and a right click opens a menu for the place.")));
     controls.overlays->minimap()->setWhatsThis(helpTr(QT_TRANSLATE_NOOP(

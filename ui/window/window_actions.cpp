@@ -408,7 +408,7 @@ void WindowActions::makeHapticsMenu(QMainWindow& window)
     QMenu* menu = window.menuBar()->addMenu(tr("Ha&ptics"));
     contact_models = menu->addMenu(tr("&Contact Model"));
     contact_models->menuAction()->setStatusTip(
-        tr("How the point that touches the ground follows the hand"));
+        tr("How the point of contact follows the stylus over the terrain"));
     contact_model_group = new QActionGroup(&window);
     for (const ContactModelWords& entry : contactModelWords()) {
         QAction* action = contact_models->addAction(tr(entry.text));

@@ -64,8 +64,8 @@ public:
 private:
     struct Dock {
         QDockWidget* widget = nullptr;
-        bool is_folded = false; // away for want of room, not by the user
-        /// The side that it left for want of room, not by the user.
+        bool is_folded = false; // hidden for lack of room, not by the user
+        /// The side that it left for lack of room, not by the user.
         std::optional<Qt::DockWidgetArea> left_side{};
         int turn = 0; // when it was asked for; the greater, the later
     };

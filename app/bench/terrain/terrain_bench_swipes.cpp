@@ -51,11 +51,11 @@ BenchJson asJson(double speed, const TileSwipeResult& swipe, const EvictedFiles&
             {"samples_missed", counts.samples_missed},
             {"turns_by_coarsest_level", levels},
             {"worst_level", levels.empty() ? 0 : levels.size() - 1},
-            {"windows_published", swipe.feeder.published},
-            {"tiles_put", swipe.feeder.tiles_put},
+            {"windows_published", swipe.streamer.published},
+            {"tiles_put", swipe.streamer.tiles_put},
             {"tiles_loaded", swipe.tiles_loaded},
             {"tiles_failed", swipe.tiles_failed},
-            {"tile_lock_error", swipe.feeder.lock_error},
+            {"tile_lock_error", swipe.streamer.lock_error},
             {"resident_share_at_begin", evicted.resident_share}};
 }
 

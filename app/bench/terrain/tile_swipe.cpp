@@ -27,9 +27,9 @@ SwipeArea wholeOf(const TouchedTiles& tiles)
 struct TileSwipe::Impl {
     Impl(const TouchedTiles& tiles,
          const TileSwipeOptions& options,
-         std::unique_ptr<ClipmapStreamer> its_feeder)
-        : feeder(std::move(its_feeder))
-        , terrain(feeder->exchange(), tiles.heights)
+         std::unique_ptr<ClipmapStreamer> its_streamer)
+        : streamer(std::move(its_streamer))
+        , terrain(streamer->exchange(), tiles.heights)
         , model(makeContactModel(kContactModelDefault,
                                  TiledHeightfieldSurface(terrain.terrain(), tiles.frame, 1.0)))
         , frame(tiles.frame)
@@ -66,7 +66,7 @@ struct TileSwipe::Impl {
         count(state);
         const bool is_over = tick.number + 1 >= turn_count;
         turns_done.store(tick.number + 1, std::memory_order_relaxed);
-        return is_over ? LoopOutcome::Stop : LoopOutcome::GoOn;
+        return is_over ? LoopOutcome::Stop : LoopOutcome::Continue;
     }
 
     void count(const ContactState& state) noexcept
@@ -85,10 +85,10 @@ struct TileSwipe::Impl {
         return {.counts = counts,
                 .loop = thread->statistics(),
                 .grants = thread->grants(),
-                .feeder = feeder->statistics()};
+                .streamer = streamer->statistics()};
     }
 
-    std::unique_ptr<ClipmapStreamer> feeder;
+    std::unique_ptr<ClipmapStreamer> streamer;
     ServoTerrain terrain;
     std::unique_ptr<MapContactModel> model;
     SceneFrame frame;
@@ -109,13 +109,13 @@ TileSwipe::~TileSwipe() = default;
 
 Result<TileSwipe> TileSwipe::begin(const TouchedTiles& tiles, const TileSwipeOptions& options)
 {
-    Result<std::unique_ptr<ClipmapStreamer>> feeder =
+    Result<std::unique_ptr<ClipmapStreamer>> streamer =
         ClipmapStreamer::create(tiles.raster, tiles.heights);
-    if (!feeder) {
-        return std::move(feeder).error();
+    if (!streamer) {
+        return std::move(streamer).error();
     }
-    auto impl = std::make_unique<Impl>(tiles, options, std::move(feeder).value());
-    impl->feeder->start();
+    auto impl = std::make_unique<Impl>(tiles, options, std::move(streamer).value());
+    impl->streamer->start();
     impl->thread = std::make_unique<RealTimeThread>(
         RealTimeOptions{.period = kPeriod, .uncounted_turns = kUncounted},
         [self = impl.get()](const LoopTick& tick) noexcept { return self->turn(tick); });
@@ -137,7 +137,7 @@ TileSwipeResult TileSwipe::stop()
 {
     impl_->thread->stop();
     impl_->thread->join();
-    impl_->feeder->stop();
+    impl_->streamer->stop();
     return impl_->result();
 }
 

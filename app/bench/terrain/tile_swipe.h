@@ -33,7 +33,7 @@ struct TileSwipeResult {
     SwipeCounts counts;
     LoopStatistics loop;
     RealTimeGrants grants;
-    WindowFeederStatistics feeder;
+    ClipmapStreamerStatistics streamer;
     std::uint64_t tiles_loaded = 0; // from the caller's counters
     std::uint64_t tiles_failed = 0;
 };

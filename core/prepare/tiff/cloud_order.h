@@ -1,4 +1,4 @@
-// The order of tiles that readers on a network want: coarse overviews first.
+// The order of tiles for readers on a network: coarse overviews first.
 #pragma once
 
 #include "core/base/job_monitor.h"

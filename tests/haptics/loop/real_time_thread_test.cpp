@@ -22,7 +22,7 @@ TEST(RealTimeThread, CallsAtWholePeriodsUntilStopped)
     turns.reserve(200);
     RealTimeThread thread(quick(), [&turns](const LoopTick& turn) noexcept {
         turns.push_back(turn);
-        return turns.size() < 200 ? LoopOutcome::GoOn : LoopOutcome::Stop;
+        return turns.size() < 200 ? LoopOutcome::Continue : LoopOutcome::Stop;
     });
     thread.join();
     ASSERT_EQ(turns.size(), 200U);
@@ -62,7 +62,7 @@ TEST(RealTimeThread, PreparesTurnsAheadOfTheirDeadline)
             return LoopOutcome::Stop; // ignored
         }
         EXPECT_GE(std::chrono::steady_clock::now(), turn.deadline);
-        return ++turns < 50 ? LoopOutcome::GoOn : LoopOutcome::Stop;
+        return ++turns < 50 ? LoopOutcome::Continue : LoopOutcome::Stop;
     });
     thread.join();
     EXPECT_EQ(turns, 50U);
@@ -79,7 +79,7 @@ TEST(RealTimeThread, CountsATickThatTakesTooLong)
             while (std::chrono::steady_clock::now() < turn.deadline + 5ms) {
             }
         }
-        return ++turns < 6 ? LoopOutcome::GoOn : LoopOutcome::Stop;
+        return ++turns < 6 ? LoopOutcome::Continue : LoopOutcome::Stop;
     });
     thread.join();
     EXPECT_EQ(turns, 6);
@@ -92,7 +92,7 @@ TEST(RealTimeThread, StopsOnRequest)
     std::atomic<int> turns{0};
     RealTimeThread thread(quick(), [&turns](const LoopTick&) noexcept {
         turns.fetch_add(1);
-        return LoopOutcome::GoOn;
+        return LoopOutcome::Continue;
     });
     while (turns.load() < 3) {
         std::this_thread::yield();
@@ -120,7 +120,7 @@ TEST(RealTimeThread, LeavesOutTheFirstTurnsAndTheirPageFaults)
                     static_cast<volatile char*>(memory.get())[i * 64 * kPage] = 1;
                 }
             }
-            return turn.number < 99 ? LoopOutcome::GoOn : LoopOutcome::Stop;
+            return turn.number < 99 ? LoopOutcome::Continue : LoopOutcome::Stop;
         });
         thread.join();
         EXPECT_EQ(thread.statistics().tick.count(), 50U);

@@ -67,10 +67,10 @@ TEST(ClipmapStreamer, EverythingOnTheHandsWayIsThereInTheEnd)
     const TiledMap map = roughMap();
     // Smaller than a window.
     const TileCache cache({.bytes_max = std::size_t{1} << 20, .loader_threads = 2});
-    const auto feeder =
+    const auto streamer =
         ClipmapStreamer::create(TiledRaster(cache, map.source), map.heights).value();
-    ServoTerrain servo(feeder->exchange(), feeder->heights());
-    feeder->start();
+    ServoTerrain servo(streamer->exchange(), streamer->heights());
+    streamer->start();
     for (const GridPoint at : {GridPoint{100.0, 100.0}, GridPoint{1200.0, 400.0},
                                GridPoint{2099.0, 559.0}, GridPoint{130.0, 90.0}}) {
         while (!isFineAround(servo.resident().window(), at)) {
@@ -86,11 +86,11 @@ TEST(ClipmapStreamer, EverythingOnTheHandsWayIsThereInTheEnd)
         const auto row = static_cast<std::size_t>(at.row);
         EXPECT_EQ(servo.terrain()->sample(column, row), map.filled->sample(column, row));
     }
-    feeder->stop();
+    streamer->stop();
     // 14 tiles surround the first three positions; for the fourth one the window has to return.
-    EXPECT_GE(feeder->statistics().tiles_put, 14U);
-    EXPECT_GE(feeder->statistics().published, 4U);
-    EXPECT_GT(feeder->statistics().tiles_per_s, 0.0);
+    EXPECT_GE(streamer->statistics().tiles_put, 14U);
+    EXPECT_GE(streamer->statistics().published, 4U);
+    EXPECT_GT(streamer->statistics().tiles_per_s, 0.0);
 }
 
 TEST(ClipmapStreamer, HasTheTilesAheadOfAHandThatMovesOn)
@@ -98,8 +98,8 @@ TEST(ClipmapStreamer, HasTheTilesAheadOfAHandThatMovesOn)
     const TiledMap map = roughMap();
     const TileCache cache({.bytes_max = std::size_t{64} << 20, .loader_threads = 1});
     const TiledRaster raster(cache, map.source);
-    const auto feeder = ClipmapStreamer::create(raster, map.heights).value();
-    ServoTerrain servo(feeder->exchange(), feeder->heights());
+    const auto streamer = ClipmapStreamer::create(raster, map.heights).value();
+    ServoTerrain servo(streamer->exchange(), streamer->heights());
     // One cell per millisecond, with time for one tile every five milliseconds, and not for half of
     // the map.
     GridPoint at{300.0, 300.0};
@@ -107,7 +107,7 @@ TEST(ClipmapStreamer, HasTheTilesAheadOfAHandThatMovesOn)
     for (int tick = 0; tick < 1500; ++tick) {
         servo.refresh(handAt(at, {1000.0, 0.0}), 0.001);
         if (tick % 5 == 0) {
-            ASSERT_TRUE(feeder->feed(Clock::now()));
+            ASSERT_TRUE(streamer->feed(Clock::now()));
             // Loads as fast as possible, however slow the machine is.
             for (const TileId& id : planWindow(map.layout(), handAt(at, {1000.0, 0.0}), {}).tiles) {
                 if (raster.find(id) == nullptr) {
@@ -132,15 +132,15 @@ TEST(ClipmapStreamer, RequestsNothingWithoutAHand)
     const TiledMap map = roughMap();
     const TileCache cache({.bytes_max = std::size_t{64} << 20, .loader_threads = 1});
     const TiledRaster raster(cache, map.source);
-    const auto feeder = ClipmapStreamer::create(raster, map.heights).value();
+    const auto streamer = ClipmapStreamer::create(raster, map.heights).value();
     const std::uint64_t read = map.source->readCount();
     EXPECT_EQ(read, 1U) << "the coarsest tile";
-    EXPECT_FALSE(feeder->feed(Clock::now()));
-    feeder->exchange()->motion.write(handAt({700.0, 300.0}));
-    EXPECT_FALSE(feeder->feed(Clock::now() + std::chrono::seconds(5))) << "idle for long";
-    EXPECT_EQ(feeder->statistics().published, 0U);
+    EXPECT_FALSE(streamer->feed(Clock::now()));
+    streamer->exchange()->motion.write(handAt({700.0, 300.0}));
+    EXPECT_FALSE(streamer->feed(Clock::now() + std::chrono::seconds(5))) << "idle for long";
+    EXPECT_EQ(streamer->statistics().published, 0U);
     EXPECT_EQ(map.source->readCount(), read);
-    EXPECT_TRUE(feeder->feed(Clock::now()));
+    EXPECT_TRUE(streamer->feed(Clock::now()));
 }
 
 TEST(ClipmapStreamer, StopsAtOnceWhileTilesAreOnTheirWay)
@@ -155,23 +155,23 @@ TEST(ClipmapStreamer, StopsAtOnceWhileTilesAreOnTheirWay)
         return std::nullopt;
     }});
     const TileCache cache({.bytes_max = std::size_t{64} << 20, .loader_threads = 1});
-    const auto feeder =
+    const auto streamer =
         ClipmapStreamer::create(TiledRaster(cache, map.source), map.heights).value();
-    feeder->exchange()->motion.write(handAt({700.0, 300.0}));
-    feeder->start();
+    streamer->exchange()->motion.write(handAt({700.0, 300.0}));
+    streamer->start();
     while (waiting == 0) {
-        feeder->exchange()->motion.write(handAt({700.0, 300.0}));
+        streamer->exchange()->motion.write(handAt({700.0, 300.0}));
         std::this_thread::yield();
     }
-    feeder->stop(); // while the loader waits
+    streamer->stop(); // while the loader waits
     const std::uint64_t read = map.source->readCount();
     is_open = true;
     is_open.notify_all();
     EXPECT_LE(map.source->readCount(), read);
-    feeder->start(); // and continues
-    while (!isFineAround(*feeder->exchange()->windows.front(), {700.0, 300.0})) {
-        feeder->exchange()->motion.write(handAt({700.0, 300.0}));
-        feeder->exchange()->windows.take();
+    streamer->start(); // and continues
+    while (!isFineAround(*streamer->exchange()->windows.front(), {700.0, 300.0})) {
+        streamer->exchange()->motion.write(handAt({700.0, 300.0}));
+        streamer->exchange()->windows.take();
         std::this_thread::yield();
     }
 }
@@ -188,11 +188,11 @@ TEST(ClipmapStreamer, ContinuesWhenTilesFailAndLoadsThemOnceReadable)
         return std::nullopt;
     }});
     const TileCache cache({.bytes_max = std::size_t{64} << 20, .loader_threads = 1});
-    const auto feeder =
+    const auto streamer =
         ClipmapStreamer::create(TiledRaster(cache, map.source), map.heights).value();
-    ServoTerrain servo(feeder->exchange(), feeder->heights());
+    ServoTerrain servo(streamer->exchange(), streamer->heights());
     const GridPoint at{900.0, 400.0};
-    feeder->start();
+    streamer->start();
     while (failures < 9 || !servo.resident().window().has(samplesTile(1, 1, 0))) {
         servo.refresh(handAt(at), 0.001);
         std::this_thread::yield();
@@ -211,29 +211,29 @@ TEST(ClipmapStreamer, NoTileOutlivesTheWindowsThatHaveIt)
     const TiledMap map = roughMap();
     const TileCache cache({.bytes_max = 0, .loader_threads = 1}); // stores nothing itself
     const TiledRaster raster(cache, map.source);
-    auto feeder = ClipmapStreamer::create(raster, map.heights).value();
-    const auto exchange = feeder->exchange();
+    auto streamer = ClipmapStreamer::create(raster, map.heights).value();
+    const auto exchange = streamer->exchange();
     const GridPoint first{100.0, 100.0};
     const GridPoint second{2000.0, 500.0};
     exchange->motion.write(handAt(second));
     std::weak_ptr<const Clipmap> old;
-    feeder->feed(Clock::now());
+    streamer->feed(Clock::now());
     ASSERT_TRUE(exchange->windows.take());
     old = exchange->windows.front();
     // The servo keeps it, whatever is published in the meantime.
     for (int i = 0; i < 6; ++i) {
         exchange->motion.write(handAt(i % 2 == 0 ? first : second));
-        feeder->feed(Clock::now());
+        streamer->feed(Clock::now());
         EXPECT_FALSE(old.expired());
     }
     ASSERT_TRUE(exchange->windows.take());
-    EXPECT_FALSE(old.expired()) << "freed by the feeder, not by the servo";
+    EXPECT_FALSE(old.expired()) << "freed by the streamer, not by the servo";
     for (int i = 0; i < 3; ++i) {
         exchange->motion.write(handAt(i % 2 == 0 ? first : second));
-        feeder->feed(Clock::now());
+        streamer->feed(Clock::now());
     }
     EXPECT_TRUE(old.expired());
-    feeder.reset();
+    streamer.reset();
     EXPECT_NE(exchange->windows.front(), nullptr) << "the servo's window stays alive";
 }
 
@@ -243,12 +243,12 @@ TEST(ClipmapStreamer, AServoAtWorkNeverWaitsAndNeverReadsWhatIsGone)
     Random random;
     const TiledMap map = roughMap();
     const TileCache cache({.bytes_max = std::size_t{512} << 10, .loader_threads = 2});
-    const auto feeder =
+    const auto streamer =
         ClipmapStreamer::create(TiledRaster(cache, map.source), map.heights).value();
-    feeder->start();
+    streamer->start();
     std::atomic<bool> is_done{false};
     std::thread servo_thread([&] {
-        ServoTerrain servo(feeder->exchange(), feeder->heights());
+        ServoTerrain servo(streamer->exchange(), streamer->heights());
         GridPoint at{500.0, 200.0};
         GridPoint velocity{3.0, 2.0};
         for (int tick = 0; tick < 30'000; ++tick) {
@@ -271,7 +271,7 @@ TEST(ClipmapStreamer, AServoAtWorkNeverWaitsAndNeverReadsWhatIsGone)
     });
     servo_thread.join();
     EXPECT_TRUE(is_done);
-    feeder->stop();
+    streamer->stop();
 }
 
 } // namespace

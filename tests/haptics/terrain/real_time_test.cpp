@@ -128,7 +128,7 @@ TEST_P(ContactModelRealTime, AllocatesAndFreesNothingOverTilesThatArrive)
         }));
     const SceneFrame frame = test::unitFrame(*map.filled);
     const HeightfieldSurface truth(map.filled, frame, 1.0);
-    // All windows are built in advance, as a feeder does.
+    // All windows are built in advance, as a streamer does.
     std::vector<std::unique_ptr<Clipmap>> windows;
     windows.push_back(std::make_unique<Clipmap>(map.window({450.0, 350.0})));
     for (const TileId& id : test::tilesOf(*windows.front())) {

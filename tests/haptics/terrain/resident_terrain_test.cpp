@@ -44,7 +44,7 @@ const TiledMap& roughMap()
     return kMap;
 }
 
-/// Simulates a feeder: windows that grow tile by tile, each a modified copy of the previous one.
+/// Simulates a streamer: windows that grow tile by tile, each a modified copy of the previous one.
 class Arrivals {
 public:
     Arrivals(const TiledMap& map, GridPoint center)

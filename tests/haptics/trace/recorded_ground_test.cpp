@@ -36,10 +36,11 @@ TEST(RecordedGround, IsTheGroundThatWasFeltToTheBitWhateverCameWhen)
     const TiledMap map = mapWithVoids();
     const TileCache cold({.bytes_max = std::size_t{1} << 20, .loader_threads = 1});
     const TileCache other({.bytes_max = std::size_t{64} << 20, .loader_threads = 1});
-    const auto feeder = ClipmapStreamer::create(TiledRaster(cold, map.source), map.heights).value();
-    const auto terrain = std::make_shared<ServoTerrain>(feeder->exchange(), feeder->heights());
+    const auto streamer =
+        ClipmapStreamer::create(TiledRaster(cold, map.source), map.heights).value();
+    const auto terrain = std::make_shared<ServoTerrain>(streamer->exchange(), streamer->heights());
     const auto servo_map = makeServoMap(meterFrame(kColumns, kRows), terrain, {});
-    feeder->start();
+    streamer->start();
     const auto again = RecordedGround::make(TiledRaster(other, map.source), map.heights).value();
 
     Random random;
@@ -85,7 +86,7 @@ TEST(RecordedGround, IsTheGroundThatWasFeltToTheBitWhateverCameWhen)
         }
         coarse += terrain->resident().misses().count > 0 ? 1U : 0U;
     }
-    feeder->stop();
+    streamer->stop();
 }
 
 TEST(RecordedGround, RefusesTilesThatTheMapDoesNotHave)

@@ -393,8 +393,8 @@ std::vector<RecordedUpdate> updatesAgain(const GoalRecording& recording,
                 for (const GroundRecord& record : next_ground->records) {
                     EXPECT_TRUE(ground->follow(record));
                     const auto* felt = std::get_if<GroundFelt>(&record);
-                    if (felt != nullptr && models.contains(felt->told_part)) {
-                        models[felt->told_part]->terrainChanged();
+                    if (felt != nullptr && models.contains(felt->changed_part)) {
+                        models[felt->changed_part]->terrainChanged();
                     }
                 }
             }
@@ -421,10 +421,11 @@ TEST(SessionRecorder, ARecordingOverTilesThatComeWhileItIsMadeKnowsWhatWasFelt)
     for (const ContactModelKind kind : kContactModelKinds) {
         SCOPED_TRACE(contactModelName(kind));
         const TileCache cold({.bytes_max = std::size_t{1} << 20, .loader_threads = 1});
-        const auto feeder =
+        const auto streamer =
             ClipmapStreamer::create(TiledRaster(cold, map.source), map.heights).value();
-        const auto terrain = std::make_shared<ServoTerrain>(feeder->exchange(), feeder->heights());
-        feeder->start();
+        const auto terrain =
+            std::make_shared<ServoTerrain>(streamer->exchange(), streamer->heights());
+        streamer->start();
         ServoLoop loop(std::make_unique<BuriedDevice>(), quick(0));
         auto recorder = SessionRecorder::begin(loop, path);
         ASSERT_TRUE(recorder);

@@ -152,7 +152,7 @@ TEST_F(RecordingTest, StartsWithoutAnEffectOnTheForce)
         ASSERT_TRUE(haptics().recorder().start(file));
         ASSERT_TRUE(waitFor([&] { return state().tick > before.tick + 200; }));
         haptics().recorder().stop();
-        is_disturbed = state().counts.let_go != before.counts.let_go;
+        is_disturbed = state().counts.force_off != before.counts.force_off;
         if (!is_disturbed && before.reason == ForceOffReason::None) {
             EXPECT_NEAR(hand_->force_n_min, force_n, 0.05 * force_n);
         }

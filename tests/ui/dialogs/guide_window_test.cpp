@@ -1,5 +1,6 @@
 #include "ui/dialogs/guide_window.h"
 
+#include <QDir>
 #include <QFile>
 #include <QFileInfo>
 #include <QLineEdit>
@@ -22,6 +23,17 @@ TEST(GuideWindowTest, ShowsThePagesInTheOrderOfTheContents)
     for (const GuidePage& page : pages) {
         EXPECT_FALSE(page.title.isEmpty()) << page.file.toStdString();
     }
+}
+
+TEST(GuideWindowTest, TheContentsListEveryPage)
+{
+    QStringList files{QStringLiteral("README.md")};
+    for (const GuidePage& page : guidePagesIn(guideFolder())) {
+        files.append(page.file);
+    }
+    files.sort();
+    EXPECT_EQ(files,
+              QDir(guideFolder()).entryList({QStringLiteral("*.md")}, QDir::Files, QDir::Name));
 }
 
 TEST(GuideWindowTest, EveryLinkOfTheGuideLeadsToAPage)

@@ -105,7 +105,7 @@ TEST_F(HapticsPanelTest, ShowsForceAndTimesWhileConnected)
     EXPECT_FALSE(list().item(0)->font().bold());
     auto& force = part<QProgressBar>("force");
     EXPECT_TRUE(waitFor([&] { return force.value() > 10; }));
-    EXPECT_EQ(text("letGoReason"), QStringLiteral("Touching the terrain"));
+    EXPECT_EQ(text("forceOffReason"), QStringLiteral("Touching the terrain"));
     // The meter over the map says the same.
     auto* meter = window_->findChild<ForceMeter*>();
     EXPECT_TRUE(waitFor([&] {
@@ -137,7 +137,8 @@ TEST_F(HapticsPanelTest, TheStopButtonStopsAndLetsReturn)
     EXPECT_TRUE(haptics().isStopped());
     EXPECT_NE(stop.text(), before);
     ASSERT_TRUE(waitFor([&] { return hand_->force_n == 0.0; }));
-    EXPECT_TRUE(waitFor([&] { return text("letGoReason").contains(QStringLiteral("emergency")); }));
+    EXPECT_TRUE(
+        waitFor([&] { return text("forceOffReason").contains(QStringLiteral("emergency")); }));
     stop.click();
     EXPECT_FALSE(haptics().isStopped());
     EXPECT_TRUE(waitFor([&] { return hand_->force_n > 0.5; }));
@@ -156,7 +157,7 @@ TEST_F(HapticsPanelTest, ShowsAReplaysProgressAndStopsIt)
     EXPECT_TRUE(progress.isVisibleTo(&panel()));
     EXPECT_TRUE(waitFor([&] { return progress.value() > 0; }));
     EXPECT_TRUE(waitFor([&] { return state().contact.is_in_contact; }));
-    EXPECT_TRUE(waitFor([&] { return text("letGoReason") == QStringLiteral("Replaying"); }));
+    EXPECT_TRUE(waitFor([&] { return text("forceOffReason") == QStringLiteral("Replaying"); }));
     // A list of goals has no forces.
     EXPECT_EQ(part<QProgressBar>("force").format(), QStringLiteral("No force recorded"));
     EXPECT_EQ(window_->findChild<ForceMeter*>()->sizeHint(), QSize(0, 0)) << "not in use";
@@ -166,9 +167,9 @@ TEST_F(HapticsPanelTest, ShowsAReplaysProgressAndStopsIt)
     EXPECT_TRUE(stop.isEnabled());
     stop.click();
     EXPECT_TRUE(haptics().isStopped());
-    EXPECT_TRUE(waitFor([&] { return text("letGoReason").contains(QStringLiteral("emergency")); }));
+    EXPECT_TRUE(waitFor([&] { return text("forceOffReason").contains(QStringLiteral("emergency")); }));
     stop.click();
-    EXPECT_TRUE(waitFor([&] { return text("letGoReason") == QStringLiteral("Replaying"); }));
+    EXPECT_TRUE(waitFor([&] { return text("forceOffReason") == QStringLiteral("Replaying"); }));
     replay.click();
     EXPECT_EQ(device().connection(), HapticsConnection::None);
     EXPECT_TRUE(progress.isHidden());
@@ -182,7 +183,7 @@ TEST_F(HapticsPanelTest, SaysThatAReplayHasEndedAndOffersItAgain)
     ASSERT_TRUE(connectByKeys(0));
     QStringList states;
     QObject::connect(&device(), &DeviceSession::polled, &panel(),
-                     [&] { states.append(text("letGoReason")); });
+                     [&] { states.append(text("forceOffReason")); });
     device().connectTo(QStringLiteral("replay:") + file);
     // The device comes back by itself, and what has ended is said until it is closed.
     ASSERT_TRUE(waitFor([&] { return !device().replayedToItsEnd().isEmpty(); }));

@@ -36,7 +36,7 @@ HapticsController::HapticsController(TerrainView& view, DriverMaker make_drivers
 {
     connect(device_, &DeviceSession::opened, this, &HapticsController::begin);
     connect(device_, &DeviceSession::ending, this, &HapticsController::end);
-    connect(device_, &DeviceSession::ended, this, &HapticsController::letGo);
+    connect(device_, &DeviceSession::ended, this, &HapticsController::releaseMap);
     connect(device_, &DeviceSession::forgotten, this, &HapticsController::forget);
     connect(device_, &DeviceSession::polled, this, &HapticsController::follow);
     connect(&view_, &TerrainView::layersChanged, this, &HapticsController::takeGround);
@@ -68,7 +68,7 @@ HapticsController::~HapticsController()
     excursion_.reset();
     end();
     device_->close();
-    letGo();
+    releaseMap();
 }
 
 bool HapticsController::eventFilter(QObject* watched, QEvent* event)
@@ -99,7 +99,7 @@ void HapticsController::end()
     recorder_->stop();
 }
 
-void HapticsController::letGo()
+void HapticsController::releaseMap()
 {
     hand_map_.reset();
     view_.showDevice(std::nullopt);
@@ -145,7 +145,7 @@ void HapticsController::setContactModel(ContactModelKind kind)
         model_ = kind;
         makeMapAgain();
         push();
-        tellReplay();
+        reportReplay();
     }
 }
 
@@ -195,7 +195,7 @@ void HapticsController::checkReplay()
     if (!device_->isReplaying()) {
         return;
     }
-    tellReplay();
+    reportReplay();
     std::vector<std::shared_ptr<const Georeference>> maps;
     for (const SceneMap& map : view_.ground().maps()) {
         maps.emplace_back(map.map, &map.map->georeference());
@@ -213,14 +213,14 @@ void HapticsController::checkReplay()
         to->post([this, check, fit = std::move(fit).value()] {
             if (check == replay_check_ && device_->isReplaying()) {
                 replay_fit_ = fit;
-                tellReplay();
+                reportReplay();
             }
         });
     });
 }
 
 // Again whenever the map is touched in another way.
-void HapticsController::tellReplay()
+void HapticsController::reportReplay()
 {
     if (!device_->isReplaying()) {
         return;
@@ -262,7 +262,7 @@ void HapticsController::takeExaggeration()
         makeMapAgain(); // pushed together with the frame: no update sees one without the other
         takeSight();
         push();
-        tellReplay();
+        reportReplay();
     }
 }
 

@@ -65,7 +65,7 @@ protected:
 private:
     void begin();
     void end();
-    void letGo();
+    void releaseMap();
     void forget();
     void follow(const LoopState& state);
 
@@ -73,7 +73,7 @@ private:
     void takeExaggeration();
     void chooseMap(const LoopState& state);
     void checkReplay();
-    void tellReplay();
+    void reportReplay();
     void setMap(std::size_t index);
     void makeMapAgain();
     void followSight();
