@@ -60,7 +60,7 @@ void Stylus::aim(const GroundPoint& at, const StylusButtons& buttons, double poi
         return;
     }
     if (at.index != at_.index) {
-        letGo();
+        releaseModel();
         touch_.reset();
     }
     at_ = at;
@@ -71,18 +71,18 @@ void Stylus::aim(const GroundPoint& at, const StylusButtons& buttons, double poi
         press(goal);
     } else {
         // A hovering mouse stylus has no height of its own, so ridges cannot obstruct it.
-        letGo();
+        releaseModel();
     }
     updatePose(mode, goal);
 }
 
 void Stylus::lift()
 {
-    letGo();
+    releaseModel();
     pose_.reset();
 }
 
-void Stylus::letGo()
+void Stylus::releaseModel()
 {
     model_.reset();
     if (touch_) {

@@ -47,7 +47,7 @@ public:
 
 private:
     std::shared_ptr<MapContactModel> makeModel();
-    void letGo();
+    void releaseModel();
     ScenePoint aimedGround() const;
     void press(const ScenePoint& goal);
     void keepOnItsMap(const ScenePoint& goal);

@@ -1,7 +1,7 @@
 #include "ui/text/haptics_text.h"
 
-#include "core/geo/body.h"
 #include "core/base/round_numbers.h"
+#include "core/geo/body.h"
 #include "haptics/trace/replay_check.h"
 #include "ui/text/body_text.h"
 #include "ui/text/contact_model_text.h"

@@ -167,7 +167,8 @@ TEST_F(HapticsPanelTest, ShowsAReplaysProgressAndStopsIt)
     EXPECT_TRUE(stop.isEnabled());
     stop.click();
     EXPECT_TRUE(haptics().isStopped());
-    EXPECT_TRUE(waitFor([&] { return text("forceOffReason").contains(QStringLiteral("emergency")); }));
+    EXPECT_TRUE(
+        waitFor([&] { return text("forceOffReason").contains(QStringLiteral("emergency")); }));
     stop.click();
     EXPECT_TRUE(waitFor([&] { return text("forceOffReason") == QStringLiteral("Replaying"); }));
     replay.click();
