@@ -1,5 +1,6 @@
 // marsview-cli loop: runs the real servo thread on a device and reports its timing.
 
+#include "app/bench/followed_body_view.h"
 #include "app/bench/followed_view.h"
 #include "app/cli/commands.h"
 #include "app/cli/loop_map.h"
@@ -30,6 +31,7 @@
 #include <cstdio>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -131,6 +133,22 @@ FollowedMap followedMap(const LoopMap& map, double exaggeration)
             }};
 }
 
+// The same of a map on its body.
+BodyLimits bodyLimitsOf(const LoopMap& map, double exaggeration)
+{
+    const HeightRange range = map.opened->heightfield().range().value_or(HeightRange{});
+    return bodyLimits(*map.grid, range.minimum_m * exaggeration, range.maximum_m * exaggeration);
+}
+
+BodyGround bodyGround(const LoopMap& map, double exaggeration)
+{
+    return [opened = map.opened, exaggeration](const GeographicPoint& place) {
+        const auto grid = opened->georeference().toGrid(place);
+        return grid ? exaggeration * opened->heightfield().heightNow(*grid)
+                    : std::numeric_limits<double>::quiet_NaN();
+    };
+}
+
 // "replay:file:///a.csv" and "record:file:///a.csv,DEVICE" with the paths of their files.
 Result<std::string> withLocalPath(const std::string& uri)
 {
@@ -179,7 +197,8 @@ CLI::Validator knownDevice()
 Result<std::unique_ptr<HapticDevice>>
 openDevice(DeviceRegistry& registry, const LoopOptions& options, const LoopMap& map)
 {
-    const std::string& uri = options.device;
+    const std::string uri =
+        map.mesh && isReplay(options.device) ? replayOnBody(options.device) : options.device;
     const bool is_swipe = uri.starts_with("sim:") && uri.find("swipe=") != std::string::npos &&
                           uri.find("cell_m=") == std::string::npos;
     if (!is_swipe) {
@@ -211,11 +230,6 @@ LoopWatch::Clock::time_point watchedUntil(double seconds)
 
 Status runLoop(const LoopOptions& options)
 {
-    if (options.loop.scene == SceneKind::Body && isReplay(options.device)) {
-        return Error{ErrorCode::Invalid,
-                     "--device: recordings are replayed on the flat map only; leave out --scene "
-                     "body, or repeat a recording on the body with trace --scene body"};
-    }
     FilesInUse files{
         .maps = {options.map.path},
         .read = {},
@@ -273,25 +287,31 @@ Status runLoop(const LoopOptions& options)
         settings.map = map->map;
         settings.stiffness_n_per_m = options.stiffness_n_per_m;
         const WorkspaceBox reach = reachWithin(loop.device().workspace);
-        std::optional<FollowedView> view; // in the plane
-        if (map->mesh) {
-            settings.frame = frameFor(options, *map, loop.device());
-            settings.frame_number = 1;
-            boundBodyZoom(map->mesh->positions().ellipsoid(), map->cell_m, reach, settings.modes);
+        const WorkspaceFrame frame = frameFor(options, *map, loop.device());
+        std::optional<FollowedView> view; // in the plane, or else:
+        std::optional<FollowedBodyView> body_view;
+        if (map->grid) {
+            body_view.emplace(reach, bodyLimitsOf(*map, options.loop.exaggeration),
+                              bodyGround(*map, options.loop.exaggeration));
+            body_view->beginAt(frame, settings);
         } else {
             view.emplace(reach);
             view->setMap(followedMap(*map, options.loop.exaggeration));
-            view->beginAt(frameFor(options, *map, loop.device()), settings);
+            view->beginAt(frame, settings);
         }
         loop.set(settings);
+        const auto follow = [&](const LoopState& state) {
+            return view ? view->follow(state.seen_frame, state.frame_number, state.mode, settings)
+                        : body_view->follow(state.seen_frame, state.frame_number, state.mode,
+                                            settings);
+        };
         constexpr std::chrono::milliseconds kLook{16};
         const LoopWatch::Clock::time_point give_up = watchedUntil(options.seconds);
         while (!loop.hasEnded() && !end.isAskedFor() && !watch.isSilent() &&
                LoopWatch::Clock::now() < give_up) {
             std::this_thread::sleep_for(kLook);
             const LoopState state = loop.state();
-            if (view && !isReplay(options.device) &&
-                view->follow(state.seen_frame, state.frame_number, state.mode, settings)) {
+            if (!isReplay(options.device) && follow(state)) {
                 loop.set(settings);
             }
             watch.look(loop, LoopWatch::Clock::now());

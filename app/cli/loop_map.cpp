@@ -26,7 +26,12 @@ Status putOnBody(const MapOptions& map,
     if (!mesh) {
         return Error{mesh.error().code, fmt::format("{}: {}", map.path, mesh.error().message)};
     }
+    auto grid = BodyGrid::make(georeference, monitor);
+    if (!grid) {
+        return Error{grid.error().code, fmt::format("{}: {}", map.path, grid.error().message)};
+    }
     result.mesh = std::move(mesh).value();
+    result.grid = std::move(grid).value();
     result.cell_m = 0.5 * (georeference.pixelWidthMeters() + georeference.pixelHeightMeters());
     result.map =
         makeServoMap({result.opened, &georeference}, result.mesh,

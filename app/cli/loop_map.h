@@ -3,6 +3,7 @@
 
 #include "app/console/map_options.h"
 #include "app/console/scene_option.h"
+#include "core/body/body_grid.h"
 #include "core/body/body_mesh.h"
 #include "core/contact/contact_model.h"
 #include "core/session/map.h"
@@ -25,7 +26,8 @@ struct LoopMapOptions {
 struct LoopMap {
     std::shared_ptr<const Map> opened;
     std::unique_ptr<TouchMap> touch;      // null on the body
-    std::shared_ptr<const BodyMesh> mesh; // on the body
+    std::shared_ptr<const BodyMesh> mesh; // these two: on the body
+    std::shared_ptr<const BodyGrid> grid;
     std::shared_ptr<ServoMap> map;
     SceneBox box;        // of the whole map, in the plane
     double cell_m = 1.0; // scene meters, the mean of both sides

@@ -36,7 +36,8 @@ Result<std::string> replayNotice(const std::string& uri, const LoopMap& map)
     }
     const std::string file = replayedFile(uri);
     const std::shared_ptr<const Georeference> georeference(map.opened, &map.opened->georeference());
-    const Result<ReplayFit> fit = replayFit(file, {&georeference, 1});
+    const Result<ReplayFit> fit =
+        replayFit(file, {&georeference, 1}, map.mesh ? GoalColumns::Geographic : GoalColumns::Map);
     if (!fit) {
         return fit.error();
     }

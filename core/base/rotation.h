@@ -3,6 +3,7 @@
 
 #include "core/base/vec.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -58,6 +59,30 @@ struct Rotation {
         const Vec3 across = std::abs(from.x) < 0.5 ? cross(from, Vec3{1.0, 0.0, 0.0})
                                                    : cross(from, Vec3{0.0, 1.0, 0.0});
         return by(normalized(across) * std::numbers::pi);
+    }
+    /// The axis, as long as the angle in radians: by() gives this rotation again. Half a turn at
+    /// most, whose axis is one of two.
+    Vec3 turn() const noexcept
+    {
+        const Vec3 twice_sine{y.z - z.y, z.x - x.z, x.y - y.x};
+        const double sine = 0.5 * length(twice_sine);
+        const double cosine = 0.5 * (x.x + y.y + z.z - 1.0);
+        const double angle = std::atan2(sine, cosine);
+        constexpr double kSmall = 1e-8;
+        if (sine > kSmall) {
+            return twice_sine * (0.5 * angle / sine);
+        }
+        if (cosine > 0.0) {
+            return twice_sine * 0.5;
+        }
+        // Half a turn: its axis is halfway between a vector and what that becomes.
+        const Vec3 a = x + Vec3{1.0, 0.0, 0.0};
+        const Vec3 b = y + Vec3{0.0, 1.0, 0.0};
+        const Vec3 c = z + Vec3{0.0, 0.0, 1.0};
+        const Vec3 axis = dot(a, a) >= std::max(dot(b, b), dot(c, c)) ? a
+                          : dot(b, b) >= dot(c, c)                    ? b
+                                                                      : c;
+        return normalized(axis) * angle;
     }
     /// Without the rounding errors that products collect.
     Rotation orthonormal() const noexcept

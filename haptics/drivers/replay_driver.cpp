@@ -13,9 +13,26 @@ namespace {
 constexpr std::string_view kScheme = "replay:";
 constexpr std::string_view kLoop = "#loop";
 
-std::string_view withoutLoop(std::string_view address)
+constexpr std::string_view kBody = "#body";
+
+struct ReplayAddress {
+    std::string_view path;
+    GoalColumns columns = GoalColumns::Map;
+    ReplayEnd end = ReplayEnd::Finish;
+};
+
+ReplayAddress parsed(std::string_view address)
 {
-    return address.ends_with(kLoop) ? address.substr(0, address.size() - kLoop.size()) : address;
+    ReplayAddress result{.path = address};
+    if (result.path.ends_with(kLoop)) {
+        result.path.remove_suffix(kLoop.size());
+        result.end = ReplayEnd::BeginAnew;
+    }
+    if (result.path.ends_with(kBody)) {
+        result.path.remove_suffix(kBody.size());
+        result.columns = GoalColumns::Geographic;
+    }
+    return result;
 }
 
 bool isSomewhere(const TracePoint& goal)
@@ -36,7 +53,7 @@ public:
     std::vector<FoundDevice> find() override { return {}; }
     Status checkAddress(std::string_view address) const override
     {
-        const std::string_view path = withoutLoop(address);
+        const std::string_view path = parsed(address).path;
         if (path.empty() || path == "-") {
             return Error{ErrorCode::Invalid, fmt::format("replay:{}: needs a file of goals, as in "
                                                          "replay:goals.csv",
@@ -49,13 +66,14 @@ public:
         if (const Status checked = checkAddress(address); !checked) {
             return checked.error();
         }
-        const bool is_loop = address.ends_with(kLoop);
-        const std::string path(withoutLoop(address));
+        const ReplayAddress replay = parsed(address);
+        const std::string path(replay.path);
         const Result<std::string> text = readGoalText(path);
         if (!text) {
             return Error{text.error().code, "replay:" + text.error().message};
         }
-        Result<GoalRecording> recording = readGoalRecording(*text, "replay:" + path);
+        Result<GoalRecording> recording =
+            readGoalRecording(*text, "replay:" + path, replay.columns);
         if (!recording) {
             return std::move(recording).error();
         }
@@ -72,8 +90,8 @@ public:
             return Error{ErrorCode::Invalid,
                          fmt::format("replay:{}: has no goals after its header", path)};
         }
-        return std::unique_ptr<HapticDevice>(new ReplayDevice(
-            std::move(recording).value(), is_loop ? ReplayEnd::BeginAnew : ReplayEnd::Finish));
+        return std::unique_ptr<HapticDevice>(
+            new ReplayDevice(std::move(recording).value(), replay.end));
     }
 };
 
@@ -150,7 +168,14 @@ bool isReplay(std::string_view uri) noexcept
 
 std::string replayedFile(std::string_view uri)
 {
-    return std::string(withoutLoop(isReplay(uri) ? uri.substr(kScheme.size()) : uri));
+    return std::string(parsed(isReplay(uri) ? uri.substr(kScheme.size()) : uri).path);
+}
+
+std::string replayOnBody(std::string_view uri)
+{
+    const ReplayAddress replay = parsed(uri);
+    return fmt::format("{}{}{}", replay.path, kBody,
+                       replay.end == ReplayEnd::BeginAnew ? kLoop : std::string_view());
 }
 
 std::unique_ptr<DeviceDriver> makeReplayDriver()

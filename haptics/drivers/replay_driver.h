@@ -39,10 +39,13 @@ private:
 
 /// Whether a URI names a recording.
 bool isReplay(std::string_view uri) noexcept;
-/// The file of "replay:FILE" or "replay:FILE#loop".
+/// The file of "replay:FILE", also with "#body" and "#loop".
 std::string replayedFile(std::string_view uri);
+/// The same recording for a map on its body.
+std::string replayOnBody(std::string_view uri);
 
-/// Scheme "replay". The address is the file; append "#loop" to restart at its end.
+/// Scheme "replay". The address is the file; append "#body" if its goals are those of the body
+/// scene (GoalColumns::Geographic), and "#loop" to restart at its end.
 std::unique_ptr<DeviceDriver> makeReplayDriver();
 
 } // namespace marsview

@@ -1,6 +1,6 @@
 #include "haptics/interaction/body_frame.h"
 
-#include "core/contact/body_surface.h"
+#include "core/contact/body_below.h"
 #include "core/globe/body_camera.h"
 
 #include <algorithm>
@@ -11,16 +11,6 @@
 
 namespace marsview {
 namespace {
-
-// Right, away and up at a site, in the body-fixed frame.
-Rotation axesAt(const Ellipsoid& body, const BodySite& site)
-{
-    const LocalAxes local = localAxes(body, site.place);
-    const double sine = std::sin(site.heading.radians());
-    const double cosine = std::cos(site.heading.radians());
-    return {local.east * cosine - local.north * sine, local.north * cosine + local.east * sine,
-            local.up};
-}
 
 WorkspaceFrame onBody(const WorkspaceFrame& over_site, const Vec3& foot, const Rotation& axes)
 {
@@ -61,6 +51,15 @@ SceneBox boundsOf(const BodyMesh& mesh, const Vec3& foot, const Rotation& axes)
 
 } // namespace
 
+Rotation axesAt(const Ellipsoid& body, const BodySite& site)
+{
+    const LocalAxes local = localAxes(body, site.place);
+    const double sine = std::sin(site.heading.radians());
+    const double cosine = std::cos(site.heading.radians());
+    return {local.east * cosine - local.north * sine, local.north * cosine + local.east * sine,
+            local.up};
+}
+
 WorkspaceFrame frameOverSite(const Ellipsoid& body,
                              const BodySite& site,
                              const SceneBox& box,
@@ -83,24 +82,10 @@ WorkspaceFrame frameForBodyMap(const std::shared_ptr<const BodyMesh>& mesh,
     const Rotation axes = axesAt(body, site);
     WorkspaceFrame over_site = frameForMap(boundsOf(*mesh, foot, axes), reach);
     if (width_m) {
-        const double clearance_m = clearanceOver(BodySurface(mesh), foot);
-        over_site.place = {0.0, 0.0, std::isfinite(clearance_m) ? -clearance_m : 0.0};
+        over_site.place = {0.0, 0.0, -belowOn(BodySurface(mesh), foot).clearance_m};
         over_site.scene_per_meter = *width_m / (reach.high.x - reach.low.x);
     }
     return onBody(over_site, foot, axes);
-}
-
-void boundBodyZoom(const Ellipsoid& body,
-                   double cell_m,
-                   const WorkspaceBox& reach,
-                   ModeOptions& modes) noexcept
-{
-    constexpr double kCellsMin = 2.0;
-    constexpr double kRadiiMax = 4.0;
-    const double width_m = std::max(reach.high.x - reach.low.x, 1e-3);
-    modes.scene_per_meter_min = kCellsMin * cell_m / width_m;
-    modes.scene_per_meter_max =
-        std::max(kRadiiMax * body.equatorial_m / width_m, modes.scene_per_meter_min);
 }
 
 } // namespace marsview

@@ -4,7 +4,6 @@
 #include "core/base/angle.h"
 #include "core/body/body_mesh.h"
 #include "core/geo/georeference.h"
-#include "haptics/interaction/hand_modes.h"
 #include "haptics/interaction/workspace_frame.h"
 
 #include <memory>
@@ -17,6 +16,9 @@ struct BodySite {
     GeographicPoint place{}; // of the foot point on the ellipsoid
     Angle heading{};         // clockwise from north
 };
+
+/// Right, away and up at a site, in the body-fixed frame.
+Rotation axesAt(const Ellipsoid& body, const BodySite& site);
 
 /// The frame in which `reach` covers a box over a site, with the local vertical up. `box` is in
 /// meters to the right, away from the user and up from the foot point.
@@ -32,11 +34,5 @@ WorkspaceFrame frameForBodyMap(const std::shared_ptr<const BodyMesh>& mesh,
                                const Georeference& georeference,
                                const WorkspaceBox& reach,
                                std::optional<double> width_m = std::nullopt);
-
-/// Limits the zoom of `modes` between a few cells and the whole body across `reach`.
-void boundBodyZoom(const Ellipsoid& body,
-                   double cell_m,
-                   const WorkspaceBox& reach,
-                   ModeOptions& modes) noexcept;
 
 } // namespace marsview

@@ -85,7 +85,6 @@ ModeStep stepBodyModes(const ModeOptions& options,
     leveled.hand = {hand.x, hand.y, vertical.height_m / frame.scene_per_meter};
     leveled.hand_shift = level * input.hand_shift;
     leveled.surface_force_n = level * input.surface_force_n;
-    leveled.clearance_m = std::isfinite(input.clearance_m) ? input.clearance_m : 0.0;
     leveled.frame = {.anchor = leveled.hand, .place = {}, .scene_per_meter = frame.scene_per_meter};
     const bool will_hold = isHolding(
         nextMode(state.mode, {.is_pressing = input.is_in_contact, .is_grabbing = input.is_grabbing},

@@ -20,7 +20,7 @@ struct BodyModeState {
 /// held. Since an ellipsoid is not a sphere, the body is also leveled: neither the local vertical
 /// at the hand nor the height there change in the workspace. Zoom: about a point on the vertical
 /// through the hand, with twist about that vertical. A released body keeps its axis. `input.frame`
-/// has body_axes; `input.clearance_m`, along the vertical, may be NaN: zoom is then about the hand.
+/// has body_axes; `input.clearance_m` is along the vertical.
 /// Servo thread.
 ModeStep stepBodyModes(const ModeOptions& options,
                        const ModeInput& input,

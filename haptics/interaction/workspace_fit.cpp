@@ -28,18 +28,33 @@ WorkspaceFrame fitted(const FitOptions& options,
     constexpr double kNearOctaves = 1e-4;
     const double octaves = std::log2(goal.scene_per_meter / frame.scene_per_meter);
     const double hurry_per_s = std::clamp(pace.haste, 0.0, 1.0) / options.settle_s;
+    const Vec3 turn = goal.body_axes && frame.body_axes
+                          ? (*goal.body_axes * frame.body_axes->inverse()).turn()
+                          : Vec3{};
+    const double turn_rad = length(turn);
+    constexpr double kNearRad = 1e-5;
     const double octaves_max =
         std::max(options.octaves_per_s, std::abs(octaves) * hurry_per_s) * pace.share * dt_s;
     const double step = std::clamp(octaves, -octaves_max, octaves_max);
     const Vec3 way = goal.toWorkspace(frame.toScene(hand)) - hand;
     const double way_m = length(way);
-    if (std::abs(octaves) < kNearOctaves && way_m < kNearM) {
+    if (std::abs(octaves) < kNearOctaves && way_m < kNearM && turn_rad < kNearRad) {
         return frame;
     }
     const double speed = std::max(options.speed_m_per_s, way_m * hurry_per_s);
     const double shift_m = std::min(way_m, speed * pace.share * dt_s);
-    const WorkspaceFrame next =
+    WorkspaceFrame next =
         frame.zoomed(hand, std::exp2(-step)).panned(way_m > 0.0 ? way * (shift_m / way_m) : Vec3{});
+    if (turn_rad > 0.0) {
+        const double turn_max =
+            std::max(options.turn_rad_per_s, turn_rad * hurry_per_s) * pace.share * dt_s;
+        next = {.anchor = hand,
+                .place = next.toScene(hand),
+                .scene_per_meter = next.scene_per_meter,
+                .body_axes =
+                    (Rotation::by(turn * std::min(1.0, turn_max / turn_rad)) * *next.body_axes)
+                        .orthonormal()};
+    }
     return next.isSound() ? next : frame;
 }
 

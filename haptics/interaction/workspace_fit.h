@@ -16,6 +16,7 @@ struct WorkspaceFit {
 struct FitOptions {
     double speed_m_per_s = 0.015; // of the surface in the workspace, near it
     double octaves_per_s = 0.3;   // of the scale
+    double turn_rad_per_s = 0.1;  // of a body
     /// Away from the surface, what is left of the way takes no longer than this at the present
     /// speed: a workspace that is 160 mm and one octave off has settled in less than 5 s where the
     /// hand is 60 mm above the ground.

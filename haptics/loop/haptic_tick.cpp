@@ -406,6 +406,10 @@ private:
     {
         state_.frame.place = state_.frame.place + shift_m;
         state_.seen_frame.place = state_.seen_frame.place + shift_m;
+        if (isOnBody()) {
+            state_.body_modes.spin_rad_per_s = {};
+            return;
+        }
         stopMap(state_.modes.pan, -state_.frame.differenceToWorkspace(shift_m),
                 state_.modes.mode == StylusMode::Pan ? hold_share : 0.0);
     }
@@ -519,6 +523,7 @@ private:
         if (!isOverMap()) {
             return {};
         }
+        is_entering_ = is_entering_ || (state_.is_lost && input_.recorded == nullptr);
         const TracePoint aimed = input_.recorded != nullptr ? input_.recorded->goal : aim();
         if (is_other_model_ && !has_jumped_ && !is_entering_) {
             goOnAtProxy();
@@ -535,13 +540,15 @@ private:
             result_.missed_samples =
                 static_cast<std::uint32_t>(std::min<std::uint64_t>(missed, UINT32_MAX));
         }
+        constexpr double kBelowM = 1e-5;
+        state_.is_lost = isOnBody() && !state_.contact.is_in_contact && clearance() < -kBelowM;
         if (state_.contact.counters.refused != 0) {
             return {};
         }
+        const ScenePoint over = isOnBody() ? state_.goal : map_->surface->overMap(state_.goal);
         edge_m_ = state_.frame.differenceToWorkspace(-beyond_m_);
         return state_.contact.is_in_contact
-                   ? state_.frame.differenceToWorkspace(state_.contact.proxy -
-                                                        map_->surface->overMap(state_.goal))
+                   ? state_.frame.differenceToWorkspace(state_.contact.proxy - over)
                    : Vec3{};
     }
 

@@ -120,6 +120,7 @@ struct TickState {
     double exaggeration = 0.0; // of the map
     bool has_touched = false;  // since this map was set
     bool is_on_map = false;    // the hand has been over the map, whose edge is a wall from inside
+    bool is_lost = false;      // on a body, below the surface after its border let the proxy go
     ContactState contact;      // the last
     TracePoint proxy{};        // the same as in recordings
     ScenePoint goal{};

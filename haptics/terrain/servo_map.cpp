@@ -1,11 +1,12 @@
 #include "haptics/terrain/servo_map.h"
 
+#include "core/contact/body_below.h"
 #include "core/contact/body_goal_frame.h"
-#include "core/contact/body_surface.h"
 #include "core/contact/resident_heights.h"
 
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace marsview {
@@ -87,11 +88,18 @@ public:
         return frame_.fromScene(point);
     }
     bool isClamped(const TracePoint& /*goal*/) const noexcept override { return false; }
-    ScenePoint overMap(const ScenePoint& point) const noexcept override { return point; }
-    Vec3 beyondMap(const ScenePoint& /*point*/) const noexcept override { return {}; }
+    ScenePoint overMap(const ScenePoint& point) const noexcept override
+    {
+        return below(point).over;
+    }
+    Vec3 beyondMap(const ScenePoint& point) const noexcept override
+    {
+        const BodyBelow& found = below(point);
+        return found.is_beside ? point - found.over : Vec3{};
+    }
     double clearance(const ScenePoint& point) const noexcept override
     {
-        return clearanceOver(surface_, point);
+        return below(point).clearance_m;
     }
     // Between two points three radii from the center, less than a right angle apart, a straight
     // path stays more than two radii from it.
@@ -119,8 +127,20 @@ public:
     const Ellipsoid* body() const noexcept override { return &frame_.ellipsoid(); }
 
 private:
+    // A tick asks several times for the same point.
+    const BodyBelow& below(const ScenePoint& point) const noexcept
+    {
+        if (!(point == asked_)) {
+            asked_ = point;
+            below_ = belowOn(surface_, point, below_.level_m);
+        }
+        return below_;
+    }
+
     BodyGoalFrame frame_;
     BodySurface surface_;
+    mutable ScenePoint asked_{std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0};
+    mutable BodyBelow below_; // of asked_
 };
 
 template <typename Surface>

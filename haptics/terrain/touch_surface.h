@@ -32,15 +32,13 @@ public:
     /// Whether a model replaces the goal by a point on the border of the map.
     virtual bool isClamped(const TracePoint& goal) const noexcept = 0;
 
-    /// The nearest point over the map, horizontally. On a body every point counts as over the map:
-    /// outside a map that does not go around the body there is nothing to touch, and no wall.
+    /// The nearest point over the map, horizontally.
     virtual ScenePoint overMap(const ScenePoint& point) const noexcept = 0;
     /// From there to the point; zero over the map.
     virtual Vec3 beyondMap(const ScenePoint& point) const noexcept = 0;
 
     /// Of a point over the surface straight below or above it, along the local vertical, in scene
-    /// meters. On a body it is NaN where the map has no surface; in the plane the map continues
-    /// with its edge.
+    /// meters. Outside the map, over its edge.
     virtual double clearance(const ScenePoint& point) const noexcept = 0;
 
     /// Leads from a proxy, above all of the terrain, to straight above a goal.

@@ -39,19 +39,21 @@ const GoalPart* ReplayFit::otherThan(const TouchedGround& ground) const noexcept
 }
 
 Result<ReplayFit> replayFit(const std::string& file,
-                            std::span<const std::shared_ptr<const Georeference>> maps)
+                            std::span<const std::shared_ptr<const Georeference>> maps,
+                            GoalColumns columns)
 {
     const Result<std::string> text = readGoalText(file);
     if (!text) {
         return text.error();
     }
-    Result<GoalRecording> recording = readGoalRecording(*text, file);
+    Result<GoalRecording> recording = readGoalRecording(*text, file, columns);
     if (!recording) {
         return std::move(recording).error();
     }
     const auto beside = std::count_if(
-        recording->goals.begin(), recording->goals.end(), [maps](const TracePoint& goal) {
-            return std::none_of(maps.begin(), maps.end(),
+        recording->goals.begin(), recording->goals.end(), [maps, columns](const TracePoint& goal) {
+            return columns == GoalColumns::Map &&
+                   std::none_of(maps.begin(), maps.end(),
                                 [&goal](const auto& map) { return isOn(*map, goal); });
         });
     const auto other = std::find_if(

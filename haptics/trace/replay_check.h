@@ -21,7 +21,7 @@ bool isRecordedOn(const GroundPart& part, const Georeference& map) noexcept;
 /// Properties of a recording, determined before its replay.
 struct ReplayFit {
     std::size_t goal_count = 0;
-    std::size_t beside_count = 0; // goals outside all maps: the loop clamps them to an edge
+    std::size_t beside_count = 0; // in the plane, goals outside all maps: clamped to an edge
     std::vector<GoalPart> parts;  // maps and contact models; none if not stored
     bool is_cut_short = false;    // GoalRecording's
     std::optional<GroundPart> other_map{}; // first part recorded on none of the maps
@@ -35,6 +35,7 @@ struct ReplayFit {
 
 /// Reads the file, so not for the servo thread. Returns the error of reading it.
 Result<ReplayFit> replayFit(const std::string& file,
-                            std::span<const std::shared_ptr<const Georeference>> maps);
+                            std::span<const std::shared_ptr<const Georeference>> maps,
+                            GoalColumns columns = GoalColumns::Map);
 
 } // namespace marsview

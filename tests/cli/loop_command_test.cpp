@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
+#include <fmt/format.h>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -494,19 +495,28 @@ TEST(LoopCommand, OnTheBodyTraceRepeatsTheRecording)
         << "its goals are not those of the plane";
 }
 
-TEST(LoopCommand, RefusesOnTheBodyWhatNeedsThePlane)
+TEST(LoopCommand, OnTheBodyItReplaysGoalsOfTheBody)
 {
     const TempFolder folder;
-    const std::string goals = folder.write("goals.csv", "x,y,z\n1,2,3\n");
-    const ProgramOutput replay =
-        runCli({"loop", bundledMars(), "--scene", "body", "--device", "replay:" + goals});
-    EXPECT_EQ(replay.exit_status, 1);
-    EXPECT_EQ(replay.err,
-              "marsview-cli: --device: recordings are replayed on the flat map only; leave out "
-              "--scene body, or repeat a recording on the body with trace --scene body\n");
-    const ProgramOutput round =
-        runCli({"loop", bundledMars(), "--device", "null:", "--scene", "round"});
-    EXPECT_EQ(round.exit_status, 2);
+    std::string goals = "lon,lat,z\n";
+    for (int i = 0; i < 200; ++i) {
+        goals += fmt::format("{},{},-9000\n", 359.0 + 0.01 * i, 89.0 + 0.005 * i);
+    }
+    const std::string file = folder.write("goals.csv", goals);
+    const std::string recording = folder.file("again.csv");
+    looped({"--scene", "body", "--device", "replay:" + file, "--record", recording});
+    const std::string traced = folder.file("traced.csv");
+    ASSERT_EQ(runCli({"trace", "--scene", "body", bundledMars(), "--goals", file, "-o", traced})
+                  .exit_status,
+              0);
+    EXPECT_EQ(columnsOf(readFile(recording), {5, 6, 7, 8}),
+              columnsOf(readFile(traced), {3, 0, 1, 2}));
+    const ProgramOutput flat =
+        runCli({"loop", bundledMars(), "--device", "replay:" + file, "--seconds", "0.1"});
+    EXPECT_EQ(flat.exit_status, 1);
+    EXPECT_THAT(flat.err, HasSubstr("not the header \"x,y,z\""));
+    EXPECT_EQ(runCli({"loop", bundledMars(), "--device", "null:", "--scene", "round"}).exit_status,
+              2);
 }
 
 } // namespace

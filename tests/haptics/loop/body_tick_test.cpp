@@ -249,24 +249,41 @@ TEST(BodyTick, ItsGoalsGiveTheSameProxiesAgain)
     }
 }
 
-TEST(BodyTick, OutsideAMapThatDoesNotGoAroundThereIsNothing)
+// From inside, the edge of a map that does not go around the body is a wall, as in the plane.
+TEST(BodyTick, TheEdgeOfALocalMapIsAWallFromInside)
 {
     const BodyMap map{"Part", "+proj=longlat +R=1000000 +no_defs", 41,
                       41,     {-1, 0.05, 0, 1, 0, -0.05},          0.0};
-    Rig rig(groundOf(map, filledTerrain(map.columns, std::vector<float>(41 * 41, 2000.0F))),
-            degrees(0.0, 0.0));
-    rig.settings.frame.scene_per_meter = 1e6; // the map is 35 mm wide
-    rig.at({0.0, 0.0, 0.005});
+    const Ground ground =
+        groundOf(map, filledTerrain(map.columns, std::vector<float>(41 * 41, 2000.0F)));
+    constexpr double kBallM = 1.002; // 1 mm of the workspace is a kilometer
+    const double edge = Angle::degrees(1.025).radians();
+    const Vec3 border{std::sin(edge), 0.0, std::cos(edge)};
+    const WorkspacePoint beyond{0.02, 0.0, -0.003};
+    const auto begun = [&](const WorkspacePoint& at) {
+        Rig rig(ground, degrees(0.0, 0.0));
+        rig.settings.frame.scene_per_meter = 1e6;
+        rig.at(at);
+        return rig;
+    };
+    Rig rig = begun({0.0, 0.0, 0.005});
     EXPECT_NEAR(rig.to({0.0, 0.0, -0.003}).force_n.z, 1.2, 1e-3);
     rig.to({0.0, 0.0, 0.005});
-    rig.to({0.04, 0.0, 0.005});
-    const StepResult outside = rig.to({0.04, 0.0, -0.02});
-    EXPECT_EQ(outside.force_n, Vec3{});
-    EXPECT_FALSE(outside.contact.is_in_contact);
-    EXPECT_FALSE(outside.is_at_edge);
-    EXPECT_TRUE(std::isnan(outside.surface_z_m));
-    EXPECT_NEAR(length(outside.goal - rig.state.frame.toScene({0.04, 0.0, -0.02})), 0.0, 1e-6);
-    EXPECT_EQ(rig.allocations, 0U);
+    rig.to({0.02, 0.0, 0.005});
+    const StepResult held = rig.to(beyond);
+    EXPECT_TRUE(held.is_at_edge);
+    EXPECT_TRUE(held.contact.is_in_contact);
+    EXPECT_TRUE(std::isnan(held.surface_z_m));
+    const Vec3 from_center{beyond.x, 0.0, kBallM + beyond.z};
+    EXPECT_NEAR(length(held.force_n - (border * kBallM - from_center) * 400.0), 0.0, 5e-3);
+    // A hand that begins outside touches nothing until it comes over the map.
+    Rig outside = begun({0.03, 0.0, 0.005});
+    EXPECT_EQ(outside.to({0.03, 0.0, -0.003}).force_n, Vec3{});
+    EXPECT_FALSE(outside.at({0.03, 0.0, -0.003}).is_at_edge);
+    const StepResult inside = outside.to({0.0, 0.0, -0.003});
+    EXPECT_TRUE(inside.contact.is_in_contact);
+    EXPECT_NEAR(outside.to({0.0, 0.0, -0.003}).force_n.z, 1.2, 1e-3);
+    EXPECT_EQ(rig.allocations + outside.allocations, 0U);
 }
 
 TEST(BodyTick, WithoutAFrameOnTheBodyNothingIsTouched)

@@ -1,0 +1,129 @@
+#include "core/body/body_positions.h"
+#include "haptics/interaction/body_frame.h"
+#include "haptics/interaction/body_modes.h"
+#include "haptics/interaction/body_view.h"
+#include "haptics/interaction/workspace_fit.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace marsview {
+namespace {
+
+constexpr Ellipsoid kBall{1e6, 1e6};
+constexpr Ellipsoid kMars{3396190.0, 3376200.0};
+constexpr WorkspaceBox kReach{{-0.08, -0.06, -0.06}, {0.08, 0.06, 0.06}};
+constexpr Viewport kSquare{.width = 800, .height = 800};
+
+BodyCamera cameraOver(double longitude_deg, double latitude_deg, double distance_m)
+{
+    return {.target = {.longitude = Angle::degrees(longitude_deg),
+                       .latitude = Angle::degrees(latitude_deg)},
+            .distance_m = distance_m,
+            .azimuth = Angle::degrees(25.0),
+            .tilt = Angle::degrees(0.0)};
+}
+
+WorkspaceFrame frameFor(const BodyCamera& camera, const Ellipsoid& body)
+{
+    return frameForBodyView(
+        camera, kSquare, [](const GeographicPoint&) { return 0.0; }, body, kReach);
+}
+
+double angleBetween(const WorkspaceFrame& a, const WorkspaceFrame& b)
+{
+    return length((*a.body_axes * b.body_axes->inverse()).turn());
+}
+
+TEST(BodyView, TheWorkspaceCoversWhatTheViewShows)
+{
+    // Near the ground the picture is flat: twice the distance times the tangent of half the field
+    // of view. The curvature takes less than a thousandth.
+    const BodyCamera near = cameraOver(40.0, 60.0, 5e3);
+    const WorkspaceFrame frame = frameFor(near, kBall);
+    const double width_m = 2.0 * 5e3 * std::tan(Angle::degrees(20.0).radians());
+    EXPECT_NEAR(frame.scene_per_meter, width_m / 0.12, 1e-3 * width_m / 0.12);
+    const WorkspacePoint target = frame.toWorkspace(targetOf(near, kBall));
+    EXPECT_NEAR(std::hypot(target.x, target.y), 0.0, 1e-6);
+    EXPECT_NEAR(length(frame.body_axes->z - localAxes(kBall, near.target).up), 0.0, 1e-12);
+    const LocalAxes local = localAxes(kBall, near.target);
+    const double azimuth = near.azimuth.radians();
+    EXPECT_NEAR(length(frame.body_axes->y -
+                       (local.north * std::cos(azimuth) + local.east * std::sin(azimuth))),
+                0.0, 1e-12);
+    // From far away the whole ball is in the picture: to its edge where the view is tangent to it.
+    const BodyCamera far = cameraOver(40.0, 60.0, 1e7);
+    const double edge_m = 1e6 * std::sqrt(1.0 - 1.0 / (11.0 * 11.0));
+    EXPECT_NEAR(frameFor(far, kBall).scene_per_meter, 2.0 * edge_m / 0.12, 0.02 * edge_m / 0.12);
+}
+
+// On a sphere a roll and a turn about the vertical leave the camera level: the frame that follows
+// the camera is the one that the camera has followed.
+TEST(BodyView, CameraAndFrameFollowEachOther)
+{
+    const BodyCamera camera = cameraOver(-30.0, 20.0, 3e5);
+    const BodyHandView before{camera, frameFor(camera, kBall)};
+    WorkspaceFrame frame = rolled(before.frame, kBall, {0.01, 0.02, 0.0}, Vec3{0.3, -0.7, 0.0});
+    const BodyCamera followed = cameraFollowing(before, frame, kBall);
+    EXPECT_NEAR(followed.distance_m, camera.distance_m, 1e-6);
+    EXPECT_NEAR(followed.height_m, camera.height_m, 1e-5);
+    EXPECT_GT(length(targetOf(followed, kBall) - targetOf(camera, kBall)), 1e5);
+    const WorkspaceFrame again = frameFollowing(before, followed, kBall);
+    EXPECT_NEAR(angleBetween(again, frame), 0.0, 1e-9);
+    const WorkspacePoint corner{0.05, 0.05, 0.0};
+    EXPECT_NEAR(length(again.toScene(corner) - frame.toScene(corner)), 0.0, 1e-3);
+    const LimitedBodyView limited = limitedView({followed, frame}, followed, kBall);
+    EXPECT_FALSE(limited.is_moved);
+    BodyCamera higher = followed;
+    higher.height_m += 1e4;
+    EXPECT_FALSE(limitedView({followed, frame}, higher, kBall).is_moved);
+    BodyCamera beside = followed;
+    beside.target.latitude = beside.target.latitude + Angle::degrees(5.0);
+    const LimitedBodyView moved = limitedView({followed, frame}, beside, kBall);
+    EXPECT_TRUE(moved.is_moved);
+    EXPECT_NEAR(length(moved.view.frame.toWorkspace(targetOf(beside, kBall)) -
+                       frame.toWorkspace(targetOf(followed, kBall))),
+                0.0, 1e-9);
+}
+
+// Until the workspace fits the view again, level and of its size.
+TEST(BodyView, TheWorkspaceSlowlyFitsTheViewAgain)
+{
+    const BodyCamera camera = cameraOver(-30.0, 20.0, 3e5);
+    const WorkspaceFrame fitted = frameFor(camera, kMars);
+    WorkspaceFrame frame = fitted.zoomed({0.03, 0.02, 0.01}, 1.4);
+    frame.body_axes = *frame.body_axes * Rotation::by({0.1, -0.2, 0.05});
+    const WorkspaceFit fit{.seen = frame, .fitted = fitted};
+    const WorkspaceFrame seen = frame;
+    const WorkspacePoint hand{0.02, -0.01, 0.03};
+    int steps = 0;
+    for (; steps < 20'000; ++steps) {
+        const WorkspaceFrame next = marsview::fitted({}, fit, frame, seen, hand, {}, 1e-3);
+        if (next == frame) {
+            break;
+        }
+        EXPECT_LT(angleBetween(next, frame), 1.1e-4); // 0.1 rad/s
+        frame = next;
+    }
+    EXPECT_LT(steps, 20'000);
+    EXPECT_LT(angleBetween(frame, fitted), 2e-5);
+    EXPECT_NEAR(frame.scene_per_meter / fitted.scene_per_meter, 1.0, 1e-4);
+    EXPECT_LT(length(frame.toWorkspace(fitted.toScene(hand)) - hand), 3e-5);
+}
+
+TEST(BodyView, ARotationIsMadeAgainFromItsTurn)
+{
+    for (const Vec3& turn : {Vec3{}, Vec3{1e-10, 0.0, 0.0}, Vec3{0.3, -0.2, 0.7},
+                             Vec3{0.0, 3.1, 0.0}, Vec3{0.0, 0.0, std::numbers::pi}}) {
+        EXPECT_NEAR(length(Rotation::by(turn).turn() - turn), 0.0, 1e-9) << length(turn);
+    }
+    const Vec3 z{0.0, 0.0, 1.0};
+    EXPECT_NEAR(length(Rotation::carrying(z, -z) * z + z), 0.0, 1e-12);
+    EXPECT_NEAR(length(Rotation::carrying(z, {0.6, 0.0, 0.8}) * z - Vec3{0.6, 0.0, 0.8}), 0.0,
+                1e-15);
+}
+
+} // namespace
+} // namespace marsview
