@@ -26,10 +26,11 @@ void setDefaults()
         const char* name;
         const char* value;
     };
-    constexpr std::array<Option, 8> options{{
+    constexpr std::array<Option, 9> options{{
         {"GDAL_PAM_ENABLED", "YES"},
-        {"GDAL_NUM_THREADS", "ALL_CPUS"},   // compressed tiles decode in parallel
-        {"GDAL_HTTP_CONNECTTIMEOUT", "10"}, // seconds
+        {"CPL_VSIL_GZIP_WRITE_PROPERTIES", "NO"}, // no files next to those that are read
+        {"GDAL_NUM_THREADS", "ALL_CPUS"},         // compressed tiles decode in parallel
+        {"GDAL_HTTP_CONNECTTIMEOUT", "10"},       // seconds
         // Fewer bytes per second than this, for this many seconds, count as a timeout.
         {"GDAL_HTTP_LOW_SPEED_LIMIT", "100"},
         {"GDAL_HTTP_LOW_SPEED_TIME", "10"},

@@ -136,6 +136,8 @@ Result<std::vector<std::string>> rasterNamesFor(const std::string& path)
         names.insert(names.begin(), data.begin(), data.end());
     } else if (const std::string archive = archiveNameFor(path); !archive.empty()) {
         appendArchiveEntries(archive, names);
+    } else if (extension == ".gz") {
+        names.push_back("/vsigzip/" + path);
     }
     return names;
 }

@@ -128,6 +128,20 @@ TEST(Archive, CountsALabelWithItsDataOnce)
     EXPECT_EQ(file->info().elevationScale().height(7.0), 13.5);
 }
 
+TEST(Archive, OpensACompressedFile)
+{
+    const TempFolder folder;
+    const std::string path =
+        test::writeRaster(folder, "dem.tif", "GTiff", uniform<std::int16_t>(10, 20, 1));
+    test::runTool({"gzip", path});
+    const auto file = RasterFile::open(path + ".gz");
+    ASSERT_TRUE(file) << file.error().message;
+    EXPECT_EQ(file->info().path, "/vsigzip/" + path + ".gz");
+    EXPECT_EQ(file->info().rows, 20U);
+    EXPECT_THAT(file->info().notices, testing::ElementsAre("opened in place of dem.tif.gz"));
+    EXPECT_FALSE(std::filesystem::exists(path + ".gz.properties")) << "written by GDAL";
+}
+
 TEST(Archive, WithoutARasterIsRefused)
 {
     const TempFolder folder;
