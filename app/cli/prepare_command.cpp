@@ -26,6 +26,7 @@
 #include <optional>
 #include <string>
 #include <system_error>
+#include <unistd.h>
 #include <utility>
 #include <vector>
 
@@ -66,6 +67,13 @@ std::uint64_t bytesOf(const std::string& path)
     return ignored ? 0 : bytes;
 }
 
+// Whether a level file can be written next to the raster; not in an archive or on a server.
+bool isBesideWritable(const OpenRaster& raster)
+{
+    const std::filesystem::path folder = std::filesystem::path(raster.info.path).parent_path();
+    return access(folder.empty() ? "." : folder.c_str(), W_OK | X_OK) == 0;
+}
+
 Result<Work> workFor(const PrepareOptions& options, const OpenRaster& raster)
 {
     Work work;
@@ -81,7 +89,7 @@ Result<Work> workFor(const PrepareOptions& options, const OpenRaster& raster)
         options.output.empty() ||
         std::filesystem::equivalent(options.output, options.map.path, ignored);
     if (may_be_in_place) {
-        if (canBeUsedInPlace(raster)) {
+        if (canBeUsedInPlace(raster) && (!options.output.empty() || isBesideWritable(raster))) {
             work.is_in_place = true;
             return work;
         }

@@ -276,6 +276,21 @@ TEST(PrepareCommand, KeepsMapsInTheFolderOfPreparedMaps)
     EXPECT_EQ(firstBand(checksumsOf(file))["checksum"], firstBand(checksumsOf(source))["checksum"]);
 }
 
+TEST(PrepareCommand, KeepsLevelFilesThatFitNowhereElseInTheFolderOfPreparedMaps)
+{
+    const TempFolder folder;
+    const TempFolder maps;
+    const std::string path = writeRaster(folder, "tiled.tif", "GTiff",
+                                         recipeFor<std::int16_t>(3, {1, 2, 3, 4, 5, 6, 7, 8, 9}));
+    runTool({"gzip", path}); // no file can be written next to the raster in it
+    const ProgramOutput output = runCliWith({"MARSVIEW_CACHE_DIR=" + maps.path().string()},
+                                            {"prepare", path + ".gz", "--json"});
+    ASSERT_EQ(output.exit_status, 0) << output.err;
+    const nlohmann::json json = nlohmann::json::parse(output.out);
+    EXPECT_EQ(fs::path(json["level_file"].get<std::string>()).parent_path(), maps.path());
+    EXPECT_EQ(json["is_source_used"], true);
+}
+
 TEST(PrepareCommand, RemovesTheLeastRecentlyUsedMapFromAFullDisk)
 {
     const TempFolder folder;
