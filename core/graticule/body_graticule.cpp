@@ -227,7 +227,7 @@ private:
             numbers({shown(seen.latitudes.low), shown(seen.latitudes.high)}, step);
         for (double k = first; k <= last; k += 1.0) {
             if (std::abs(k * step) > 90.0 - 1e-9) {
-                continue; // a pole is no line
+                continue; // a pole is a point, not a line
             }
             const double latitude = planetocentric(k * step);
             next_m_ = step * kRadians * body_.polar_m * rank(k);
@@ -359,14 +359,14 @@ private:
     // Between two lines of the other kind, near the target.
     void labelAlongLines(const SeenDegrees& seen)
     {
-        const auto beside = [](double value, double step) {
+        const auto halfwayFrom = [](double value, double step) {
             return (std::floor(value / step) + 0.5) * step;
         };
         const double longitude_step = result_.longitude_step.degrees();
         const double latitude_step = result_.latitude_step.degrees();
-        const double longitude = beside(camera_.target.longitude.degrees(), longitude_step);
+        const double longitude = halfwayFrom(camera_.target.longitude.degrees(), longitude_step);
         const double latitude = planetocentric(
-            std::clamp(beside(shown(camera_.target.latitude.degrees()), latitude_step),
+            std::clamp(halfwayFrom(shown(camera_.target.latitude.degrees()), latitude_step),
                        -90.0 + 1.5 * latitude_step, 90.0 - 1.5 * latitude_step));
         const auto add = [&](GraticuleAxis axis, double value, const GeographicPoint& at) {
             const ScenePoint point = onGround(at);

@@ -84,7 +84,8 @@ public:
         const auto step = [&](double least_deg, const Span& span) {
             return graticuleStep(
                 options_.notation,
-                Angle::degrees(std::max({least_deg, (span.high - span.low) / kGraticuleLinesMax, 1e-9})));
+                Angle::degrees(
+                    std::max({least_deg, (span.high - span.low) / kGraticuleLinesMax, 1e-9})));
         };
         result_.latitude_step = step(spacing_deg, coverage->latitudes);
         result_.longitude_step =
@@ -250,7 +251,7 @@ private:
         const double last = std::floor(shown(coverage.latitudes.high) / step + 1e-9);
         for (double k = first; k <= last; k += 1.0) {
             if (std::abs(k * step) > 90.0 - 1e-9) {
-                continue; // a pole is no line
+                continue; // a pole is a point, not a line
             }
             const double latitude = planetocentric(k * step);
             addLine(GraticuleAxis::Parallel, Angle::degrees(k * step),

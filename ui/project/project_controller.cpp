@@ -249,7 +249,7 @@ void ProjectController::saveAs(const QString& file, const std::function<void()>&
     const QString text = tr("Writing %1").arg(QFileInfo(path).fileName());
     ++saving_;
     ++writing_;
-    // Later changes are changes since this save. If it fails, there is no saved state.
+    // Later changes count from this save. If it fails, no state counts as saved.
     session_.undoStack().setClean();
     Saving saving{.state = std::make_shared<const ProjectState>(state()),
                   .measurements = measuring_.named(),

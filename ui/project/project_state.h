@@ -10,7 +10,7 @@
 namespace marsview {
 
 /// A value that is cheap to copy, whatever the number of annotations. Any thread may read it. Only
-/// the GUI thread may release it: that thread changes blocks of items in place that nobody shares.
+/// the GUI thread may release it, because that thread edits unshared blocks of items in place.
 struct ProjectState {
     Project project;                      // without its annotations
     std::vector<LayerId> layers;          // those of the project
