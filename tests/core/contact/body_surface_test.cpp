@@ -203,7 +203,12 @@ TEST(BodyGoalFrame, GoalsAndTheirPositionsConvertToEachOther)
         ASSERT_NEAR(back.y, goal.y, 1e-12 * 180.0);
         ASSERT_NEAR(back.z, goal.z, 1e-7);
     }
-    EXPECT_FALSE(isFinite(frame.toScene({0.0, 91.0, 0.0})));
+    const BodyGoalFrame of_sphere({1737400.0, 1737400.0}, 5.0, Angle::degrees(0.0));
+    for (const double latitude : {91.0, -91.0, 180.0}) {
+        EXPECT_FALSE(isFinite(frame.toScene({0.0, latitude, 0.0})));
+        EXPECT_FALSE(isFinite(of_sphere.toScene({0.0, latitude, 0.0})));
+    }
+    EXPECT_TRUE(isFinite(of_sphere.toScene({0.0, -90.0, 0.0})));
 }
 
 // On a map of a few kilometers the body is nearly a plane: the proxies differ by the curvature
