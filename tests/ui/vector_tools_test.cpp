@@ -143,10 +143,10 @@ TEST_F(VectorToolsTest, AFeatureIsFoundWithItsAttributes)
 {
     ASSERT_NO_FATAL_FAILURE(openMars());
     ASSERT_TRUE(openVector(marsFile()));
-    const Georeference& georeference = view().map()->georeference();
     const auto at = [&](double longitude, double latitude) {
-        return overlays().featuresAt(
-            georeference.sceneFrame().toScene(gridOf(longitude, latitude), 0.0), 2000.0);
+        return overlays().featuresAt(GeographicPoint{.longitude = Angle::degrees(longitude),
+                                                     .latitude = Angle::degrees(latitude)},
+                                     2000.0);
     };
     const auto outcrop = at(16.0, 18.5);
     ASSERT_EQ(outcrop.size(), 1U);
@@ -243,7 +243,11 @@ TEST_F(VectorToolsTest, FollowsTheMapThatIsShown)
 {
     ASSERT_NO_FATAL_FAILURE(openMars());
     ASSERT_TRUE(openVector(marsFile()));
-    const auto is_on_map = [this] { return !overlays().featuresAt(ScenePoint{}, 1e9).empty(); };
+    const auto is_on_map = [this] {
+        const GeographicPoint outcrop{.longitude = Angle::degrees(16.0),
+                                      .latitude = Angle::degrees(18.5)};
+        return !overlays().featuresAt(outcrop, 1e5).empty();
+    };
     ASSERT_TRUE(is_on_map());
     ASSERT_TRUE(openAndWait(*window_, maps_.moon()));
     ASSERT_TRUE(rest());

@@ -1,6 +1,5 @@
 #include "ui/commands/map_menu.h"
 
-#include "ui/canvas/terrain_view.h"
 #include "ui/dialogs/place_dialog.h"
 #include "ui/widgets/icons.h"
 
@@ -8,6 +7,7 @@
 #include <QGuiApplication>
 #include <QMenu>
 #include <QScreen>
+#include <QWidget>
 
 #include <algorithm>
 #include <memory>
@@ -15,14 +15,13 @@
 
 namespace marsview {
 
-MapMenu::MapMenu(TerrainView& view, Reader read, Beginnings begin)
+MapMenu::MapMenu(QWidget& view, Source source, Reader read, Beginnings begin)
     : QObject(&view)
     , view_(view)
+    , source_(std::move(source))
     , read_(std::move(read))
     , begin_(std::move(begin))
-{
-    connect(&view, &TerrainView::menuRequested, this, &MapMenu::open);
-}
+{}
 
 QMenu* MapMenu::menu() const
 {
@@ -40,8 +39,7 @@ void MapMenu::open(QPointF position)
     menu_ = new QMenu(&view_);
     menu_->setAttribute(Qt::WA_DeleteOnClose);
     menu_->setAccessibleName(tr("Place on the map"));
-    const std::optional<GroundPoint> ground = view_.groundUnder(position);
-    const auto hit = view_.surfaceAt(position);
+    const std::optional<MenuPlace> ground = source_.place_at(position);
     const PlaceFacts place = ground ? read_(*ground) : PlaceFacts{};
     const auto add = [&](const QString& text, const char* icon, bool is_possible, auto action) {
         QAction* entry = menu_->addAction(lineIcon(QString::fromLatin1(icon)), text);
@@ -54,14 +52,14 @@ void MapMenu::open(QPointF position)
     add(tr("Copy &Elevation"), "copy", !place.elevation.isEmpty(),
         [copy, text = place.elevation] { copy(text); });
     menu_->addSeparator();
-    add(tr("&Fly Here"), "fly", hit.has_value(), [this, hit] { view_.flyNearer(*hit); });
-    add(tr("Ce&nter Here"), "center", hit.has_value(),
-        [this, hit] { view_.flyTo(hit->grid, 0.0); });
+    add(tr("&Fly Here"), "fly", ground.has_value(), [this, ground] { source_.fly_here(*ground); });
+    add(tr("Ce&nter Here"), "center", ground.has_value(),
+        [this, ground] { source_.center_here(*ground); });
     menu_->addSeparator();
-    add(tr("Measure &Distance from Here"), "measure", hit.has_value(),
-        [this, hit] { begin_.measure(hit->grid); });
-    add(tr("&Add Annotation Here"), "annotate", hit.has_value(),
-        [this, hit] { begin_.annotate(hit->grid); });
+    add(tr("Measure &Distance from Here"), "measure", ground.has_value(),
+        [this, ground] { begin_.measure(*ground); });
+    add(tr("&Add Annotation Here"), "annotate", ground.has_value(),
+        [this, ground] { begin_.annotate(*ground); });
     menu_->addSeparator();
     const QPoint at = view_.mapToGlobal(position).toPoint();
     add(tr("&What Is Here…"), "identify", ground.has_value(),
@@ -69,17 +67,17 @@ void MapMenu::open(QPointF position)
     menu_->popup(at);
 }
 
-void MapMenu::showCard(const GroundPoint& ground, QPoint at)
+void MapMenu::showCard(const MenuPlace& place, QPoint at)
 {
     delete card_.data();
     // The map of the place may go while the card is open.
-    const std::weak_ptr<const Map> map = view_.ground().maps()[ground.index].map;
-    const auto last = std::make_shared<PlaceFacts>(read_(ground));
+    const std::weak_ptr<const Map> map = place.map;
+    const auto last = std::make_shared<PlaceFacts>(read_(place));
     card_ = new PlaceDialog(
-        [this, map, ground, last] {
-            const auto& maps = view_.ground().maps();
-            if (ground.index < maps.size() && maps[ground.index].map == map.lock()) {
-                *last = read_(ground);
+        [this, map, grid = place.grid, point_m = place.point_m, last] {
+            const auto shown = map.lock();
+            if (shown && source_.is_shown(shown)) {
+                *last = read_({.map = shown, .grid = grid, .point_m = point_m});
             } else {
                 last->is_rough = false; // nothing finer will arrive
             }

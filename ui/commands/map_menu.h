@@ -1,47 +1,66 @@
 // The context menu of the map.
 #pragma once
 
-#include "core/session/scene_surface.h"
+#include "core/session/map.h"
 #include "ui/text/place_facts.h"
 
 #include <QObject>
+#include <QPointF>
 #include <QPointer>
 
 #include <functional>
+#include <memory>
+#include <optional>
 
 class QMenu;
+class QWidget;
 
 namespace marsview {
 
 class PlaceDialog;
-class TerrainView;
 
-/// Opens at the position that the view requests, and acts on the place that was clicked. A child of
-/// the view.
+/// A place of the terrain in a view.
+struct MenuPlace {
+    std::shared_ptr<const Map> map; // that is seen there
+    GridPoint grid;                 // of that map
+    double point_m = 0.0;           // meters on the terrain in a point of the screen
+};
+
+/// Acts on the place that was clicked, on the flat map or the globe. A child of its view.
 class MapMenu final : public QObject {
     Q_OBJECT
 
 public:
     /// Facts of a place of the terrain; asked while the menu or a card is open.
-    using Reader = std::function<PlaceFacts(const GroundPoint&)>;
+    using Reader = std::function<PlaceFacts(const MenuPlace&)>;
 
-    /// What begins at a place of the topmost map's grid.
+    /// What the view has at its positions, and how its camera goes there.
+    struct Source {
+        std::function<std::optional<MenuPlace>(QPointF)> place_at;
+        std::function<void(const MenuPlace&)> fly_here;
+        std::function<void(const MenuPlace&)> center_here;
+        std::function<bool(const std::shared_ptr<const Map>&)> is_shown;
+    };
+    /// What begins at a place.
     struct Beginnings {
-        std::function<void(GridPoint)> measure;
-        std::function<void(GridPoint)> annotate;
+        std::function<void(const MenuPlace&)> measure;
+        std::function<void(const MenuPlace&)> annotate;
     };
 
-    MapMenu(TerrainView& view, Reader read, Beginnings begin);
+    MapMenu(QWidget& view, Source source, Reader read, Beginnings begin);
+
+    /// Opens the menu of a position of the view.
+    void open(QPointF position);
 
     /// The menu and the card that are open; null for none.
     QMenu* menu() const;
     PlaceDialog* card() const;
 
 private:
-    void open(QPointF position);
-    void showCard(const GroundPoint& ground, QPoint at);
+    void showCard(const MenuPlace& place, QPoint at);
 
-    TerrainView& view_;
+    QWidget& view_;
+    Source source_;
     Reader read_;
     Beginnings begin_;
     QPointer<QMenu> menu_;

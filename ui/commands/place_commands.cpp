@@ -1,5 +1,6 @@
 #include "ui/commands/place_commands.h"
 
+#include "core/session/measurement.h"
 #include "ui/canvas/terrain_view.h"
 #include "ui/commands/map_menu.h"
 #include "ui/commands/name_search.h"
@@ -31,18 +32,8 @@ namespace marsview {
 
 PlaceCommands::PlaceCommands(const Parts& parts)
     : parts_(parts)
-    , map_menu_(new MapMenu(parts.view,
-                            [this](const GroundPoint& ground) { return factsAt(ground); },
-                            {.measure =
-                                 [this](GridPoint grid) {
-                                     parts_.measuring.begin(MeasurementKind::Distance);
-                                     parts_.measuring.addPointAt(grid);
-                                 },
-                             .annotate =
-                                 [this](GridPoint grid) {
-                                     parts_.annotating.begin(FeatureShape::Point);
-                                     parts_.annotating.addPointAt(grid);
-                                 }}))
+    , map_menu_(makeMenu())
+    , globe_menu_(makeGlobeMenu())
 {
     const WindowActions& actions = parts_.actions;
     connect(actions.go_to_place, &QAction::triggered, this, &PlaceCommands::goToPlace);
@@ -83,24 +74,122 @@ void PlaceCommands::connectReadout()
     });
 }
 
-PlaceFacts PlaceCommands::factsAt(const GroundPoint& ground) const
+template <typename Drawing>
+void PlaceCommands::addPlace(Drawing& drawing, const MenuPlace& place)
 {
-    const TerrainView& view = parts_.view;
+    if (const auto vertex = vertexAt(place.map->georeference(), place.grid)) {
+        drawing.addPlace({.vertex = *vertex, .map = place.map});
+    }
+}
+
+MapMenu* PlaceCommands::makeMenu()
+{
+    TerrainView* view = &parts_.view;
+    // On the topmost map's grid, which is that of the scene.
+    const auto on_scene = [view](const MenuPlace& place) {
+        return view->map()->georeference().toGrid(place.grid, place.map->georeference());
+    };
+    const MapMenu::Source source{
+        .place_at = [view](QPointF position) -> std::optional<MenuPlace> {
+            const auto ground = view->groundUnder(position);
+            const auto hit = view->surfaceAt(position);
+            if (!ground || !hit) {
+                return std::nullopt;
+            }
+            return MenuPlace{.map = view->ground().maps()[ground->index].map,
+                             .grid = ground->grid,
+                             .point_m = view->metersPerPoint(*hit)};
+        },
+        .fly_here =
+            [view, on_scene](const MenuPlace& place) {
+                RayHit hit;
+                hit.grid = on_scene(place);
+                view->flyNearer(hit);
+            },
+        .center_here = [view,
+                        on_scene](const MenuPlace& place) { view->flyTo(on_scene(place), 0.0); },
+        .is_shown =
+            [view](const std::shared_ptr<const Map>& map) {
+                const auto& maps = view->ground().maps();
+                return std::any_of(maps.begin(), maps.end(),
+                                   [&](const SceneMap& shown) { return shown.map == map; });
+            }};
+    auto* menu = new MapMenu(
+        *view, source, [this](const MenuPlace& place) { return factsAt(place); }, beginnings());
+    connect(view, &TerrainView::menuRequested, menu, &MapMenu::open);
+    return menu;
+}
+
+MapMenu* PlaceCommands::makeGlobeMenu()
+{
+    GlobeView* globe = &parts_.globe;
+    const auto geographic = [](const MenuPlace& place) {
+        return place.map->georeference().toGeographic(place.grid);
+    };
+    const MapMenu::Source source{
+        .place_at = [globe](QPointF position) -> std::optional<MenuPlace> {
+            const auto ground = globe->groundAt(position);
+            if (!ground) {
+                return std::nullopt;
+            }
+            return MenuPlace{.map = globe->scene().maps()[ground->index].map(),
+                             .grid = ground->hit.grid,
+                             .point_m = globe->metersPerPoint(ground->hit)};
+        },
+        .fly_here =
+            [globe, geographic](const MenuPlace& place) {
+                if (const auto target = geographic(place)) {
+                    globe->flyNearer(*target);
+                }
+            },
+        .center_here =
+            [globe, geographic](const MenuPlace& place) {
+                if (const auto target = geographic(place)) {
+                    globe->flyTo(*target, 0.0);
+                }
+            },
+        .is_shown =
+            [globe](const std::shared_ptr<const Map>& map) {
+                const auto& maps = globe->scene().maps();
+                return std::any_of(maps.begin(), maps.end(),
+                                   [&](const BodyTerrain& shown) { return shown.map() == map; });
+            }};
+    auto* menu = new MapMenu(
+        *globe, source, [this](const MenuPlace& place) { return factsAt(place); }, beginnings());
+    connect(globe, &GlobeView::menuRequested, menu, &MapMenu::open);
+    return menu;
+}
+
+MapMenu::Beginnings PlaceCommands::beginnings()
+{
+    return {.measure =
+                [this](const MenuPlace& place) {
+                    parts_.measuring.begin(MeasurementKind::Distance);
+                    addPlace(parts_.measuring, place);
+                },
+            .annotate =
+                [this](const MenuPlace& place) {
+                    parts_.annotating.begin(FeatureShape::Point);
+                    addPlace(parts_.annotating, place);
+                }};
+}
+
+PlaceFacts PlaceCommands::factsAt(const MenuPlace& place) const
+{
     const Preferences& preferences = parts_.preferences.preferences();
-    const std::shared_ptr<const Map>& map = view.ground().maps()[ground.index].map;
     const auto& layers = parts_.session.session().layers;
     const auto layer = std::find_if(layers.begin(), layers.end(),
-                                    [&](const Layer& known) { return known.map == map; });
+                                    [&](const Layer& known) { return known.map == place.map; });
     PlaceFacts facts = placeFacts(
-        *map, layer != layers.end() ? QString::fromStdString(layer->name) : QString(), ground.grid,
-        {.format = preferences.coordinates, .unit = preferences.height_unit});
+        *place.map, layer != layers.end() ? QString::fromStdString(layer->name) : QString(),
+        place.grid, {.format = preferences.coordinates, .unit = preferences.height_unit});
     constexpr double kReachPoints = 6.0;
-    const ScenePoint place = view.ground().maps()[ground.index].frame.toScene(
-        ground.grid, ground.height_m * view.exaggeration());
-    const double point_m =
-        view.devicePixelRatioF() * metersPerPixel(view.camera(), view.viewport(), place);
+    const auto vertex = vertexAt(place.map->georeference(), place.grid);
+    if (!vertex) {
+        return facts;
+    }
     for (const VectorOverlays::Hit& hit :
-         parts_.vector_files.overlays().featuresAt(place, kReachPoints * point_m)) {
+         parts_.vector_files.overlays().featuresAt(*vertex, kReachPoints * place.point_m)) {
         facts.facts.push_back({.name = tr("Vector file"), .value = hit.file});
         for (const auto& [name, value] : hit.attributes) {
             facts.facts.push_back({.name = name, .value = value});

@@ -2,6 +2,7 @@
 // the place under the pointer in the status bar.
 #pragma once
 
+#include "ui/commands/map_menu.h"
 #include "ui/dialogs/go_to_dialog.h"
 #include "ui/text/place_facts.h"
 
@@ -15,7 +16,6 @@ namespace marsview {
 
 class GlobeView;
 class MainToolBar;
-class MapMenu;
 class AnnotationController;
 class MapOverlays;
 class MeasureController;
@@ -25,7 +25,6 @@ class SessionController;
 class StatusReadout;
 class TerrainView;
 class VectorTools;
-struct GroundPoint;
 struct WindowActions;
 
 /// GUI thread; must not outlive its parts.
@@ -64,14 +63,22 @@ public:
 
     /// The context menu of the map.
     MapMenu* mapMenu() const noexcept { return map_menu_; }
+    /// The same of the globe.
+    MapMenu* globeMenu() const noexcept { return globe_menu_; }
 
 private:
     void connectReadout();
     GoToDialog* makeDialog();
-    PlaceFacts factsAt(const GroundPoint& ground) const;
+    MapMenu::Beginnings beginnings();
+    MapMenu* makeMenu();
+    MapMenu* makeGlobeMenu();
+    PlaceFacts factsAt(const MenuPlace& place) const;
+    template <typename Drawing>
+    static void addPlace(Drawing& drawing, const MenuPlace& place);
 
     Parts parts_;
     MapMenu* map_menu_ = nullptr;
+    MapMenu* globe_menu_ = nullptr;
     GoToEntry last_place_;
 };
 

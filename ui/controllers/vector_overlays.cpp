@@ -339,18 +339,34 @@ void VectorOverlays::addLines(const VectorOverlay& overlay,
     }
 }
 
-std::vector<VectorOverlays::Hit> VectorOverlays::featuresAt(const ScenePoint& place,
+std::vector<VectorOverlays::Hit> VectorOverlays::featuresAt(const DrawnVertex& place,
                                                             double reach_m) const
 {
     std::vector<Hit> hits;
+    const auto plan = scene_->plan();
+    if (!plan) {
+        return hits;
+    }
+    const auto* geographic = std::get_if<GeographicPoint>(&place);
+    const auto grid = geographic != nullptr
+                          ? plan->georeference.toGrid(*geographic)
+                          : std::optional(plan->georeference.toGrid(std::get<MapPoint>(place)));
+    if (!grid) {
+        return hits;
+    }
+    const ScenePoint at = plan->georeference.sceneFrame().toScene(*grid, 0.0);
+    if (plan->has_equator_scale && geographic != nullptr) {
+        constexpr double kScaleMax = 20.0;
+        reach_m *= std::min(1.0 / std::cos(geographic->latitude.radians()), kScaleMax);
+    }
     for (auto overlay = overlays_.rbegin(); overlay != overlays_.rend(); ++overlay) {
         const auto entry = entries_.find(overlay->path);
         if (!overlay->is_visible || entry == entries_.end() || !entry->second.placed ||
-            entry->second.plan.lock() != scene_->plan()) {
+            entry->second.plan.lock() != plan) {
             continue;
         }
         const Placed& placed = *entry->second.placed;
-        const auto found = placed.index.find({place.x, place.y}, reach_m);
+        const auto found = placed.index.find({at.x, at.y}, reach_m);
         if (!found) {
             continue;
         }

@@ -1,6 +1,7 @@
 // Vector files on the terrain: reading them, placing them on the map, drawing what is in sight.
 #pragma once
 
+#include "core/annotations/drawn_vertex.h"
 #include "core/base/job_monitor.h"
 #include "core/geo/frames.h"
 #include "core/session/session.h"
@@ -52,9 +53,8 @@ public:
         QString file; // its name without folder
         std::vector<std::pair<QString, QString>> attributes;
     };
-    /// The features within `reach_m` of a place of the scene of the flat map, of the overlay drawn
-    /// last first.
-    std::vector<Hit> featuresAt(const ScenePoint& place, double reach_m) const;
+    /// The features within `reach_m` of a place, of the overlay drawn last first.
+    std::vector<Hit> featuresAt(const DrawnVertex& place, double reach_m) const;
     /// Flies to where all features of a file can be seen, if they are on the map.
     void goTo(const std::string& path);
     /// Something is being read or placed, or is about to be drawn.

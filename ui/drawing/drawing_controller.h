@@ -169,6 +169,15 @@ public:
             addPoint(*place);
         }
     }
+    /// Adds a point at a place that the scene has.
+    void addPlace(const DrawingScene::Place& place)
+    {
+        view_.setTool(tool_);
+        geometry_.update();
+        if (const auto on_layer = onLayer(place)) {
+            addPoint(*on_layer);
+        }
+    }
     /// Adds a point where the view reads one: at the crosshair, or under the stylus of a device.
     /// The same place again finishes the item.
     void addPointRead()

@@ -27,6 +27,7 @@ namespace marsview {
 struct ScenePlan {
     std::shared_ptr<const Map> map; // coordinates without a CRS are in its CRS
     Georeference georeference;      // has the scene
+    bool has_equator_scale = false; // lengths along parallels are those on the equator
 };
 
 /// Places are those of the scene that the view draws: x east, y north, z up on the flat map, the

@@ -137,7 +137,7 @@ std::shared_ptr<const ScenePlan> FlatScene::plan() const
     }
     if (!plan_ || plan_->map != map) {
         plan_ = std::make_shared<const ScenePlan>(
-            ScenePlan{.map = map, .georeference = map->georeference()});
+            ScenePlan{.map = map, .georeference = map->georeference(), .has_equator_scale = false});
     }
     return plan_;
 }

@@ -4,6 +4,7 @@
 #include "ui/globe/globe_view.h"
 
 #include <QApplication>
+#include <QContextMenuEvent>
 #include <QKeyEvent>
 #include <QMouseEvent>
 #include <QWheelEvent>
@@ -63,12 +64,12 @@ void GlobeView::mousePressEvent(QMouseEvent* event)
         showCursor();
         return;
     }
-    may_be_click_ = tool != nullptr && actionOf(Gesture::Click, event->button(), event->modifiers(),
-                                                tool_) == MapAction::AddPoint;
+    may_be_click_ =
+        actionOf(Gesture::Click, event->button(), event->modifiers(), tool_) != MapAction::None;
     drag_ = actionOf(Gesture::Drag, event->button(), event->modifiers(), tool_);
     if (drag_ == MapAction::Pan) {
         held_ = heldAtPosition(event->position());
-    } else if (drag_ == MapAction::Orbit) {
+    } else if (drag_ == MapAction::Orbit && !may_be_click_) {
         motion_.jumpTo(onGround(motion_.camera()));
     }
     touch_.setPressing(drag_ == MapAction::Touch);
@@ -84,10 +85,15 @@ void GlobeView::mouseMoveEvent(QMouseEvent* event)
     }
     pointer_ = event->position();
     const QPointF moved = event->position() - drag_position_;
-    if (may_be_click_ && moved.manhattanLength() < QApplication::startDragDistance()) {
-        return;
+    if (may_be_click_) {
+        if (moved.manhattanLength() < QApplication::startDragDistance()) {
+            return;
+        }
+        may_be_click_ = false; // a drag after all, from where it began
+        if (drag_ == MapAction::Orbit) {
+            motion_.jumpTo(onGround(motion_.camera()));
+        }
     }
-    may_be_click_ = false; // a drag after all, from where it began
     if (drag_ == MapAction::MovePoint) {
         if (PlaceTool* tool = placeTool()) {
             tool->drag(event->position());
@@ -121,7 +127,12 @@ void GlobeView::mouseReleaseEvent(QMouseEvent* event)
     endDrag();
     followTouch();
     showCursor();
-    if (PlaceTool* tool = placeTool(); tool != nullptr && is_click) {
+    const MapAction action =
+        is_click ? actionOf(Gesture::Click, event->button(), event->modifiers(), tool_)
+                 : MapAction::None;
+    if (action == MapAction::OpenMenu) {
+        Q_EMIT menuRequested(event->position());
+    } else if (PlaceTool* tool = placeTool(); tool != nullptr && action == MapAction::AddPoint) {
         tool->click(event->position());
     }
 }
@@ -137,8 +148,23 @@ void GlobeView::endDrag()
     touch_.setPressing(false);
 }
 
+// The mouse asks when its button is released; this is for the keyboard.
+void GlobeView::contextMenuEvent(QContextMenuEvent* event)
+{
+    event->accept();
+    if (event->reason() != QContextMenuEvent::Mouse && !scene_.isEmpty()) {
+        Q_EMIT menuRequested(QRectF(rect()).center());
+    }
+}
+
 void GlobeView::keyPressEvent(QKeyEvent* event)
 {
+    if (event->key() == Qt::Key_F10 && event->modifiers() == Qt::ShiftModifier) {
+        if (!scene_.isEmpty()) { // the other key of the context menu, which Qt leaves out on X11
+            Q_EMIT menuRequested(QRectF(rect()).center());
+        }
+        return;
+    }
     PlaceTool* tool = placeTool();
     if (tool == nullptr || !tool->key(*event)) {
         QOpenGLWidget::keyPressEvent(event);
@@ -192,8 +218,15 @@ void GlobeView::mouseDoubleClickEvent(QMouseEvent* event)
     }
     const auto place = layers_[ground->index].map->georeference().toGeographic(ground->hit.grid);
     if (place) {
-        flyTo(*place, onGround(motion_.goal()).distance_m * kFlyFactor);
+        flyNearer(*place);
         Q_EMIT gestureMade(MapAction::FlyThere);
+    }
+}
+
+void GlobeView::flyNearer(const GeographicPoint& place)
+{
+    if (!scene_.isEmpty()) {
+        flyTo(place, onGround(motion_.goal()).distance_m * kFlyFactor);
     }
 }
 

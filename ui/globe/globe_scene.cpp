@@ -198,7 +198,8 @@ std::shared_ptr<const ScenePlan> GlobeScene::plan() const
                       .georeference = Georeference(
                           360 * kPerDegree, 180 * kPerDegree,
                           GeoTransform::fromTerms({-180.0, kStep, 0.0, 90.0, 0.0, -kStep}).value(),
-                          Crs::geographic(*shown->info().body, globe_.scene().ellipsoid()))});
+                          Crs::geographic(*shown->info().body, globe_.scene().ellipsoid())),
+                      .has_equator_scale = true});
     }
     return plan_;
 }

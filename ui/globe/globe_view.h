@@ -94,6 +94,8 @@ public:
     /// Flies along a great circle; `distance_m` of 0 keeps the distance.
     void flyTo(const GeographicPoint& place, double distance_m);
     void flyTo(const BodyCamera& camera);
+    /// Flies there, and much nearer.
+    void flyNearer(const GeographicPoint& place);
     /// Looks at a place at once, from the same side and distance.
     void lookAt(const GeographicPoint& place);
 
@@ -129,6 +131,8 @@ Q_SIGNALS:
     void touchFailed(const QString& reason);
     /// A gesture of the mouse moved the camera or the stylus.
     void gestureMade(MapAction action);
+    /// The context menu of what lies at a position in widget coordinates is asked for.
+    void menuRequested(QPointF position);
     void detailChanged(double pixels);
     void loadingChanged(bool is_loading);
     void problemChanged(const QString& problem);
@@ -148,6 +152,7 @@ protected:
     void mouseDoubleClickEvent(QMouseEvent* event) override;
     void wheelEvent(QWheelEvent* event) override;
     void keyPressEvent(QKeyEvent* event) override;
+    void contextMenuEvent(QContextMenuEvent* event) override;
     void leaveEvent(QEvent* event) override;
     void focusInEvent(QFocusEvent* event) override;
     void focusOutEvent(QFocusEvent* event) override;

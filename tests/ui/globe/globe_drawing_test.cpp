@@ -2,12 +2,14 @@
 #include "tests/support/run_program.h"
 #include "tests/ui/globe/globe_window.h"
 #include "tests/ui/project_files.h"
+#include "ui/commands/map_menu.h"
 #include "ui/commands/vector_tools.h"
 #include "ui/commands/window_commands.h"
 #include "ui/controllers/annotation_controller.h"
 #include "ui/controllers/measure_controller.h"
 #include "ui/controllers/session_controller.h"
 #include "ui/controllers/vector_overlays.h"
+#include "ui/dialogs/place_dialog.h"
 #include "ui/globe/globe_labels.h"
 #include "ui/overlay/globe_overlays.h"
 #include "ui/overlay/map_overlays.h"
@@ -206,10 +208,46 @@ TEST_F(GlobeDrawingTest, VectorFilesAreDrawnAndFound)
     VectorOverlays& overlays = window_->commands().vector_files.overlays();
     overlays.open(file);
     ASSERT_TRUE(waitFor([&] { return differing(without, globe().grabFramebuffer()) > 200; }));
+    const GeographicPoint on_ridge{.longitude = Angle::degrees(170.0),
+                                   .latitude = Angle::degrees(80.0)};
+    ASSERT_EQ(overlays.featuresAt(on_ridge, 1e3).size(), 1U);
+    EXPECT_EQ(overlays.featuresAt(on_ridge, 1e3).front().attributes.front().second,
+              QStringLiteral("Ridge"));
     lookAt(0.0, -60.0, 2e6);
     overlays.goTo(QFileInfo(file).absoluteFilePath().toStdString());
     ASSERT_TRUE(rests());
     EXPECT_GT(globe().camera().target.latitude.degrees(), 75.0);
+}
+
+TEST_F(GlobeDrawingTest, TheContextMenuActsOnThePlaceThatWasClicked)
+{
+    ASSERT_TRUE(showGlobe());
+    lookAt(-40.0, 30.0, 2e6);
+    MapMenu& menu = *window_->commands().places.globeMenu();
+    const GeographicPoint place = placeAt(at(0.1, 0.1));
+    const auto choose = [&](const char* text) {
+        QTest::mouseClick(&globe(), Qt::RightButton, {}, at(0.1, 0.1));
+        for (QAction* entry : menu.menu() != nullptr ? menu.menu()->actions() : QList<QAction*>()) {
+            if (entry->text().remove(QLatin1Char('&')).contains(QLatin1String(text))) {
+                entry->trigger();
+            }
+        }
+        delete menu.menu();
+    };
+    const BodyCamera before = globe().camera();
+    choose("What Is Here");
+    EXPECT_NE(menu.card(), nullptr);
+    EXPECT_EQ(globe().camera(), before);
+    delete menu.card();
+    choose("Measure Distance");
+    ASSERT_NE(measuring().current(), nullptr);
+    ASSERT_EQ(measuring().current()->vertices.size(), 1U);
+    const GeographicPoint measured = placeOf(measuring().current()->vertices.front());
+    EXPECT_NEAR(measured.latitude.degrees(), place.latitude.degrees(), 1e-9);
+    EXPECT_NEAR(std::remainder(measured.longitude.degrees() - place.longitude.degrees(), 360.0),
+                0.0, 1e-9);
+    choose("Fly Here");
+    EXPECT_LT(globe().cameraGoal().distance_m, 0.5 * before.distance_m);
 }
 
 TEST_F(GlobeDrawingTest, TheGraticuleIsDrawnWithItsLabels)
