@@ -2,6 +2,7 @@
 
 #include "tests/support/run_program.h"
 #include "tests/ui/map_window.h"
+#include "tests/ui/pointer_moves.h"
 #include "tests/ui/project_files.h"
 #include "tests/ui/test_map.h"
 #include "ui/canvas/terrain_view.h"
@@ -145,7 +146,7 @@ TEST_F(AnnotationTest, ClicksDrawPointsLinesAndPolygons)
     ASSERT_NO_FATAL_FAILURE(choose(FeatureShape::Line));
     click(at(-0.1, 0.1));
     click(at(0.1, 0.1));
-    QTest::mouseDClick(&view(), Qt::LeftButton, {}, at(0.1, 0.1));
+    doubleClick(view(), at(0.1, 0.1));
     ASSERT_NE(annotating().current(), nullptr);
     EXPECT_TRUE(annotating().current()->is_finished);
     EXPECT_EQ(annotating().current()->vertices.size(), 2U);

@@ -1,5 +1,6 @@
 // Help for newcomers: the hint over the map, full screen, What's This and the list of shortcuts.
 
+#include "tests/ui/pointer_moves.h"
 #include "tests/ui/test_map.h"
 #include "tests/ui/timeout.h"
 #include "ui/canvas/terrain_view.h"
@@ -160,7 +161,7 @@ TEST_F(FirstMinuteTest, TheHintGoesWhenAllWasTried)
     drag(Qt::LeftButton);
     EXPECT_TRUE(hint().isDone(MapAction::Touch));
     EXPECT_TRUE(hint().isVisible());
-    QTest::mouseDClick(&view(), Qt::LeftButton, {}, middle.toPoint());
+    doubleClick(view(), middle.toPoint());
     EXPECT_FALSE(hint().isVisible());
     open();
     EXPECT_FALSE(hint().isVisible());

@@ -11,6 +11,18 @@
 
 #include <gtest/gtest.h>
 
+namespace {
+
+// A button that a test leaves pressed changes what the tests after it see.
+class ReleasedButtons final : public testing::EmptyTestEventListener {
+    void OnTestEnd(const testing::TestInfo& /*test*/) override
+    {
+        EXPECT_EQ(QGuiApplication::mouseButtons(), Qt::NoButton) << "pressed and not released";
+    }
+};
+
+} // namespace
+
 int main(int argc, char** argv)
 {
     testing::InitGoogleTest(&argc, argv);
@@ -23,5 +35,6 @@ int main(int argc, char** argv)
     QApplication application(argc, argv);
     QCoreApplication::setOrganizationName(QStringLiteral("MarsViewTest"));
     QCoreApplication::setApplicationName(QStringLiteral("MarsViewTest"));
+    testing::UnitTest::GetInstance()->listeners().Append(new ReleasedButtons);
     return RUN_ALL_TESTS();
 }

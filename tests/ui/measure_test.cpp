@@ -3,6 +3,7 @@
 #include "core/measure/profile_statistics.h"
 #include "tests/support/run_program.h"
 #include "tests/ui/map_window.h"
+#include "tests/ui/pointer_moves.h"
 #include "tests/ui/project_files.h"
 #include "tests/ui/test_map.h"
 #include "ui/canvas/terrain_view.h"
@@ -126,7 +127,7 @@ TEST_F(MeasureTest, ADoubleClickFinishesAndTheNextClickBeginsAnother)
     ASSERT_NO_FATAL_FAILURE(choose(MeasurementKind::Distance));
     click(at(-0.1, 0.0));
     click(at(0.1, 0.0));
-    QTest::mouseDClick(&view(), Qt::LeftButton, {}, at(0.1, 0.0));
+    doubleClick(view(), at(0.1, 0.0));
     ASSERT_NE(measuring().current(), nullptr);
     EXPECT_TRUE(measuring().current()->is_finished);
     EXPECT_EQ(measuring().current()->vertices.size(), 2U);

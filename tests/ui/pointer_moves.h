@@ -1,4 +1,4 @@
-// The pointer of the X server, moved over a widget.
+// The pointer over a widget: moves of the X server's, and double clicks.
 #pragma once
 
 #include "tests/ui/timeout.h"
@@ -40,6 +40,16 @@ inline bool movePointer(QWidget& widget, QPoint to)
         return QTest::qWaitFor([&] { return last.at == at; }, kTimeout);
     };
     return move(to - QPoint(9, 7)) && move(to);
+}
+
+/// Double-clicks with the left button and releases it.
+///
+/// QTest::mouseDClick() alone leaves the button held down in QGuiApplication::mouseButtons(), for
+/// all tests that follow in the process.
+inline void doubleClick(QWidget& widget, QPoint at)
+{
+    QTest::mouseDClick(&widget, Qt::LeftButton, {}, at);
+    QTest::mouseRelease(&widget, Qt::LeftButton, {}, at);
 }
 
 } // namespace marsview

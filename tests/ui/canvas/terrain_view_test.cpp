@@ -1,5 +1,6 @@
 #include "core/view/navigation.h"
 #include "tests/support/shared_data.h"
+#include "tests/ui/pointer_moves.h"
 #include "tests/ui/test_map.h"
 #include "tests/ui/timeout.h"
 #include "ui/canvas/terrain_view.h"
@@ -226,7 +227,7 @@ TEST_F(TerrainViewTest, StaysAboveTheGroundWhileItMoves)
 TEST_F(TerrainViewTest, FliesToWhereItIsDoubleClicked)
 {
     const QPointF pointer = *view().positionOf(GridPoint{20.0, 12.0});
-    QTest::mouseDClick(&view(), Qt::LeftButton, {}, pointer.toPoint());
+    doubleClick(view(), pointer.toPoint());
     EXPECT_TRUE(view().isMoving());
     ASSERT_TRUE(arrive());
     const auto hit = view().surfaceAt(QPointF(view().width() / 2.0, view().height() / 2.0));
@@ -248,14 +249,14 @@ TEST_F(TerrainViewTest, FliesNearerAsLongAsThatShowsMore)
     const double before = samplePoints();
     ASSERT_LT(before, 4.0);
     for (int i = 0; i < 3; ++i) {
-        QTest::mouseDClick(&view(), Qt::LeftButton, {}, middle());
+        doubleClick(view(), middle());
         ASSERT_TRUE(arrive());
         EXPECT_NEAR(samplePoints(), i == 0 ? std::min(8.0, before / 0.3) : 8.0, 0.6);
     }
     camera = view().camera();
     camera.distance_m *= 0.5; // by other means
     view().setCamera(camera);
-    QTest::mouseDClick(&view(), Qt::LeftButton, {}, middle());
+    doubleClick(view(), middle());
     ASSERT_TRUE(arrive());
     EXPECT_NEAR(samplePoints(), 16.0, 1.2);
 }

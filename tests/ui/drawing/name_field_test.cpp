@@ -1,6 +1,7 @@
 // Naming annotations where they are placed, by mouse and by keyboard.
 
 #include "tests/ui/map_window.h"
+#include "tests/ui/pointer_moves.h"
 #include "tests/ui/test_map.h"
 #include "ui/canvas/terrain_view.h"
 #include "ui/controllers/annotation_controller.h"
@@ -119,7 +120,7 @@ TEST_F(NameFieldTest, LinesAndPolygonsAreNamedWhenTheyAreFinished)
     EXPECT_FALSE(field_->isVisible());
     click(at(0.1, 0.1));
     EXPECT_FALSE(field_->isVisible());
-    QTest::mouseDClick(&view(), Qt::LeftButton, {}, at(0.1, 0.1));
+    doubleClick(view(), at(0.1, 0.1));
     ASSERT_TRUE(isNaming());
     EXPECT_EQ(field_->text(), QStringLiteral("Line 1"));
     QTest::keyClicks(field_, QStringLiteral("fault"));

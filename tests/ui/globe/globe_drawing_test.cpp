@@ -1,6 +1,7 @@
 // Measuring, annotating, vector files and the graticule on the globe; what a project keeps of it.
 #include "tests/support/run_program.h"
 #include "tests/ui/globe/globe_window.h"
+#include "tests/ui/pointer_moves.h"
 #include "tests/ui/project_files.h"
 #include "ui/commands/map_menu.h"
 #include "ui/commands/vector_tools.h"
@@ -95,7 +96,7 @@ TEST_F(GlobeDrawingTest, ClicksMeasureWhatTheFlatMapMeasures)
     const GeographicPoint to = placeAt(at(0.15, -0.2));
     click(at(-0.2, 0.1));
     click(at(0.15, -0.2));
-    QTest::mouseDClick(&globe(), Qt::LeftButton, {}, at(0.15, -0.2));
+    doubleClick(globe(), at(0.15, -0.2));
     const MeasureItem* item = measuring().current();
     ASSERT_NE(item, nullptr);
     ASSERT_EQ(item->vertices.size(), 2U);
@@ -140,7 +141,7 @@ TEST_F(GlobeDrawingTest, PointsAreDraggedInsertedRemovedAndUndoneAsOnTheFlatMap)
     QCoreApplication::processEvents();
     click(at(-0.2, 0.0));
     click(at(0.2, 0.0));
-    QTest::mouseDClick(&globe(), Qt::LeftButton, {}, at(0.2, 0.0));
+    doubleClick(globe(), at(0.2, 0.0));
     ASSERT_EQ(measuring().handles().size(), 2U);
     EXPECT_LT(QLineF(measuring().handles()[0].place, QPointF(at(-0.2, 0.0))).length(), 1.5);
     const BodyCamera before = globe().camera();

@@ -2,6 +2,7 @@
 #include "tests/support/shared_data.h"
 #include "tests/support/temp_folder.h"
 #include "tests/ui/map_window.h"
+#include "tests/ui/pointer_moves.h"
 #include "tests/ui/project_files.h"
 #include "ui/commands/window_commands.h"
 #include "ui/project/project_controller.h"
@@ -151,7 +152,7 @@ TEST_F(SavedViewsTest, FliesWithADoubleClickAndWithCtrlAndANumber)
     save(QStringLiteral("second"));
     const int steps = stack().count();
     QTest::mouseClick(list().viewport(), Qt::LeftButton, {}, middleOf(0));
-    QTest::mouseDClick(list().viewport(), Qt::LeftButton, {}, middleOf(0));
+    doubleClick(*list().viewport(), middleOf(0));
     ASSERT_TRUE(waitUntilLanded());
     EXPECT_TRUE(isAt(first));
     view().setFocus();
