@@ -4,14 +4,19 @@
 
 namespace marsview {
 
-DrapedLine graticuleLine(const GraticuleLine& line)
+std::vector<DrapedLine> graticuleLines(const std::vector<GraticuleLine>& lines)
 {
     constexpr double kWidth = 1.0; // points
     constexpr Rgb8 kColor{225, 225, 225};
-    return {.points = line.points,
-            .color = kColor,
-            .width_points = kWidth,
-            .hidden_parts = HiddenParts::Invisible};
+    std::vector<DrapedLine> draped;
+    draped.reserve(lines.size());
+    for (const GraticuleLine& line : lines) {
+        draped.push_back({.points = line.points,
+                          .color = kColor,
+                          .width_points = kWidth,
+                          .hidden_parts = HiddenParts::Invisible});
+    }
+    return draped;
 }
 
 bool LineSets::set(std::vector<DrapedLine> lines, LineSet set)

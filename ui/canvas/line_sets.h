@@ -16,8 +16,8 @@ namespace marsview {
 enum class LineSet : std::uint8_t { Graticule, Overlays, Annotations, Measurements };
 inline constexpr std::size_t kLineSets = 4;
 
-/// As it is drawn: thin, and only where it is seen.
-DrapedLine graticuleLine(const GraticuleLine& line);
+/// As they are drawn: thin, and only where they are seen.
+std::vector<DrapedLine> graticuleLines(const std::vector<GraticuleLine>& lines);
 
 class LineSets {
 public:

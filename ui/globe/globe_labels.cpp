@@ -10,11 +10,6 @@
 #include <utility>
 
 namespace marsview {
-namespace {
-
-constexpr qint64 kRestShare = 9; // at most a tenth of the time goes into lines while moving
-
-} // namespace
 
 GlobeLabels::GlobeLabels(GlobeView& globe)
     : LabelsOverlay(globe)
@@ -133,11 +128,10 @@ void GlobeLabels::drawGraticule()
 {
     const bool was_drawn = !graticule_.lines.empty();
     // Where the terrain makes lines slow, those of a moment ago do while the camera moves.
-    if (was_drawn && is_graticule_shown_ && globe_.isMoving() && drawn_at_.isValid() &&
-        drawn_at_.nsecsElapsed() < kRestShare * drawing_ns_) {
+    if (was_drawn && is_graticule_shown_ && globe_.isMoving() && pace_.isTooSoon()) {
         return;
     }
-    drawn_at_.start();
+    pace_.begin();
     graticule_ = {};
     const BodyScene& scene = globe_.scene();
     if (is_graticule_shown_ && !scene.isEmpty() && !globe_.isHidden()) {
@@ -158,14 +152,8 @@ void GlobeLabels::drawGraticule()
     if (!was_drawn && graticule_.lines.empty()) {
         return;
     }
-    std::vector<DrapedLine> lines;
-    lines.reserve(graticule_.lines.size());
-    for (const GraticuleLine& line : graticule_.lines) {
-        lines.push_back(graticuleLine(line));
-    }
-    globe_.setLines(std::move(lines), LineSet::Graticule);
-    drawing_ns_ = drawn_at_.nsecsElapsed();
-    drawn_at_.start();
+    globe_.setLines(graticuleLines(graticule_.lines), LineSet::Graticule);
+    pace_.end();
 }
 
 // Empty without a stylus.

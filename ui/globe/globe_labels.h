@@ -4,9 +4,9 @@
 #include "core/geo/coordinate_format.h"
 #include "core/graticule/body_graticule.h"
 #include "core/session/name_labels.h"
+#include "ui/canvas/drawing_pace.h"
 #include "ui/widgets/labels_overlay.h"
 
-#include <QElapsedTimer>
 #include <QRectF>
 
 #include <memory>
@@ -55,8 +55,7 @@ private:
     bool is_graticule_shown_ = false;
     CoordinateFormat format_;
     BodyGraticule graticule_;
-    QElapsedTimer drawn_at_;    // since its lines were made last
-    qint64 drawing_ns_ = 0;     // for that
+    DrawingPace pace_;          // of its lines
     std::vector<Label> labels_; // names
     std::vector<Label> values_; // of the graticule
 };

@@ -11,11 +11,6 @@
 #include <utility>
 
 namespace marsview {
-namespace {
-
-constexpr qint64 kRestShare = 9; // at most a tenth of the time goes into lines while moving
-
-} // namespace
 
 MapLabels::MapLabels(TerrainView& view)
     : LabelsOverlay(view)
@@ -151,11 +146,10 @@ void MapLabels::drawGraticule()
 {
     const bool was_drawn = !graticule_.lines.empty();
     // Where the projection makes lines slow, those of a moment ago do while the camera moves.
-    if (was_drawn && is_graticule_shown_ && view_.isMoving() && drawn_at_.isValid() &&
-        drawn_at_.nsecsElapsed() < kRestShare * drawing_ns_) {
+    if (was_drawn && is_graticule_shown_ && view_.isMoving() && pace_.isTooSoon()) {
         return;
     }
-    drawn_at_.start();
+    pace_.begin();
     graticule_ = {};
     if (is_graticule_shown_ && view_.map()) {
         graticule_ = graticuleOf(view_.ground(), view_.camera(),
@@ -168,14 +162,8 @@ void MapLabels::drawGraticule()
     if (!was_drawn && graticule_.lines.empty()) {
         return;
     }
-    std::vector<DrapedLine> lines;
-    lines.reserve(graticule_.lines.size());
-    for (const GraticuleLine& line : graticule_.lines) {
-        lines.push_back(graticuleLine(line));
-    }
-    view_.setLines(std::move(lines), LineSet::Graticule);
-    drawing_ns_ = drawn_at_.nsecsElapsed();
-    drawn_at_.start();
+    view_.setLines(graticuleLines(graticule_.lines), LineSet::Graticule);
+    pace_.end();
 }
 
 std::vector<PicturePart> MapLabels::partsFor(const OrbitCamera& camera,

@@ -4,10 +4,9 @@
 #include "core/geo/coordinate_format.h"
 #include "core/graticule/flat_graticule.h"
 #include "core/session/name_labels.h"
+#include "ui/canvas/drawing_pace.h"
 #include "ui/overlay/picture_part.h"
 #include "ui/widgets/labels_overlay.h"
-
-#include <QElapsedTimer>
 
 #include <memory>
 #include <optional>
@@ -98,8 +97,7 @@ private:
     bool are_names_shown_ = true;
     bool is_graticule_shown_ = false;
     Graticule graticule_;
-    QElapsedTimer drawn_at_; // since its lines were made last
-    qint64 drawing_ns_ = 0;  // for that
+    DrawingPace pace_; // of its lines
     std::vector<Mark> marks_;
     std::vector<Label> names_shown_;
     std::vector<Label> values_shown_;
