@@ -9,9 +9,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <tuple>
+#include <utility>
 
 namespace marsview {
 namespace {
@@ -209,6 +211,23 @@ TEST(BodyGoalFrame, GoalsAndTheirPositionsConvertToEachOther)
         EXPECT_FALSE(isFinite(of_sphere.toScene({0.0, latitude, 0.0})));
     }
     EXPECT_TRUE(isFinite(of_sphere.toScene({0.0, -90.0, 0.0})));
+}
+
+// In the turn of the map, whose middle is 180° here and 360° there.
+TEST(BodyGoalFrame, LongitudesAreThoseOfTheMap)
+{
+    const Ellipsoid body{3396190.0, 3376200.0};
+    const test::BodyMap around = test::wholeMars(36, 18);
+    test::BodyMap across = around;
+    across.columns = 4;
+    across.terms = {340, 10, 0, 90, 0, -10};
+    for (const auto& [map, longitudes] : {std::pair(around, std::array{5.0, 175.0, 355.0}),
+                                          std::pair(across, std::array{341.0, 360.0, 379.0})}) {
+        const BodyGoalFrame frame = bodyGoalFrame(test::georeferenceOf(map), body, 1.0);
+        for (const double longitude : longitudes) {
+            EXPECT_NEAR(frame.fromScene(frame.toScene({longitude, 20.0, 0.0})).x, longitude, 1e-9);
+        }
+    }
 }
 
 // On a map of a few kilometers the body is nearly a plane: the proxies differ by the curvature

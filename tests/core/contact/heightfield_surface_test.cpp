@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
+#include <vector>
 
 namespace marsview {
 namespace {
@@ -125,6 +127,23 @@ TEST(HeightfieldSurface, ReportsFilledVoids)
     EXPECT_FALSE(is_over_void(6.0, 5.5)) << "on the opposite edge";
     EXPECT_FALSE(is_over_void(5.75, 4.125)) << "the other triangle of the cell";
     EXPECT_FALSE(is_over_void(10.0, 10.0));
+}
+
+TEST(HeightfieldSurfaceDeathTest, RefusesFlatAndInfiniteFrames)
+{
+    const auto terrain = test::filledTerrain(3, std::vector<float>(9, 1.0F));
+    const double infinity = std::numeric_limits<double>::infinity();
+    const SceneFrame frame = test::unitFrame(*terrain);
+    for (const double exaggeration : {0.0, -1.0, kNan, infinity}) {
+        EXPECT_DEATH(HeightfieldSurface(terrain, frame, exaggeration), "check failed");
+    }
+    SceneFrame line = frame; // a row and a column in the same direction
+    line.north_per_column = line.north_per_row;
+    line.east_per_column = line.east_per_row;
+    EXPECT_DEATH(HeightfieldSurface(terrain, line, 1.0), "check failed");
+    SceneFrame endless = frame;
+    endless.east_per_column = infinity;
+    EXPECT_DEATH(HeightfieldSurface(terrain, endless, 1.0), "check failed");
 }
 
 } // namespace

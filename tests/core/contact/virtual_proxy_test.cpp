@@ -552,5 +552,13 @@ TEST(VirtualProxy, SinksWithTheSurfaceThatItTouches)
     EXPECT_TRUE(sunk.is_in_contact);
 }
 
+TEST(VirtualProxyDeathTest, RefusesARadiusThatIsNotPositiveAndFinite)
+{
+    const auto terrain = test::filledTerrain(3, std::vector<float>(9, 1.0F));
+    for (const double radius_m : {0.0, -1.0, kNan, std::numeric_limits<double>::infinity()}) {
+        EXPECT_DEATH(Model(surfaceOver(terrain), radius_m), "check failed") << radius_m;
+    }
+}
+
 } // namespace
 } // namespace marsview
