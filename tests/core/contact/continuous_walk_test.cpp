@@ -1,11 +1,15 @@
 #include "core/contact/continuous_walk.h"
 #include "core/contact/heightfield_surface.h"
+#include "core/contact/surface_walk.h"
 #include "tests/core/contact/contact_terrain.h"
+#include "tests/support/fractal_terrain.h"
 #include "tests/support/nan.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <vector>
 
 namespace marsview {
@@ -74,6 +78,37 @@ TEST(ContinuousWalk, AFreeProxyMovesOnlyIfTheSurfaceRisesAboveIt)
     const ContactState raised = model.update({kNan, 0.0, 0.0});
     EXPECT_TRUE(raised.is_in_contact);
     EXPECT_EQ(raised.proxy, (ScenePoint{0.0, 0.0, 50.0}));
+}
+
+// What defines the model: its proxies are those of a walk whose updates become ever shorter. Where
+// the two differ, the walk's next update often still decides between two basins.
+TEST(ContinuousWalk, IsTheLimitOfEverShorterUpdates)
+{
+    const auto terrain = test::filledTerrain(90, test::fractalHeights(90, 90, 12));
+    for (const double exaggeration : {1.0, 5.0}) {
+        const HeightfieldSurface surface = surfaceOver(terrain, exaggeration);
+        Model model(surface);
+        SurfaceWalk<HeightfieldSurface> walk(surface);
+        test::Random random;
+        ScenePoint goal{0.0, 0.0, 0.0};
+        constexpr int kUpdates = 400;
+        int differ = 0;
+        for (int i = 0; i < kUpdates; ++i) {
+            const ScenePoint from = goal;
+            goal.x = std::clamp(from.x + random.uniform(-4.0, 4.0), -40.0, 40.0);
+            goal.y = std::clamp(from.y + random.uniform(-4.0, 4.0), -40.0, 40.0);
+            goal.z = surface.height(surface.frame().toGrid(goal)) +
+                     exaggeration * random.uniform(-3.0, 0.3);
+            constexpr int kPieces = 500;
+            for (int piece = 1; piece < kPieces; ++piece) {
+                walk.update(from + (goal - from) * (static_cast<double>(piece) / kPieces));
+            }
+            const ScenePoint limit = walk.update(goal).proxy;
+            differ += distance(model.update(goal).proxy, limit) > 1e-6 ? 1 : 0;
+        }
+        std::printf("exaggeration %g: %d of %d updates differ\n", exaggeration, differ, kUpdates);
+        EXPECT_LE(differ, kUpdates / 100);
+    }
 }
 
 } // namespace

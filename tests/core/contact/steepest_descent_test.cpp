@@ -1,0 +1,111 @@
+#include "core/contact/heightfield_surface.h"
+#include "core/contact/surface_walk.h"
+#include "tests/core/contact/contact_terrain.h"
+#include "tests/support/random.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace marsview {
+namespace {
+
+using Walk = SurfaceWalk<HeightfieldSurface>;
+
+// Around a sample: to the right, right below, below, left, left above, above. Two that follow each
+// other are the edges of a face.
+constexpr std::array<std::array<int, 2>, 6> kAround{
+    {{1, 0}, {1, 1}, {0, 1}, {-1, 0}, {-1, -1}, {0, -1}}};
+
+// The edge or face of a vertex on which the distance to the goal decreases fastest, per meter of
+// way, which is the cosine of the angle to the goal's direction: by normal vectors, in contrast to
+// the walk. For a face, the foot of the goal if that lies on it.
+struct Steepest {
+    double cosine = 0.0;
+    double next_cosine = 0.0; // of the second steepest
+    std::optional<ScenePoint> foot;
+
+    void consider(double its_cosine, const std::optional<ScenePoint>& its_foot)
+    {
+        if (its_cosine > cosine) {
+            next_cosine = cosine;
+            cosine = its_cosine;
+            foot = its_foot;
+        } else {
+            next_cosine = std::max(next_cosine, its_cosine);
+        }
+    }
+};
+
+Steepest steepestAt(const HeightfieldSurface& surface, int column, int row, const ScenePoint& goal)
+{
+    const auto point = [&](int c, int r) {
+        const GridPoint grid{static_cast<double>(c), static_cast<double>(r)};
+        return surface.frame().toScene(grid, test::bruteHeight(surface, grid));
+    };
+    const ScenePoint here = point(column, row);
+    const Vec3 to_goal = goal - here;
+    std::array<Vec3, 6> edges;
+    for (std::size_t i = 0; i < 6; ++i) {
+        edges[i] = point(column + kAround[i][0], row + kAround[i][1]) - here;
+    }
+    Steepest steepest;
+    for (std::size_t i = 0; i < 6; ++i) {
+        const Vec3& a = edges[i];
+        const Vec3& b = edges[(i + 1) % 6];
+        steepest.consider(dot(normalized(a), normalized(to_goal)), std::nullopt);
+        const Vec3 normal = normalized(cross(a, b));
+        const Vec3 to_foot = to_goal - normal * dot(normal, to_goal);
+        // Within the angle between a and b, and if so, before the edge between their ends.
+        const double from_a = dot(cross(a, to_foot), normal);
+        const double from_b = dot(cross(to_foot, b), normal);
+        if (from_a > 0.0 && from_b > 0.0) {
+            const bool is_on_face = from_a + from_b < dot(cross(a, b), normal);
+            steepest.consider(length(to_foot) / length(to_goal),
+                              is_on_face ? std::optional(here + to_foot) : std::nullopt);
+        }
+    }
+    return steepest;
+}
+
+// Straight below a sample the walk begins there. If the steepest way is over a face on which the
+// goal's foot lies, the walk ends there, also where other faces and edges lead closer too.
+TEST(SteepestDescent, LeavesAVertexOverTheFaceThatLeadsCloserFastest)
+{
+    constexpr int kSide = 60;
+    test::Random random;
+    std::vector<float> heights;
+    for (int i = 0; i < kSide * kSide; ++i) {
+        heights.push_back(static_cast<float>(random.uniform(-0.7, 0.7)));
+    }
+    const HeightfieldSurface surface = test::surfaceOver(test::filledTerrain(kSide, heights));
+    Walk walk(surface);
+    int feet = 0;
+    for (int row = 1; row < kSide - 1; ++row) {
+        for (int column = 1; column < kSide - 1; ++column) {
+            for (const double depth_m : {0.3, 0.6, 1.2}) {
+                const GridPoint grid{static_cast<double>(column), static_cast<double>(row)};
+                const ScenePoint goal =
+                    surface.frame().toScene(grid, surface.height(grid) - depth_m);
+                const Steepest steepest = steepestAt(surface, column, row, goal);
+                constexpr double kClearly = 1e-9;
+                if (steepest.foot && steepest.cosine > steepest.next_cosine + kClearly) {
+                    ++feet;
+                    const ContactState state = walk.place(goal);
+                    ASSERT_NEAR(test::distance(state.proxy, *steepest.foot), 0.0, 1e-9)
+                        << column << " " << row << " " << depth_m;
+                    ASSERT_EQ(state.feature, ContactFeature::Face);
+                }
+            }
+        }
+    }
+    EXPECT_GT(feet, 500);
+}
+
+} // namespace
+} // namespace marsview
