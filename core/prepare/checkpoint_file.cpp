@@ -2,7 +2,6 @@
 
 #include "core/base/deflate.h"
 #include "core/base/durable_file.h"
-#include "core/files/file_bytes.h"
 #include "core/levels/level_file_format.h"
 
 #include <algorithm>
@@ -13,6 +12,34 @@
 #include <vector>
 
 namespace marsview {
+namespace {
+
+constexpr std::size_t kPieceBytes = std::size_t{1} << 20U;
+
+std::size_t rowsAtOnce(const SampleGrid& samples)
+{
+    return std::max<std::size_t>(1, 4 * kPieceBytes /
+                                        (samples.columns() * sampleBytes(samples.type())));
+}
+
+SampleGrid copyOfRows(const SampleGrid& samples, std::size_t first, std::size_t end)
+{
+    SampleGrid rows = SampleGrid::create(samples.type(), samples.columns(), end - first).value();
+    samples.visit([&](auto values) {
+        std::memcpy(rows.rowData(0), values.row(first).data(),
+                    rows.rows() * rows.columns() * sampleBytes(rows.type()));
+    });
+    for (std::size_t row = first; samples.hasVoids() && row < end; ++row) {
+        for (std::size_t column = 0; column < samples.columns(); ++column) {
+            if (samples.isVoid(column, row)) {
+                rows.markVoid(column, row - first);
+            }
+        }
+    }
+    return rows;
+}
+
+} // namespace
 
 std::string CheckpointWriter::unfinishedPath(const std::string& path)
 {
@@ -48,6 +75,23 @@ void CheckpointWriter::putGrid(const SampleGrid& samples)
     putArray(packedSamples(samples));
 }
 
+void CheckpointWriter::putRows(const SampleGrid& samples, std::size_t first, std::size_t end)
+{
+    const std::size_t step = rowsAtOnce(samples);
+    for (std::size_t row = first; row < end; row += step) {
+        putGrid(copyOfRows(samples, row, std::min(row + step, end)));
+        samples.releasePages();
+    }
+}
+
+void CheckpointWriter::putScratch(const ScratchBytes& values, std::size_t bytes)
+{
+    for (std::size_t at = 0; at < bytes; at += kPieceBytes) {
+        putBytes({values.data() + at, std::min(kPieceBytes, bytes - at)});
+        values.release();
+    }
+}
+
 bool CheckpointWriter::finish()
 {
     const std::uint32_t checksum = checksum_;
@@ -64,22 +108,27 @@ bool CheckpointWriter::finish()
 
 std::optional<CheckpointReader> CheckpointReader::open(const std::string& path)
 {
-    const auto file = FileBytes::open(path);
-    if (!file) {
-        return std::nullopt;
-    }
-    auto bytes = file->read(0, file->size());
+    auto file = FileBytes::open(path);
     std::uint32_t checksum = 0;
-    if (!bytes || bytes->size() < sizeof(checksum)) {
+    if (!file || file->size() < sizeof(checksum)) {
         return std::nullopt;
     }
-    CheckpointReader reader;
-    reader.bytes_ = std::move(bytes).value();
-    reader.end_ = reader.bytes_.size() - sizeof(checksum);
-    std::memcpy(&checksum, reader.bytes_.data() + reader.end_, sizeof(checksum));
-    if (crc32Of(std::span(reader.bytes_.data(), reader.end_)) != checksum) {
+    CheckpointReader reader(std::move(file).value());
+    reader.end_ = reader.file_.size();
+    std::uint32_t found = 0;
+    for (std::uint64_t left = reader.end_ - sizeof(checksum); left > 0;) {
+        RawArray<std::byte> bytes(std::min<std::uint64_t>(left, kPieceBytes));
+        if (!reader.getBytes({bytes.data(), bytes.size()})) {
+            return std::nullopt;
+        }
+        found = crc32Of({bytes.data(), bytes.size()}, found);
+        left -= bytes.size();
+    }
+    if (!reader.get(checksum) || checksum != found) {
         return std::nullopt;
     }
+    reader.end_ -= sizeof(checksum);
+    reader.at_ = 0;
     return reader;
 }
 
@@ -88,8 +137,21 @@ bool CheckpointReader::getBytes(std::span<std::byte> bytes)
     if (has_failed_ || bytes.size() > left()) {
         return fail();
     }
-    std::copy_n(bytes_.data() + at_, bytes.size(), bytes.data());
-    at_ += bytes.size();
+    while (!bytes.empty()) {
+        if (at_ < piece_at_ || at_ >= piece_at_ + piece_.size()) {
+            auto piece = file_.read(at_, std::min<std::uint64_t>(kPieceBytes, file_.size() - at_));
+            if (!piece || piece->size() == 0) {
+                return fail();
+            }
+            piece_ = std::move(piece).value();
+            piece_at_ = at_;
+        }
+        const std::size_t from = at_ - piece_at_;
+        const std::size_t count = std::min(bytes.size(), piece_.size() - from);
+        std::copy_n(piece_.data() + from, count, bytes.data());
+        bytes = bytes.subspan(count);
+        at_ += count;
+    }
     return true;
 }
 
@@ -105,6 +167,35 @@ CheckpointReader::getGrid(SampleType type, std::size_t columns, std::size_t rows
         fail();
     }
     return samples;
+}
+
+bool CheckpointReader::getRows(SampleGrid& samples, std::size_t first, std::size_t end)
+{
+    const std::size_t step = rowsAtOnce(samples);
+    for (std::size_t row = first; row < end; row += step) {
+        const auto rows =
+            getGrid(samples.type(), samples.columns(), std::min(row + step, end) - row);
+        if (!rows) {
+            return false;
+        }
+        samples.put(*rows, 0, row);
+        samples.releasePages();
+    }
+    return true;
+}
+
+bool CheckpointReader::getScratch(ScratchBytes& values, std::size_t first, std::size_t bytes)
+{
+    if (first > values.size() || bytes > values.size() - first) {
+        return fail();
+    }
+    for (std::size_t at = 0; at < bytes; at += kPieceBytes) {
+        if (!getBytes({values.data() + first + at, std::min(kPieceBytes, bytes - at)})) {
+            return false;
+        }
+        values.release();
+    }
+    return true;
 }
 
 } // namespace marsview

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "core/base/raw_array.h"
+#include "core/base/scratch_bytes.h"
+#include "core/files/file_bytes.h"
 #include "core/raster/sample_grid.h"
 
 #include <cstddef>
@@ -12,6 +14,7 @@
 #include <span>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 namespace marsview {
 
@@ -40,6 +43,10 @@ public:
         putBytes(std::as_bytes(numbers));
     }
     void putGrid(const SampleGrid& samples);
+    /// Rows [first, end), a few at a time, whose pages are released.
+    void putRows(const SampleGrid& samples, std::size_t first, std::size_t end);
+    /// The first `bytes` of them, which are released.
+    void putScratch(const ScratchBytes& values, std::size_t bytes);
 
     /// False if the file could not be written; PATH is then unchanged.
     bool finish();
@@ -63,7 +70,8 @@ private:
 /// Reads the values back in the order of writing. A mismatch fails, and so do all later reads.
 class CheckpointReader {
 public:
-    /// Empty if the file does not exist or is damaged. Reads the whole file into memory.
+    /// Empty if the file does not exist or is damaged: reads it once to compare it with its
+    /// checksum, in pieces.
     static std::optional<CheckpointReader> open(const std::string& path);
 
     template <typename T>
@@ -92,9 +100,15 @@ public:
         return getBytes(std::as_writable_bytes(std::span(values)));
     }
     std::optional<SampleGrid> getGrid(SampleType type, std::size_t columns, std::size_t rows);
+    /// Puts the rows of putRows() into `samples`, from row `first` on, and releases them.
+    bool getRows(SampleGrid& samples, std::size_t first, std::size_t end);
+    /// The bytes of putScratch(), from byte `first` of `values` on.
+    bool getScratch(ScratchBytes& values, std::size_t first, std::size_t bytes);
 
 private:
-    CheckpointReader() = default;
+    explicit CheckpointReader(FileBytes file)
+        : file_(std::move(file))
+    {}
 
     std::uint64_t left() const noexcept { return end_ - at_; }
     bool getBytes(std::span<std::byte> bytes);
@@ -104,7 +118,9 @@ private:
         return false;
     }
 
-    RawArray<std::byte> bytes_;
+    FileBytes file_;
+    RawArray<std::byte> piece_; // of the file, from piece_at_ on
+    std::uint64_t piece_at_ = 0;
     std::uint64_t at_ = 0;
     std::uint64_t end_ = 0;
     bool has_failed_ = false;

@@ -56,8 +56,9 @@ std::string subjectOf(const LevelBuild& build)
                                  .statistics = {},
                                  .scale = build.scale,
                                  .planes = {}};
-    return fmt::format("level file {}, at most {} means\n{}", kLevelFileVersion,
-                       build.mean_blocks_max, writtenHeader(header));
+    constexpr int kStateVersion = 2; // of checkpoints
+    return fmt::format("level file {}, state {}, at most {} means\n{}", kLevelFileVersion,
+                       kStateVersion, build.mean_blocks_max, writtenHeader(header));
 }
 
 // In this order.
@@ -320,14 +321,16 @@ Status finishLevelFile(const LevelFileOf& file,
     return Done{};
 }
 
-std::size_t levelThreads(const TileLayout& layout, std::size_t memory_bytes_max)
+std::size_t
+levelThreads(const TileLayout& layout, std::size_t memory_bytes_max, std::size_t band_bytes_max)
 {
-    // The memory of a thread in addition to shared memory: two tiles, two float copies of one, and
-    // its part of the incomplete bands of nested levels.
+    // The memory of a thread in addition to shared memory: two tiles, two float copies of one, its
+    // part of the incomplete bands of nested levels, and, if there are voids, rows of fine means.
     constexpr std::size_t kSamples = (kTileSide + 1) * (kTileSide + 1);
-    const std::size_t thread_bytes = kSamples * (2 * sampleBytes(layout.type) + 8) +
-                                     layout.columns / 8 * kTileSide * sampleBytes(layout.type) +
-                                     layout.columns * sizeof(float);
+    const std::size_t thread_bytes =
+        kSamples * (2 * sampleBytes(layout.type) + 8) +
+        std::min(band_bytes_max, layout.columns / 8 * kTileSide * sampleBytes(layout.type)) +
+        layout.columns * sizeof(float) * (layout.has_voids ? 7 : 1);
     return std::max<std::size_t>(1, memory_bytes_max / 2 / thread_bytes);
 }
 

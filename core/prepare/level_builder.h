@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <string>
 
 namespace marsview {
@@ -34,9 +35,11 @@ struct LevelBuild {
     std::chrono::milliseconds checkpoint_interval{3'000};
 };
 
-/// The number of threads that measure such a raster within so much memory; at least 1.
+/// The number of threads that measure such a raster within so much memory, if a thread's bands of
+/// levels need no more than `band_bytes_max`; at least 1.
 std::size_t levelThreads(const TileLayout& layout,
-                         std::size_t memory_bytes_max = LevelBuild{}.memory_bytes_max);
+                         std::size_t memory_bytes_max = LevelBuild{}.memory_bytes_max,
+                         std::size_t band_bytes_max = std::numeric_limits<std::size_t>::max());
 
 /// What a level file says of its raster.
 struct LevelFileOf {

@@ -95,7 +95,8 @@ public:
          const LevelSurvey& survey,
          LevelFileWriter* writer,
          JobMonitor& monitor,
-         const TileRowRange& rows)
+         const TileRowRange& rows,
+         const ScratchPlace* scratch)
         : source_(source)
         , scale_(scale)
         , layout_(source.layout())
@@ -107,7 +108,8 @@ public:
         , has_coarse_fills_(has_voids_ && layout_.topLevel() >= LevelFile::kFirstLevel)
         , tile_columns_(layout_.tileColumns(TileKind::Samples, 0))
         , tile_rows_(layout_.tileRows(TileKind::Samples, 0))
-        , coarse_fills_(layout_, SampleType::Float32, LevelFile::kFirstLevel, layout_.topLevel())
+        , coarse_fills_(
+              layout_, SampleType::Float32, LevelFile::kFirstLevel, layout_.topLevel(), scratch)
     {
         rows_.first = std::min(rows.first, tile_rows_);
         rows_.end = std::min(rows.end, tile_rows_);
@@ -442,7 +444,15 @@ private:
         if (is_filled) {
             heights = coarseHeights(tile, *fill);
         }
-        for (const LevelBand& band : coarse_fills_.add(id, heights ? &*heights : nullptr)) {
+        const auto complete = coarse_fills_.add(id, heights ? &*heights : nullptr);
+        if (!complete) {
+            return complete.error();
+        }
+        if (id.column % kTilesPerRelease == kTilesPerRelease - 1 ||
+            id.column + 1 == tile_columns_) {
+            coarse_fills_.release();
+        }
+        for (const LevelBand& band : *complete) {
             if (auto kept = keepCoarseFills(band); !kept) {
                 return kept;
             }
@@ -508,8 +518,9 @@ LevelErrorPass::LevelErrorPass(const TileSource& source,
                                const LevelSurvey& survey,
                                LevelFileWriter* writer,
                                JobMonitor& monitor,
-                               const TileRowRange& rows)
-    : impl_(std::make_unique<Impl>(source, scale, survey, writer, monitor, rows))
+                               const TileRowRange& rows,
+                               const ScratchPlace* scratch)
+    : impl_(std::make_unique<Impl>(source, scale, survey, writer, monitor, rows, scratch))
 {}
 
 LevelErrorPass::~LevelErrorPass() = default;

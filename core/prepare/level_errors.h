@@ -65,13 +65,15 @@ std::vector<SparseRow> sparseRowsFor(const TileLayout& layout, const TileRowRang
 class LevelErrorPass {
 public:
     /// With a null `writer`, fills are not stored. Only `rows` will be measured; the survey then
-    /// has these rows, the first one after them, and sparseRowsFor() them.
+    /// has these rows, the first one after them, and sparseRowsFor() them. Large bands of fills lie
+    /// where `scratch` says.
     LevelErrorPass(const TileSource& source,
                    const ElevationScale& scale,
                    const LevelSurvey& survey,
                    LevelFileWriter* writer,
                    JobMonitor& monitor,
-                   const TileRowRange& rows = {});
+                   const TileRowRange& rows = {},
+                   const ScratchPlace* scratch = nullptr);
     ~LevelErrorPass();
     LevelErrorPass(const LevelErrorPass&) = delete;
     LevelErrorPass& operator=(const LevelErrorPass&) = delete;

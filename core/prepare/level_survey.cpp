@@ -31,7 +31,7 @@ public:
         , tile_columns_(layout_.tileColumns(TileKind::Samples, 0))
         , tile_rows_(layout_.tileRows(TileKind::Samples, 0))
         , top_level_(layout_.topLevel())
-        , nested_(layout_, layout_.type, LevelFile::kFirstLevel, top_level_)
+        , nested_(layout_, layout_.type, LevelFile::kFirstLevel, top_level_, options.scratch)
     {
         found_.kept = surveyedBlocks(layout_, options_.mean_blocks_max);
         found_.ranges = RawRanges::toBeFilled(layout_.type, layout_.columns, layout_.rows);
@@ -165,6 +165,7 @@ public:
             }
             countTile();
         }
+        nested_.release();
         for (std::size_t level = 0; level < fine.size(); ++level) {
             if (auto written = found_.fine_means.write(level, fine[level]); !written) {
                 return written;
@@ -250,7 +251,14 @@ private:
             keepSparse(id, samples);
         }
         measureMeans(id, samples, fine);
-        for (const LevelBand& band : nested_.add(id, &samples)) {
+        const auto complete = nested_.add(id, &samples);
+        if (!complete) {
+            return complete.error();
+        }
+        if (id.column % kTilesPerRelease == kTilesPerRelease - 1) {
+            nested_.release();
+        }
+        for (const LevelBand& band : *complete) {
             if (auto kept = keepBand(band); !kept) {
                 return kept;
             }

@@ -43,7 +43,8 @@ struct SurveyOptions {
     ElevationScale scale;
     std::string means_path; // of the file of FineMeans; empty: the means of parts are added
     std::size_t mean_blocks_max = 4'000'000;
-    TileRowRange rows{}; // that are surveyed; the memory of others is not touched
+    TileRowRange rows{};                   // that are surveyed; the memory of others is not touched
+    const ScratchPlace* scratch = nullptr; // where large bands of levels lie
 };
 
 /// The first pass. Any threads may process rows; everything else is for one thread.

@@ -28,15 +28,6 @@ nestedAlong(std::size_t first, std::size_t end, std::size_t count, std::size_t l
     return samples;
 }
 
-SampleGrid zeros(SampleType type, std::size_t columns, std::size_t rows)
-{
-    // A small fraction of a level: failing to allocate it is treated like any failed allocation of
-    // the standard library.
-    SampleGrid grid = SampleGrid::create(type, columns, rows).value();
-    std::memset(grid.rowData(0), 0, columns * rows * sampleBytes(type));
-    return grid;
-}
-
 // The samples [first_column, first_column + columns) of all rows of a grid.
 SampleGrid columnsOf(const SampleGrid& samples, std::size_t first_column, std::size_t columns)
 {
@@ -62,14 +53,35 @@ SampleGrid columnsOf(const SampleGrid& samples, std::size_t first_column, std::s
 NestedLevels::NestedLevels(const TileLayout& layout,
                            SampleType type,
                            std::size_t first,
-                           std::size_t last)
+                           std::size_t last,
+                           const ScratchPlace* scratch)
     : layout_(layout)
     , type_(type)
     , first_(first)
     , last_(last)
+    , scratch_(scratch)
 {}
 
-std::vector<LevelBand> NestedLevels::add(const TileId& id, const SampleGrid* samples)
+Result<SampleGrid> NestedLevels::zeros(std::size_t columns, std::size_t rows) const
+{
+    Result<SampleGrid> grid = SampleGrid::create(type_, columns, rows, scratch_);
+    if (grid && !grid->isInFile()) { // a new file has zeros
+        std::memset(grid->rowData(0), 0, columns * rows * sampleBytes(type_));
+    }
+    return grid;
+}
+
+void NestedLevels::release()
+{
+    const std::lock_guard lock(mutex_);
+    for (const auto& [place, band] : bands_) {
+        if (band.samples) {
+            band.samples->releasePages();
+        }
+    }
+}
+
+Result<std::vector<LevelBand>> NestedLevels::add(const TileId& id, const SampleGrid* samples)
 {
     MARSVIEW_CHECK(samples == nullptr || samples->type() == type_);
     const std::size_t first_column = id.column * kTileSide;
@@ -96,7 +108,11 @@ std::vector<LevelBand> NestedLevels::add(const TileId& id, const SampleGrid* sam
             }
             if (samples != nullptr) {
                 if (!band.samples) {
-                    band.samples = zeros(type_, level_columns, band_rows);
+                    Result<SampleGrid> made = zeros(level_columns, band_rows);
+                    if (!made) {
+                        return std::move(made).error();
+                    }
+                    band.samples = std::move(made).value();
                 }
                 samples->visit([&](auto values) {
                     using T = std::remove_cvref_t<decltype(values(0, 0))>;
@@ -133,7 +149,7 @@ void NestedLevels::save(CheckpointWriter& to) const
         to.put(static_cast<std::uint64_t>(band.missing));
         to.put(static_cast<std::uint8_t>(band.samples ? 1 : 0));
         if (band.samples) {
-            to.putGrid(*band.samples);
+            to.putRows(*band.samples, 0, band.samples->rows());
         }
     }
 }
@@ -150,11 +166,12 @@ std::optional<NestedLevels::SavedBand> NestedLevels::readBand(CheckpointReader& 
     }
     SavedBand saved{level, tile_row, {.samples = {}, .missing = missing}};
     if (has_samples != 0) {
-        saved.band.samples = from.getGrid(type_, layout_.columnsAt(TileKind::Samples, level),
-                                          bandRows(level, tile_row));
-        if (!saved.band.samples) {
+        Result<SampleGrid> samples =
+            zeros(layout_.columnsAt(TileKind::Samples, level), bandRows(level, tile_row));
+        if (!samples || !from.getRows(*samples, 0, samples->rows())) {
             return std::nullopt;
         }
+        saved.band.samples = std::move(samples).value();
     }
     return saved;
 }
@@ -208,15 +225,22 @@ NestedLevels::merge(CheckpointReader& from, std::size_t first, std::size_t end)
                 continue;
             }
             if (!band.samples) {
-                band.samples = zeros(type_, columns, rows);
+                Result<SampleGrid> made = zeros(columns, rows);
+                if (!made) {
+                    return std::nullopt;
+                }
+                band.samples = std::move(made).value();
             }
             std::memcpy(band.samples->rowData(row), saved->band.samples->rowData(row),
                         columns * sampleBytes(type_));
-            for (std::size_t column = 0; column < columns; ++column) {
+            for (std::size_t column = 0; saved->band.samples->hasVoids() && column < columns;
+                 ++column) {
                 if (saved->band.samples->isVoid(column, row)) {
                     band.samples->markVoid(column, row);
                 }
             }
+            saved->band.samples->releasePages();
+            band.samples->releasePages();
         }
         if (band.missing == 0) {
             if (band.samples) {
@@ -242,6 +266,9 @@ Status forEachTile(const LevelBand& band,
                         .column = static_cast<std::uint32_t>(first / kTileSide),
                         .row = static_cast<std::uint32_t>(band.tile_row)};
         take(id, columnsOf(band.samples, first, layout.tileWidth(id)));
+        if (id.column % kTilesPerRelease == kTilesPerRelease - 1) {
+            band.samples.releasePages();
+        }
     }
     return Done{};
 }

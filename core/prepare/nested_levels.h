@@ -18,6 +18,9 @@
 
 namespace marsview {
 
+/// Wide bands are released after so many of their tiles, and after so many level-0 tiles.
+inline constexpr std::size_t kTilesPerRelease = 64;
+
 /// A row of tiles of a level: kTileSide rows of samples, or fewer at the end, with all columns.
 struct LevelBand {
     std::size_t level = 0;
@@ -29,12 +32,19 @@ struct LevelBand {
 /// Incomplete bands stay in memory: few if tiles arrive roughly row by row. Any thread.
 class NestedLevels {
 public:
-    /// Levels first … last. Samples of `type`; samples that are not set are 0.
-    NestedLevels(const TileLayout& layout, SampleType type, std::size_t first, std::size_t last);
+    /// Levels first … last. Samples of `type`; samples that are not set are 0. Large bands lie
+    /// where `scratch` says, which outlives the object.
+    NestedLevels(const TileLayout& layout,
+                 SampleType type,
+                 std::size_t first,
+                 std::size_t last,
+                 const ScratchPlace* scratch = nullptr);
 
     /// Copies the tile's samples and voids into the bands. Null means an empty tile. Returns the
-    /// bands that this tile completes.
-    std::vector<LevelBand> add(const TileId& id, const SampleGrid* samples);
+    /// bands that this tile completes. TooLarge if there is no room for a band.
+    Result<std::vector<LevelBand>> add(const TileId& id, const SampleGrid* samples);
+    /// Releases all bands, as ScratchBytes::release().
+    void release();
 
     /// Writes the incomplete bands. Do not call during add().
     void save(CheckpointWriter& to) const;
@@ -57,6 +67,7 @@ private:
         std::size_t tile_row = 0;
         Band band;
     };
+    Result<SampleGrid> zeros(std::size_t columns, std::size_t rows) const;
     std::optional<SavedBand> readBand(CheckpointReader& from) const;
     std::size_t bandRows(std::size_t level, std::size_t tile_row) const
     {
@@ -68,6 +79,7 @@ private:
     SampleType type_;
     std::size_t first_;
     std::size_t last_;
+    const ScratchPlace* scratch_;
     std::map<std::pair<std::size_t, std::size_t>, Band> bands_; // by level and row of tiles
 };
 

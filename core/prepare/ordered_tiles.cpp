@@ -31,12 +31,24 @@ void OrderedTiles::put(const Place& place, std::vector<std::byte> bytes, Stored 
         return;
     }
     const std::lock_guard lock(mutex_);
+    if (!is_ordered_) {
+        const auto part = writer_->append(bytes);
+        if (part) {
+            stored(*part);
+        } else if (!failure_) {
+            failure_ = part.error();
+        }
+        return;
+    }
     waiting_.insert_or_assign(place, Waiting{std::move(bytes), std::move(stored)});
 }
 
 Status OrderedTiles::done(std::size_t tile_row)
 {
     const std::lock_guard lock(mutex_);
+    if (failure_) {
+        return *failure_;
+    }
     done_.insert(tile_row);
     while (!done_.empty() && *done_.begin() == next_row_) {
         while (!waiting_.empty() && waiting_.begin()->first.tile_row <= next_row_) {

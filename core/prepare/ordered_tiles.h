@@ -10,6 +10,7 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -29,6 +30,8 @@ public:
         : writer_(writer)
     {}
 
+    /// Appends tiles as they are put instead: wide rows of them need not fit in memory.
+    void appendAtOnce() { is_ordered_ = false; }
     /// Rows before this one are in the file. For the thread that starts the others.
     void startAt(std::size_t tile_row) { next_row_ = tile_row; }
 
@@ -56,6 +59,8 @@ private:
 
     LevelFileWriter* writer_;
     std::mutex mutex_; // guards the following
+    bool is_ordered_ = true;
+    std::optional<Error> failure_; // of put()
     std::size_t next_row_ = 0;
     std::map<Place, Waiting> waiting_;
     std::set<std::size_t> done_; // rows from next_row_ on

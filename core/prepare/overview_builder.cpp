@@ -119,15 +119,37 @@ OverviewBuilder::OverviewBuilder(std::size_t columns,
         Level& level = levels_[i];
         level.columns = TileLayout::samplesAlong(TileKind::Means, i + 1, columns);
         level.rows = TileLayout::samplesAlong(TileKind::Means, i + 1, rows);
-        if (i < kStreamedLevels) {
-            level.samples.resize(level.columns * kTileSide * sampleBytes(type));
-            level.valid.resize(has_mask ? level.columns * kTileSide : 0);
-        }
     }
     if (levels_.size() > kStreamedLevels) {
         const std::size_t tiles = tile_columns_ * ((rows + kTileSide - 1) / kTileSide);
         sum_bits_.resize(tiles);
         counts_.resize(tiles);
+    }
+}
+
+Status OverviewBuilder::makeRoom(const ScratchPlace* scratch)
+{
+    for (std::size_t i = 0; i < std::min(levels_.size(), kStreamedLevels); ++i) {
+        Level& level = levels_[i];
+        const std::size_t pixels = level.columns * kTileSide;
+        auto samples = ScratchBytes::create(pixels * sampleBytes(type_),
+                                            ScratchBytes::Content::Zeros, scratch);
+        auto valid =
+            ScratchBytes::create(has_mask_ ? pixels : 0, ScratchBytes::Content::Zeros, scratch);
+        if (!samples || !valid) {
+            return samples ? std::move(valid).error() : std::move(samples).error();
+        }
+        level.samples = std::move(samples).value();
+        level.valid = std::move(valid).value();
+    }
+    return Done{};
+}
+
+void OverviewBuilder::release() const noexcept
+{
+    for (const Level& level : levels_) {
+        level.samples.release();
+        level.valid.release();
     }
 }
 
@@ -157,7 +179,8 @@ void OverviewBuilder::putPixels(Level& level,
             samples[x] = value;
         }
         if (has_mask_) {
-            std::uint8_t* const valid = level.valid.data() + (row + y) * level.columns + column;
+            auto* const valid = reinterpret_cast<std::uint8_t*>(level.valid.data()) +
+                                (row + y) * level.columns + column;
             for (std::size_t x = 0; x < width; ++x) {
                 valid[x] = counts[y * width + x] > 0 ? 1 : 0;
             }
@@ -226,6 +249,7 @@ void OverviewBuilder::addTile(const SampleGrid& grid,
     if (levels_.empty()) {
         return;
     }
+    MARSVIEW_CHECK(levels_[0].samples.size() > 0);
     grid.visit([&]<typename T>(GridView<const T> samples) {
         addSamples<T>(samples, grid, grid_row, tile_column, tile_row);
     });
@@ -236,8 +260,12 @@ OverviewBuilder::Rows OverviewBuilder::rowsOf(std::size_t level, std::size_t til
     MARSVIEW_CHECK(level >= 1 && level <= std::min(levels_.size(), kStreamedLevels));
     const Level& of = levels_[level - 1];
     const std::size_t first = (tile_row >> level) * kTileSide;
-    return {of.samples.data(), has_mask_ ? of.valid.data() : nullptr, of.columns,
-            std::min(kTileSide, of.rows - first)};
+    return {.samples = of.samples.data(),
+            .valid = reinterpret_cast<const std::uint8_t*>(of.valid.data()),
+            .columns = of.columns,
+            .rows = std::min(kTileSide, of.rows - first),
+            .samples_in = &of.samples,
+            .valid_in = &of.valid};
 }
 
 OverviewBuilder::Rows OverviewBuilder::makeLevel(std::size_t level)
@@ -249,8 +277,10 @@ OverviewBuilder::Rows OverviewBuilder::makeLevel(std::size_t level)
     }
     made_level_ = level;
     Level& made = levels_[level - 1];
-    made.samples.resize(made.columns * made.rows * sampleBytes(type_));
-    made.valid.resize(has_mask_ ? made.columns * made.rows : 0);
+    const std::size_t pixels = made.columns * made.rows;
+    made.samples =
+        ScratchBytes::create(pixels * sampleBytes(type_), ScratchBytes::Content::Zeros).value();
+    made.valid = ScratchBytes::create(has_mask_ ? pixels : 0, ScratchBytes::Content::Zeros).value();
     dispatchSampleType(type_, [&](auto zero) {
         using T = decltype(zero);
         using Sum = SumOf<T>;
@@ -265,7 +295,10 @@ OverviewBuilder::Rows OverviewBuilder::makeLevel(std::size_t level)
         MARSVIEW_CHECK(made_columns_ == made.columns && made_rows_ == made.rows);
         putPixels<T>(made, 0, 0, made.columns, made.rows, sums.data(), counts_.data());
     });
-    return {made.samples.data(), has_mask_ ? made.valid.data() : nullptr, made.columns, made.rows};
+    return {.samples = made.samples.data(),
+            .valid = reinterpret_cast<const std::uint8_t*>(made.valid.data()),
+            .columns = made.columns,
+            .rows = made.rows};
 }
 
 OverviewBuilder::TileSums OverviewBuilder::sumsOf(std::size_t first_tile_row,

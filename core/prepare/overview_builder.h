@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/base/large_vector.h"
+#include "core/base/scratch_bytes.h"
 #include "core/raster/sample_grid.h"
 #include "core/tiles/tile.h"
 
@@ -38,6 +39,10 @@ public:
 
     std::size_t levelCount() const noexcept { return levels_.size(); }
 
+    /// Call before addTile(). Makes room for a row of tiles of every level; a large one lies where
+    /// `scratch` says.
+    Status makeRoom(const ScratchPlace* scratch = nullptr);
+
     /// Tile (`tile_column`, `tile_row`) of the raster, whose first row is row `grid_row` of `grid`,
     /// which is as wide as the raster. Several threads may add tiles of one row at the same time.
     void addTile(const SampleGrid& grid,
@@ -51,9 +56,24 @@ public:
         const std::uint8_t* valid = nullptr; // 1 or 0 each; null without mask
         std::size_t columns = 0;
         std::size_t rows = 0;
+        // What they lie in, if that may be a file.
+        const ScratchBytes* samples_in = nullptr;
+        const ScratchBytes* valid_in = nullptr;
+
+        /// As ScratchBytes::release().
+        void release() const noexcept
+        {
+            for (const ScratchBytes* bytes : {samples_in, valid_in}) {
+                if (bytes != nullptr) {
+                    bytes->release();
+                }
+            }
+        }
     };
     /// After the tiles of `tile_row`, for 1 <= level <= kStreamedLevels.
     Rows rowsOf(std::size_t level, std::size_t tile_row) const;
+    /// Releases the rows of all levels, as ScratchBytes::release().
+    void release() const noexcept;
 
     /// After all tiles: a level beyond kStreamedLevels, whole. Ascending, each once.
     Rows makeLevel(std::size_t level);
@@ -75,8 +95,8 @@ private:
     struct Level {
         std::size_t columns = 0;
         std::size_t rows = 0;
-        std::vector<std::byte> samples; // a row of tiles, or the whole level beyond kStreamedLevels
-        std::vector<std::uint8_t> valid;
+        ScratchBytes samples; // a row of tiles, or the whole level beyond kStreamedLevels
+        ScratchBytes valid;
     };
     template <typename T>
     void addSamples(GridView<const T> samples,

@@ -12,11 +12,6 @@
 namespace marsview {
 namespace {
 
-std::size_t tilesAlong(std::size_t samples)
-{
-    return (samples + kTileSide - 1) / kTileSide;
-}
-
 // Copies the part of a tile within the grid and repeats the last column and row beyond.
 std::vector<std::byte> tileBytes(const std::byte* rows,
                                  std::size_t columns,
@@ -70,12 +65,16 @@ std::vector<std::byte> encodeMask(const TiffPage& page, std::vector<std::byte> t
 
 } // namespace
 
-TileRowWriter::TileRowWriter(TiffTiles tiles, const RasterInfo& info, std::string path)
+TileRowWriter::TileRowWriter(TiffTiles tiles,
+                             const RasterInfo& info,
+                             std::string path,
+                             const RowMemory& memory)
     : tiles_(std::move(tiles))
     , path_(std::move(path))
     , columns_(info.columns)
     , rows_(info.rows)
     , type_(info.type)
+    , tiles_at_once_(memory.tilesAtOnce(info.type))
 {
     const std::size_t levels = overviewCount(columns_, rows_) + 1;
     constexpr std::size_t kNone = ~std::size_t{0};
@@ -83,13 +82,14 @@ TileRowWriter::TileRowWriter(TiffTiles tiles, const RasterInfo& info, std::strin
     mask_pages_.assign(info.needsVoidMask() ? levels : 0, kNone);
 }
 
-Result<TileRowWriter> TileRowWriter::open(const std::string& path, const RasterInfo& info)
+Result<TileRowWriter>
+TileRowWriter::open(const std::string& path, const RasterInfo& info, const RowMemory& memory)
 {
     Result<TiffTiles> tiles = TiffTiles::open(path);
     if (!tiles) {
         return std::move(tiles).error();
     }
-    TileRowWriter writer(std::move(tiles).value(), info, path);
+    TileRowWriter writer(std::move(tiles).value(), info, path, memory);
     if (!writer.findPages()) {
         return writeError(path, 0, "was not created with the requested layout");
     }
@@ -117,17 +117,30 @@ bool TileRowWriter::findPages()
            std::all_of(mask_pages_.begin(), mask_pages_.end(), is_found);
 }
 
-Status TileRowWriter::append(std::size_t page, std::size_t tile_row, EncodedTiles& tiles)
+// `encode` makes a tile from its column. `release` is called between steps.
+template <typename Encode, typename Release>
+Status
+TileRowWriter::appendRow(std::size_t page, std::size_t tile_row, Encode&& encode, Release&& release)
 {
-    for (std::size_t i = 0; i < tiles.size(); ++i) {
-        if (tiles[i].empty()) {
-            return Error{ErrorCode::TooLarge,
-                         fmt::format("{}: not enough memory to compress its tiles", path_)};
+    const std::size_t count = tiles_.pages()[page].tile_columns;
+    for (std::size_t first = 0; first < count; first += tiles_at_once_) {
+        std::vector<std::vector<std::byte>> tiles(std::min(tiles_at_once_, count - first));
+        parallelRanges(tiles.size(), 1, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                tiles[i] = encode(first + i);
+            }
+        });
+        for (std::size_t i = 0; i < tiles.size(); ++i) {
+            if (tiles[i].empty()) {
+                return Error{ErrorCode::TooLarge,
+                             fmt::format("{}: not enough memory to compress its tiles", path_)};
+            }
+            if (Status written = tiles_.append(page, tile_row * count + first + i, tiles[i]);
+                !written) {
+                return written;
+            }
         }
-        if (Status written = tiles_.append(page, tile_row * tiles.size() + i, tiles[i]); !written) {
-            return written;
-        }
-        tiles[i] = {};
+        release();
     }
     return Done{};
 }
@@ -138,65 +151,66 @@ Status TileRowWriter::copyRow(const SampleGrid& grid,
                               OverviewBuilder& overviews)
 {
     const std::size_t height = std::min(kTileSide, rows_ - tile_row * kTileSide);
-    const std::size_t count = tilesAlong(columns_);
     const std::size_t sample_bytes = sampleBytes(type_);
-    EncodedTiles tiles(count);
-    EncodedTiles masks(hasMasks() ? count : 0);
     const TiffPage& page = tiles_.pages()[pages_[0]];
     const std::byte* const rows = grid.visit([&](auto samples) {
         return reinterpret_cast<const std::byte*>(samples.row(grid_row).data());
     });
-    parallelRanges(count, 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            std::vector<std::byte> tile = tileBytes(rows, columns_, height, i, sample_bytes);
-            tiles[i] = encodeTile(tile, kTileSide, sample_bytes, page.predictor);
-            if (!masks.empty()) {
-                const TiffPage& mask_page = tiles_.pages()[mask_pages_[0]];
-                const std::size_t first = i * kTileSide;
-                masks[i] = encodeMask(mask_page,
-                                      maskBytes(mask_page, std::min(kTileSide, columns_ - first),
-                                                height, [&](std::size_t x, std::size_t y) {
-                                                    return !grid.isVoid(first + x, grid_row + y);
-                                                }));
-            }
-            overviews.addTile(grid, grid_row, i, tile_row);
-        }
-    });
-    if (Status written = append(pages_[0], tile_row, tiles); !written || masks.empty()) {
+    const auto release = [&] {
+        grid.releasePages();
+        overviews.release();
+    };
+    Status written = appendRow(
+        pages_[0], tile_row,
+        [&](std::size_t column) {
+            std::vector<std::byte> tile = tileBytes(rows, columns_, height, column, sample_bytes);
+            overviews.addTile(grid, grid_row, column, tile_row);
+            return encodeTile(tile, kTileSide, sample_bytes, page.predictor);
+        },
+        release);
+    if (!written || !hasMasks()) {
         return written;
     }
-    return append(mask_pages_[0], tile_row, masks);
+    const TiffPage& mask_page = tiles_.pages()[mask_pages_[0]];
+    const auto encode_mask = [&](std::size_t column) {
+        const std::size_t first = column * kTileSide;
+        const auto is_valid = [&](std::size_t x, std::size_t y) {
+            return !grid.isVoid(first + x, grid_row + y);
+        };
+        return encodeMask(mask_page, maskBytes(mask_page, std::min(kTileSide, columns_ - first),
+                                               height, is_valid));
+    };
+    return appendRow(mask_pages_[0], tile_row, encode_mask, release);
 }
 
 Status TileRowWriter::writeLevelRow(std::size_t level,
                                     const OverviewBuilder::Rows& rows,
                                     std::size_t tile_row)
 {
-    const std::size_t count = tilesAlong(rows.columns);
     const std::size_t sample_bytes = sampleBytes(type_);
-    EncodedTiles tiles(count);
-    EncodedTiles masks(hasMasks() ? count : 0);
     const TiffPage& page = tiles_.pages()[pages_[level]];
-    parallelRanges(count, 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
+    const auto release = [&] { rows.release(); };
+    Status written = appendRow(
+        pages_[level], tile_row,
+        [&](std::size_t column) {
             std::vector<std::byte> tile =
-                tileBytes(rows.samples, rows.columns, rows.rows, i, sample_bytes);
-            tiles[i] = encodeTile(tile, kTileSide, sample_bytes, page.predictor);
-            if (!masks.empty()) {
-                const TiffPage& mask_page = tiles_.pages()[mask_pages_[level]];
-                const std::size_t first = i * kTileSide;
-                masks[i] = encodeMask(
-                    mask_page, maskBytes(mask_page, std::min(kTileSide, rows.columns - first),
-                                         rows.rows, [&](std::size_t x, std::size_t y) {
-                                             return rows.valid[y * rows.columns + first + x] != 0;
-                                         }));
-            }
-        }
-    });
-    if (Status written = append(pages_[level], tile_row, tiles); !written || masks.empty()) {
+                tileBytes(rows.samples, rows.columns, rows.rows, column, sample_bytes);
+            return encodeTile(tile, kTileSide, sample_bytes, page.predictor);
+        },
+        release);
+    if (!written || !hasMasks()) {
         return written;
     }
-    return append(mask_pages_[level], tile_row, masks);
+    const TiffPage& mask_page = tiles_.pages()[mask_pages_[level]];
+    const auto encode_mask = [&](std::size_t column) {
+        const std::size_t first = column * kTileSide;
+        const auto is_valid = [&](std::size_t x, std::size_t y) {
+            return rows.valid[y * rows.columns + first + x] != 0;
+        };
+        return encodeMask(mask_page, maskBytes(mask_page, std::min(kTileSide, rows.columns - first),
+                                               rows.rows, is_valid));
+    };
+    return appendRow(mask_pages_[level], tile_row, encode_mask, release);
 }
 
 Status TileRowWriter::writeLevel(std::size_t level, const OverviewBuilder::Rows& all)

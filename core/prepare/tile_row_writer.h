@@ -3,6 +3,7 @@
 
 #include "core/base/result.h"
 #include "core/prepare/overview_builder.h"
+#include "core/prepare/row_memory.h"
 #include "core/prepare/tiff/tiff_tiles.h"
 #include "core/raster/raster_info.h"
 #include "core/raster/sample_grid.h"
@@ -13,12 +14,13 @@
 
 namespace marsview {
 
-/// The file is one of writeGeoTiffSkeleton(). Tiles of a row are encoded on all cores. For one
-/// thread.
+/// The file is one of writeGeoTiffSkeleton(). Tiles of a row are encoded on all cores, a limited
+/// number at a time. For one thread.
 class TileRowWriter {
 public:
     /// Opens the file. Unreadable if it was not laid out for such a map.
-    static Result<TileRowWriter> open(const std::string& path, const RasterInfo& info);
+    static Result<TileRowWriter>
+    open(const std::string& path, const RasterInfo& info, const RowMemory& memory = {});
 
     TiffTiles& tiles() noexcept { return tiles_; }
     const TiffTiles& tiles() const noexcept { return tiles_; }
@@ -41,17 +43,20 @@ public:
     Status writeLevel(std::size_t level, const OverviewBuilder::Rows& all);
 
 private:
-    using EncodedTiles = std::vector<std::vector<std::byte>>;
-
-    TileRowWriter(TiffTiles tiles, const RasterInfo& info, std::string path);
+    TileRowWriter(TiffTiles tiles,
+                  const RasterInfo& info,
+                  std::string path,
+                  const RowMemory& memory);
     bool findPages();
-    Status append(std::size_t page, std::size_t tile_row, EncodedTiles& tiles);
+    template <typename Encode, typename Release>
+    Status appendRow(std::size_t page, std::size_t tile_row, Encode&& encode, Release&& release);
 
     TiffTiles tiles_;
     std::string path_;
     std::size_t columns_;
     std::size_t rows_;
     SampleType type_;
+    std::size_t tiles_at_once_;
     // Pages by level: 0 is the raster.
     std::vector<std::size_t> pages_;
     std::vector<std::size_t> mask_pages_;

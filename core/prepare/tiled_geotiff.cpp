@@ -163,6 +163,9 @@ bool Preparation::tryResume()
 
 Status Preparation::begin()
 {
+    if (Status room = overviews_.makeRoom(); !room) {
+        return room;
+    }
     std::error_code ignored;
     const bool was_begun =
         fs::exists(part_path_, ignored) && fs::exists(checkpointOf(job_.path), ignored);

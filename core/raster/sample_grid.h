@@ -3,12 +3,12 @@
 
 #include "core/base/grid_view.h"
 #include "core/base/result.h"
+#include "core/base/scratch_bytes.h"
 #include "core/raster/sample_type.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -37,8 +37,12 @@ struct VoidRule {
 /// Reading concurrently is safe; writing is for the one thread that fills the grid.
 class SampleGrid {
 public:
-    /// Uninitialized samples, none void. TooLarge if the memory cannot be allocated.
-    static Result<SampleGrid> create(SampleType type, std::size_t columns, std::size_t rows);
+    /// Uninitialized samples, none void. A large grid lies where `scratch` says; its samples are 0.
+    /// TooLarge if there is no room.
+    static Result<SampleGrid> create(SampleType type,
+                                     std::size_t columns,
+                                     std::size_t rows,
+                                     const ScratchPlace* scratch = nullptr);
 
     SampleType type() const noexcept { return type_; }
     std::size_t columns() const noexcept { return columns_; }
@@ -52,18 +56,18 @@ public:
         const std::size_t index = row * columns_ + column;
         return dispatchSampleType(type_, [&](auto zero) {
             using T = decltype(zero);
-            return static_cast<double>(reinterpret_cast<const T*>(samples_.get())[index]);
+            return static_cast<double>(reinterpret_cast<const T*>(samples_.data())[index]);
         });
     }
     bool isVoid(std::size_t column, std::size_t row) const noexcept
     {
-        if (voids_.empty()) {
+        if (!has_voids_) {
             return false;
         }
         const std::size_t word = row * words_per_row_ + column / 64;
-        return ((voids_[word] >> (column % 64)) & 1U) != 0;
+        return ((voidWords()[word] >> (column % 64)) & 1U) != 0;
     }
-    bool hasVoids() const noexcept { return !voids_.empty(); }
+    bool hasVoids() const noexcept { return has_voids_; }
 
     /// Calls `function(GridView<const T>)` with the samples in their own type.
     template <typename F>
@@ -72,14 +76,14 @@ public:
         return dispatchSampleType(type_, [&](auto zero) -> decltype(auto) {
             using T = decltype(zero);
             return std::forward<F>(function)(
-                GridView<const T>(reinterpret_cast<const T*>(samples_.get()), columns_, rows_));
+                GridView<const T>(reinterpret_cast<const T*>(samples_.data()), columns_, rows_));
         });
     }
 
     /// The beginning of a row's samples, for writing: columns() × sampleBytes(type()) bytes.
     std::byte* rowData(std::size_t row) noexcept
     {
-        return samples_.get() + row * columns_ * sampleBytes(type_);
+        return samples_.data() + row * columns_ * sampleBytes(type_);
     }
 
     void markVoid(std::size_t column, std::size_t row);
@@ -88,17 +92,39 @@ public:
     /// Marks the samples of rows [first, first + count) that `rule` calls void, and returns what
     /// these rows hold. Samples already marked stay void.
     SampleStatistics applyRule(const VoidRule& rule, std::size_t first, std::size_t count);
-    void clearVoids() noexcept { voids_.clear(); }
+    void clearVoids() noexcept;
+    /// Copies `part`, with its voids, to this place. The samples there must not be void yet.
+    void put(const SampleGrid& part, std::size_t column, std::size_t row);
+
+    bool isInFile() const noexcept { return samples_.isFile(); }
+    /// As ScratchBytes::release().
+    void releasePages() const noexcept
+    {
+        samples_.release();
+        voids_.release();
+    }
 
 private:
     SampleGrid() = default;
 
+    const std::uint64_t* voidWords() const noexcept
+    {
+        return reinterpret_cast<const std::uint64_t*>(voids_.data());
+    }
+    std::uint64_t* voidWords() noexcept { return reinterpret_cast<std::uint64_t*>(voids_.data()); }
+    std::size_t voidBytes() const noexcept
+    {
+        return words_per_row_ * rows_ * sizeof(std::uint64_t);
+    }
+
     SampleType type_ = SampleType::Int16;
     std::size_t columns_ = 0;
     std::size_t rows_ = 0;
-    std::unique_ptr<std::byte[]> samples_;
+    ScratchBytes samples_;
     std::size_t words_per_row_ = 0;
-    std::vector<std::uint64_t> voids_; // one bit per sample, rows padded to words; empty: no voids
+    ScratchBytes
+        voids_; // one bit per sample, rows padded to words; created when needed, or in a file
+    bool has_voids_ = false;
 };
 
 } // namespace marsview

@@ -9,6 +9,7 @@
 #include "core/prepare/geotiff_skeleton.h"
 #include "core/prepare/parts/errors_part.h"
 #include "core/prepare/parts/merged_survey.h"
+#include "core/prepare/parts/overview_edges.h"
 #include "core/prepare/parts/part_state.h"
 #include "core/prepare/parts/survey_part.h"
 #include "core/prepare/tiff/cloud_order.h"
@@ -70,7 +71,7 @@ public:
                      map.info.type,
                      map.info.nodata,
                      map.info.needsVoidMask())
-        , edges_(map.info.type, map.tileRows())
+        , edges_(map.info.type, map.tileRows(), map.memory.place())
     {}
 
     Status run()
@@ -97,7 +98,7 @@ public:
     {
         for (std::size_t part = 1; part <= map_.parts; ++part) {
             for (const char* ending : {kPartRaster, kPartLevels, kPartSurvey, kPartMeans,
-                                       kPartBorder, kPartFills, kPartErrors}) {
+                                       kPartBorder, kPartEdges, kPartFills, kPartErrors}) {
                 removePartFile(map_.file(part, ending));
             }
         }
@@ -111,7 +112,7 @@ private:
             !made) {
             return made;
         }
-        Result<TileRowWriter> writer = TileRowWriter::open(shared_path_, map_.info);
+        Result<TileRowWriter> writer = TileRowWriter::open(shared_path_, map_.info, map_.memory);
         if (!writer) {
             return std::move(writer).error();
         }
@@ -147,7 +148,8 @@ private:
         survey_.emplace(SurveyOptions{.source = source_.get(),
                                       .scale = map_.scale,
                                       .means_path = {},
-                                      .mean_blocks_max = map_.mean_blocks_max},
+                                      .mean_blocks_max = map_.mean_blocks_max,
+                                      .scratch = map_.memory.place()},
                         level_writer_.get(), monitor_);
         if (Status begun = survey_->begin(); !begun) {
             return begun;
@@ -188,7 +190,7 @@ private:
         if (!state) {
             return std::move(state).error();
         }
-        PartTiles tiles(map_);
+        PartTiles tiles;
         if (!tiles.restore(*state)) {
             return ofPart(part, kPartSurvey, {ErrorCode::Damaged, "is damaged"});
         }
@@ -200,14 +202,18 @@ private:
         }
         std::copy(tiles.sums.begin(), tiles.sums.end(), sums.sums.begin());
         std::copy(tiles.counts.begin(), tiles.counts.end(), sums.counts.begin());
-        if (Status merged = edges_.merge(tiles.edges, *shared_); !merged) {
-            return merged;
+        Result<CheckpointReader> edges = openPartState(map_, part, kPartEdges);
+        if (!edges) {
+            return std::move(edges).error();
+        }
+        if (Status merged = edges_.merge(*edges, *shared_); !merged) {
+            return ofPart(part, kPartEdges, merged.error());
         }
         const Result<FileBytes> levels = FileBytes::open(map_.file(part, kPartLevels));
         if (!levels) {
             return levels.error();
         }
-        Status merged = mergeSurvey(*state, *survey_, source_->layout(), rows, &*levels,
+        Status merged = mergeSurvey(*state, *survey_, source_->layout(), rows, &*levels, &*edges,
                                     map_.file(part, kPartMeans));
         return merged ? merged : Status(ofPart(part, kPartSurvey, merged.error()));
     }
@@ -216,7 +222,8 @@ private:
     {
         const JobPart merging(monitor_, kMergeShare, 2 * kMergeShare);
         const LevelSurvey& survey = survey_->finish();
-        errors_.emplace(*source_, map_.scale, survey, level_writer_.get(), monitor_);
+        errors_.emplace(*source_, map_.scale, survey, level_writer_.get(), monitor_, TileRowRange{},
+                        map_.memory.place());
         if (Status begun = errors_->begin(); !begun) {
             return begun;
         }
@@ -474,7 +481,8 @@ Result<FileLock> lockFile(const std::string& path)
 
 Result<JoinReport> joinParts(const OpenRaster& raster, const JoinJob& job, JobMonitor& monitor)
 {
-    const Result<PartedMap> map = partedMap(raster, job.parts, job.folder, job.mean_blocks_max);
+    const Result<PartedMap> map =
+        partedMap(raster, job.parts, job.folder, job.mean_blocks_max, job.memory);
     if (!map) {
         return map.error();
     }

@@ -4,6 +4,7 @@
 #include "core/base/job_monitor.h"
 #include "core/base/result.h"
 #include "core/prepare/level_builder.h"
+#include "core/prepare/row_memory.h"
 #include "core/prepare/tiled_geotiff.h"
 #include "core/raster/open_raster.h"
 
@@ -20,6 +21,7 @@ struct JoinJob {
     std::size_t parts = 1;
     TiledGeoTiffJob::Order order = TiledGeoTiffJob::Order::AsMade;
     std::size_t mean_blocks_max = LevelBuild{}.mean_blocks_max; // the parts'
+    RowMemory memory{};                                         // as in PartJob
 };
 
 struct JoinReport {

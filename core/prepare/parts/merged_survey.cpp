@@ -30,10 +30,10 @@ Status restoreSurvey(const PartedMap& map,
     };
     const PartRows rows = map.rowsOf(part);
     Status done = merge(part, kPartSurvey, [&](CheckpointReader& state) -> Status {
-        PartTiles tiles(map);
-        return tiles.restore(state)
-                   ? mergeSurvey(state, pass, layout, rows, nullptr, map.file(part, kPartMeans))
-                   : Status(Error{ErrorCode::Damaged, "is damaged"});
+        PartTiles tiles;
+        return tiles.restore(state) ? mergeSurvey(state, pass, layout, rows, nullptr, nullptr,
+                                                  map.file(part, kPartMeans))
+                                    : Status(Error{ErrorCode::Damaged, "is damaged"});
     });
     for (std::size_t other = 1; done && other <= map.parts; ++other) {
         if (other == part) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/base/result.h"
+#include "core/base/scratch_bytes.h"
 #include "core/prepare/checkpoint_file.h"
 #include "core/prepare/overview_builder.h"
 #include "core/prepare/parts/part_rows.h"
@@ -16,12 +17,15 @@
 
 namespace marsview {
 
-/// The pixels of one part, in rows of tiles of overviews that it does not have alone.
+/// The pixels of one part, or while joining of several, in rows of tiles of overviews that no part
+/// has alone.
 class OverviewEdges {
 public:
-    OverviewEdges(SampleType type, std::size_t tile_rows)
+    /// Large rows lie where `scratch` says, which outlives the object.
+    OverviewEdges(SampleType type, std::size_t tile_rows, const ScratchPlace* scratch)
         : type_(type)
         , tile_rows_(tile_rows)
+        , scratch_(scratch)
     {}
 
     /// After the raster's row of tiles `tile_row` of the part was added to `overviews`: writes the
@@ -33,10 +37,9 @@ public:
                   TileRowWriter& writer);
 
     void save(CheckpointWriter& to) const;
-    bool restore(CheckpointReader& from);
-
-    /// Adds the pixels of the next part, and writes the rows of tiles that are now complete.
-    Status merge(const OverviewEdges& next, TileRowWriter& writer);
+    /// Adds the pixels that the next part saved, and writes the rows of tiles that are now
+    /// complete. Damaged if they cannot be read.
+    Status merge(CheckpointReader& next, TileRowWriter& writer);
     /// The rows of tiles, by level and number, that merge() has written.
     const std::vector<std::pair<std::size_t, std::size_t>>& written() const { return written_; }
 
@@ -44,16 +47,18 @@ private:
     struct Pixels {
         std::uint64_t columns = 0;
         std::uint64_t rows_all = 0; // of the row of tiles
-        std::vector<std::uint8_t> samples;
-        std::vector<std::uint8_t> valid; // empty without mask
-        std::size_t rows(std::size_t sample_bytes) const
-        {
-            return samples.size() / (columns * sample_bytes);
-        }
+        std::uint64_t rows = 0;     // so far
+        ScratchBytes samples;
+        ScratchBytes valid; // empty without mask
     };
+    Result<Pixels> pixelsFor(std::uint64_t columns,
+                             std::uint64_t rows_all,
+                             std::uint64_t rows,
+                             bool has_mask) const;
 
     SampleType type_;
     std::size_t tile_rows_;
+    const ScratchPlace* scratch_;
     std::map<std::pair<std::uint64_t, std::uint64_t>, Pixels> pixels_; // by level and row of tiles
     std::vector<std::pair<std::size_t, std::size_t>> written_;
 };

@@ -17,7 +17,7 @@ namespace marsview {
 namespace {
 
 // To be increased with every change of the files.
-constexpr int kVersion = 3;
+constexpr int kVersion = 4;
 
 } // namespace
 
@@ -36,8 +36,13 @@ std::string PartedMap::file(std::size_t part, const char* ending) const
 Result<PartedMap> partedMap(const OpenRaster& raster,
                             std::size_t parts,
                             const std::string& folder,
-                            std::size_t mean_blocks_max)
+                            std::size_t mean_blocks_max,
+                            RowMemory memory)
 {
+    if (!memory.scratch) {
+        memory.scratch.emplace();
+    }
+    memory.scratch->folder = folder;
     const Result<SourceIdentity> identity = identify(raster.spec.path);
     if (!identity) {
         return identity.error();
@@ -49,7 +54,8 @@ Result<PartedMap> partedMap(const OpenRaster& raster,
                      .source_path = identity->path,
                      .parts = parts,
                      .folder = folder,
-                     .mean_blocks_max = mean_blocks_max};
+                     .mean_blocks_max = mean_blocks_max,
+                     .memory = std::move(memory)};
 }
 
 void beginPartState(CheckpointWriter& to, const PartedMap& map)
@@ -125,7 +131,6 @@ void PartTiles::save(CheckpointWriter& to) const
     levels.save(to);
     means.save(to);
     to.putArray(checksums);
-    edges.save(to);
     to.putArray(sums);
     to.putArray(counts);
 }
@@ -133,8 +138,7 @@ void PartTiles::save(CheckpointWriter& to) const
 bool PartTiles::restore(CheckpointReader& from)
 {
     return from.get(raster_bytes) && levels.restore(from) && means.restore(from) &&
-           from.getAny(checksums) && edges.restore(from) && from.getAny(sums) &&
-           from.getAny(counts);
+           from.getAny(checksums) && from.getAny(sums) && from.getAny(counts);
 }
 
 bool PartTiles::areOnDisk(const PartedMap& map, std::size_t part) const
@@ -143,12 +147,14 @@ bool PartTiles::areOnDisk(const PartedMap& map, std::size_t part) const
     return bytesOnDisk(map.file(part, kPartRaster)) == raster_bytes &&
            bytesOnDisk(map.file(part, kPartLevels)) == levels.bytes &&
            bytesOnDisk(map.file(part, kPartMeans)) == means.bytes &&
-           std::filesystem::exists(map.file(part, kPartBorder), ignored);
+           std::filesystem::exists(map.file(part, kPartBorder), ignored) &&
+           std::filesystem::exists(map.file(part, kPartEdges), ignored);
 }
 
 bool PartTiles::areIntact(const PartedMap& map, std::size_t part) const
 {
     return areOnDisk(map, part) && openPartState(map, part, kPartBorder) &&
+           openPartState(map, part, kPartEdges) &&
            FileMark::of(map.file(part, kPartLevels)) == levels &&
            FileMark::of(map.file(part, kPartMeans)) == means;
 }
@@ -180,7 +186,7 @@ std::vector<std::size_t> missingParts(const PartedMap& map)
     std::vector<std::size_t> missing;
     for (std::size_t part = 1; part <= map.parts; ++part) {
         Result<CheckpointReader> state = openPartState(map, part, kPartSurvey);
-        PartTiles tiles(map);
+        PartTiles tiles;
         if (!state || !tiles.restore(*state) || !tiles.areOnDisk(map, part)) {
             missing.push_back(part);
         }

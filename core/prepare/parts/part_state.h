@@ -3,8 +3,9 @@
 
 #include "core/base/result.h"
 #include "core/prepare/checkpoint_file.h"
-#include "core/prepare/parts/overview_edges.h"
+#include "core/prepare/overview_builder.h"
 #include "core/prepare/parts/part_rows.h"
+#include "core/prepare/row_memory.h"
 #include "core/raster/open_raster.h"
 #include "core/tiles/geotiff_tile_source.h"
 
@@ -28,6 +29,7 @@ struct PartedMap {
     std::size_t parts = 1;
     std::string folder;
     std::size_t mean_blocks_max = 1; // as in LevelBuild
+    RowMemory memory{};              // with the folder; not part of subject()
 
     std::size_t tileRows() const { return (info.rows + kTileSide - 1) / kTileSide; }
     PartRows rowsOf(std::size_t part) const { return rowsOfPart(tileRows(), part, parts); }
@@ -41,7 +43,8 @@ struct PartedMap {
 Result<PartedMap> partedMap(const OpenRaster& raster,
                             std::size_t parts,
                             const std::string& folder,
-                            std::size_t mean_blocks_max);
+                            std::size_t mean_blocks_max,
+                            RowMemory memory);
 
 /// Endings of the files of a part.
 inline constexpr const char* kPartRaster = "tif";    // a tiled GeoTIFF with the part's tiles only
@@ -49,6 +52,7 @@ inline constexpr const char* kPartLevels = "levels"; // tiles of its nested leve
 inline constexpr const char* kPartSurvey = "survey"; // what the first pass found
 inline constexpr const char* kPartMeans = "means";   // finest means, on large maps with voids
 inline constexpr const char* kPartBorder = "border"; // what other parts need of it
+inline constexpr const char* kPartEdges = "edges";   // its share of tiles that no part has alone
 inline constexpr const char* kPartFills = "fills";   // tiles of fills
 inline constexpr const char* kPartErrors = "errors"; // what the second pass found
 
@@ -81,13 +85,9 @@ struct PartTiles {
     FileMark levels;
     FileMark means;
     std::vector<std::uint32_t> checksums; // of encoded tiles, in the order of forEachTileRow()
-    OverviewEdges edges;
-    std::vector<std::uint64_t> sums; // of OverviewBuilder::sumsOf()
+    std::vector<std::uint64_t> sums;      // of OverviewBuilder::sumsOf()
     std::vector<std::uint64_t> counts;
 
-    explicit PartTiles(const PartedMap& map)
-        : edges(map.info.type, map.tileRows())
-    {}
     void save(CheckpointWriter& to) const;
     /// False if it cannot be read.
     bool restore(CheckpointReader& from);

@@ -8,6 +8,7 @@
 #include "core/prepare/geotiff_skeleton.h"
 #include "core/prepare/parts/errors_part.h"
 #include "core/prepare/parts/merged_survey.h"
+#include "core/prepare/parts/overview_edges.h"
 #include "core/prepare/parts/part_state.h"
 #include "core/prepare/parts/survey_part.h"
 #include "core/prepare/source_rows.h"
@@ -31,7 +32,10 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 // Of the threads that measure: a part is small, and other parts may run beside it.
-constexpr std::size_t kMemoryBytesMax = std::size_t{256} << 20;
+constexpr std::size_t kMemoryBytesMax = std::size_t{160} << 20;
+
+// A row of tiles with the memory of so many small arrays is wide.
+constexpr std::size_t kOrderedRows = 4;
 
 Status renameTo(const std::string& from, const std::string& to)
 {
@@ -62,7 +66,7 @@ public:
     bool isSurveyed() const
     {
         Result<CheckpointReader> state = openPartState(map_, part_, kPartSurvey);
-        PartTiles tiles(map_);
+        PartTiles tiles;
         return state && tiles.restore(*state) && tiles.areIntact(map_, part_);
     }
 
@@ -78,7 +82,7 @@ public:
     bool hasIntactTiles() const
     {
         Result<CheckpointReader> state = openPartState(map_, part_, kPartSurvey);
-        PartTiles tiles(map_);
+        PartTiles tiles;
         if (!state || !tiles.restore(*state)) {
             return false;
         }
@@ -88,9 +92,9 @@ public:
         return found && *found == tiles.checksums;
     }
 
-    Status copy(PartTiles& tiles)
+    Status copy(PartTiles& tiles, OverviewEdges& edges)
     {
-        for (const char* ending : {kPartSurvey, kPartBorder, kPartMeans, kPartErrors}) {
+        for (const char* ending : {kPartSurvey, kPartBorder, kPartEdges, kPartMeans, kPartErrors}) {
             removePartFile(map_.file(part_, ending));
         }
         if (Status made =
@@ -98,7 +102,7 @@ public:
             !made) {
             return made;
         }
-        Result<TileRowWriter> writer = TileRowWriter::open(new_raster_, map_.info);
+        Result<TileRowWriter> writer = TileRowWriter::open(new_raster_, map_.info, map_.memory);
         Result<RasterFile> source = RasterFile::open(raster_.spec.path, raster_.spec.band);
         if (!writer || !source) {
             return writer ? std::move(source).error() : std::move(writer).error();
@@ -106,7 +110,10 @@ public:
         const RasterInfo& info = map_.info;
         OverviewBuilder overviews(info.columns, info.rows, info.type, info.nodata,
                                   info.needsVoidMask());
-        SourceRows rows(*source, info);
+        if (Status room = overviews.makeRoom(map_.memory.place()); !room) {
+            return room;
+        }
+        SourceRows rows(*source, info, map_.memory);
         Status copied = rows.each(
             rows_.first, rows_.end,
             [&](const SampleGrid& grid, std::size_t grid_row, std::size_t tile_row) -> Status {
@@ -115,7 +122,7 @@ public:
                 }
                 Status written = writer->copyRow(grid, grid_row, tile_row, overviews);
                 if (written) {
-                    written = tiles.edges.addRow(overviews, tile_row, rows_, *writer);
+                    written = edges.addRow(overviews, tile_row, rows_, *writer);
                 }
                 monitor_.report(static_cast<double>(tile_row + 1 - rows_.first) /
                                 static_cast<double>(rows_.end - rows_.first));
@@ -138,7 +145,7 @@ public:
         return Done{};
     }
 
-    Status survey(PartTiles& tiles)
+    Status survey(PartTiles& tiles, const OverviewEdges& edges)
     {
         const auto source = openPartTiles(map_, new_raster_);
         if (!source) {
@@ -154,13 +161,14 @@ public:
                               .scale = map_.scale,
                               .means_path = map_.file(part_, kPartMeans),
                               .mean_blocks_max = map_.mean_blocks_max,
-                              .rows = {rows_.first, rows_.end}},
+                              .rows = {rows_.first, rows_.end},
+                              .scratch = map_.memory.place()},
                              writer->get(), monitor_);
         if (Status begun = pass.begin(); !begun) {
             return begun;
         }
-        pass.state().ordered.startAt(rows_.first);
-        TileReaders readers(**source, levelThreads(layout, kMemoryBytesMax));
+        startTiles(pass.state().ordered);
+        TileReaders readers(**source, threads(layout));
         const auto survey_row = [&pass](TileReader& reader, std::size_t row) {
             return pass.surveyRow(reader, row);
         };
@@ -188,6 +196,13 @@ public:
         beginPartState(border, map_);
         if (!saveBorder(border, pass, layout, rows_) || !border.finish()) {
             return writingState(map_.file(part_, kPartBorder));
+        }
+        CheckpointWriter shared(map_.file(part_, kPartEdges));
+        beginPartState(shared, map_);
+        edges.save(shared);
+        pass.state().nested.save(shared);
+        if (!shared.finish()) {
+            return writingState(map_.file(part_, kPartEdges));
         }
         tiles.means = FileMark::of(map_.file(part_, kPartMeans));
         CheckpointWriter to(map_.file(part_, kPartSurvey));
@@ -224,6 +239,21 @@ public:
     void discard() const { removePartFile(new_raster_); }
 
 private:
+    std::size_t threads(const TileLayout& layout) const
+    {
+        // Small bands are few, and threads on neighboring rows share them.
+        return levelThreads(layout, kMemoryBytesMax, map_.memory.place()->bytes_min / 4);
+    }
+    // Tiles of wide rows are stored as they are made; joining puts them in order.
+    void startTiles(OrderedTiles& ordered) const
+    {
+        ordered.startAt(rows_.first);
+        if (map_.info.columns * kTileSide * sampleBytes(map_.info.type) >=
+            kOrderedRows * map_.memory.place()->bytes_min) {
+            ordered.appendAtOnce();
+        }
+    }
+
     // Of the encoded tiles that the part has alone.
     Result<std::vector<std::uint32_t>> checksums(const TileRowWriter& file) const
     {
@@ -257,12 +287,12 @@ private:
             return std::move(writer).error();
         }
         LevelErrorPass pass(source, map_.scale, survey, writer->get(), monitor_,
-                            {rows_.first, rows_.end});
+                            {rows_.first, rows_.end}, map_.memory.place());
         if (Status begun = pass.begin(); !begun) {
             return begun;
         }
-        pass.state().ordered.startAt(rows_.first);
-        TileReaders readers(source, levelThreads(layout, kMemoryBytesMax));
+        startTiles(pass.state().ordered);
+        TileReaders readers(source, threads(layout));
         const auto measure_row = [&pass](TileReader& reader, std::size_t row) {
             return pass.measureRow(reader, row);
         };
@@ -300,16 +330,17 @@ constexpr double kSurveyEnd = 0.8;
 Status copyAndSurvey(Part& part, const PartedMap& map, PartReport& report, JobMonitor& monitor)
 {
     const Clock::time_point start = Clock::now();
-    PartTiles tiles(map);
+    PartTiles tiles;
+    OverviewEdges edges(map.info.type, map.tileRows(), map.memory.place());
     {
         const JobPart copying(monitor, 0.0, kCopyingShare);
-        if (Status copied = part.copy(tiles); !copied) {
+        if (Status copied = part.copy(tiles, edges); !copied) {
             return copied;
         }
     }
     report.copy_seconds = secondsSince(start);
     const JobPart surveying(monitor, kCopyingShare, kSurveyEnd);
-    Status surveyed = part.survey(tiles);
+    Status surveyed = part.survey(tiles, edges);
     report.is_copied = surveyed.has_value();
     report.level_seconds = secondsSince(start) - report.copy_seconds;
     return surveyed;
@@ -364,7 +395,8 @@ Result<PartReport> preparePart(const OpenRaster& raster, const PartJob& job, Job
         return std::move(surface).error();
     }
     const SourceStamp stamp = stampOf(raster.spec.path);
-    const Result<PartedMap> map = partedMap(raster, job.parts, job.folder, job.mean_blocks_max);
+    const Result<PartedMap> map =
+        partedMap(raster, job.parts, job.folder, job.mean_blocks_max, job.memory);
     if (!map) {
         return map.error();
     }

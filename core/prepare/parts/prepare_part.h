@@ -5,6 +5,7 @@
 #include "core/base/result.h"
 #include "core/prepare/level_builder.h"
 #include "core/prepare/parts/part_rows.h"
+#include "core/prepare/row_memory.h"
 #include "core/raster/open_raster.h"
 
 #include <cstddef>
@@ -19,6 +20,7 @@ struct PartJob {
     std::size_t part = 1; // 1 … parts
     std::size_t parts = 1;
     std::size_t mean_blocks_max = LevelBuild{}.mean_blocks_max; // the same for all parts
+    RowMemory memory{}; // the folder of its scratch files is that of the parts
 };
 
 struct PartReport {

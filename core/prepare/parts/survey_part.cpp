@@ -89,9 +89,10 @@ void saveSurvey(CheckpointWriter& to,
         to.put(stored.checksum);
     });
     to.put(state.void_count.load());
-    to.putGrid(gridOfRows(*found.sparse, sparseRows(layout, part)));
-    to.putGrid(gridOfRows(*found.first_rows, firstRows(part)));
-    state.nested.save(to);
+    const SurveyRows sparse = sparseRows(layout, part);
+    to.putRows(*found.sparse, sparse.first, sparse.end);
+    const SurveyRows first_rows = firstRows(part);
+    to.putRows(*found.first_rows, first_rows.first, first_rows.end);
     found.fine_means.saveChecksums(to);
 }
 
@@ -100,6 +101,7 @@ Status mergeSurvey(CheckpointReader& from,
                    const TileLayout& layout,
                    const PartRows& part,
                    const FileBytes* tiles,
+                   CheckpointReader* bands,
                    const std::string& means_path)
 {
     const LevelSurveyPass::State state = pass.state();
@@ -142,22 +144,19 @@ Status mergeSurvey(CheckpointReader& from,
     state.void_count += void_count;
     const SurveyRows sparse = sparseRows(layout, part);
     const SurveyRows first_rows = firstRows(part);
-    const auto sparse_grid = from.getGrid(layout.type, found.sparse->columns(),
-                                          std::max<std::size_t>(1, sparse.count()));
-    const auto first_grid =
-        from.getGrid(layout.type, layout.columns, std::max<std::size_t>(1, first_rows.count()));
-    if (!sparse_grid || !first_grid) {
+    if (!from.getRows(*found.sparse, sparse.first, sparse.end) ||
+        !from.getRows(*found.first_rows, first_rows.first, first_rows.end)) {
         return notOfThisPart();
     }
-    putRows(*sparse_grid, sparse, *found.sparse);
-    putRows(*first_grid, first_rows, *found.first_rows);
-    const auto bands = state.nested.merge(from, part.first, part.end);
-    if (!bands) {
-        return notOfThisPart();
-    }
-    for (const LevelBand& band : *bands) {
-        if (Status kept = pass.keepBand(band); !kept) {
-            return kept;
+    if (bands != nullptr) {
+        const auto complete = state.nested.merge(*bands, part.first, part.end);
+        if (!complete) {
+            return notOfThisPart();
+        }
+        for (const LevelBand& band : *complete) {
+            if (Status kept = pass.keepBand(band); !kept) {
+                return kept;
+            }
         }
     }
     if (!found.fine_means.add(from, means_path, {part.first, part.end})) {

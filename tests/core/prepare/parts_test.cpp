@@ -5,6 +5,8 @@
 #include "core/prepare/parts/part_rows.h"
 #include "core/prepare/parts/prepare_part.h"
 #include "core/prepare/prepare_map.h"
+#include "core/prepare/source_rows.h"
+#include "core/prepare/tiled_geotiff.h"
 #include "core/raster/source_identity.h"
 #include "core/tiles/geotiff_tile_source.h"
 #include "tests/support/make_raster.h"
@@ -90,8 +92,9 @@ protected:
     Result<PartReport> part(const std::string& source, std::size_t number, std::size_t parts) const
     {
         JobMonitor monitor;
-        return preparePart(*openRaster({.path = source}),
-                           {.folder = partsFolder(), .part = number, .parts = parts}, monitor);
+        return preparePart(
+            *openRaster({.path = source}),
+            {.folder = partsFolder(), .part = number, .parts = parts, .memory = memory_}, monitor);
     }
     Result<JoinReport> join(const std::string& source,
                             std::size_t parts,
@@ -99,7 +102,11 @@ protected:
     {
         JobMonitor monitor;
         return joinParts(*openRaster({.path = source}),
-                         {.path = out(), .folder = partsFolder(), .parts = parts, .order = order},
+                         {.path = out(),
+                          .folder = partsFolder(),
+                          .parts = parts,
+                          .order = order,
+                          .memory = memory_},
                          monitor);
     }
     // Who makes the second pass.
@@ -126,7 +133,14 @@ protected:
         EXPECT_TRUE(a.levels == b.levels) << what << ": the level files differ";
     }
 
+    // Every array in a scratch file, and a tile at a time.
+    static RowMemory inFiles()
+    {
+        return {.scratch = ScratchPlace{.folder = {}, .bytes_min = 1}, .columns_at_once = 1};
+    }
+
     test::TempFolder folder_;
+    RowMemory memory_;
 };
 
 template <typename T>
@@ -166,7 +180,11 @@ TEST_F(Parts, BecomeTheSameBytesForEverySampleTypeAndKindOfVoid)
 {
     const auto check = [&](const std::string& name, const test::RasterRecipe& recipe) {
         const std::string source = test::writeVrt(folder_, name, recipe);
-        expectEqual(joined(source, 3), once(source), name);
+        const Files whole = once(source);
+        memory_ = {};
+        expectEqual(joined(source, 3), whole, name);
+        memory_ = inFiles();
+        expectEqual(joined(source, 3), whole, name + ", in steps of a tile");
     };
     check("bytes", recipeOf<std::uint8_t>(520, 1400));
     check("wide integers", recipeOf<std::int32_t>(520, 1400));
@@ -201,6 +219,51 @@ TEST_F(Parts, BecomeTheSameBytesForEverySampleTypeAndKindOfVoid)
     });
     test::writeVrt(folder_, "mask", test::recipeFor(900, mask));
     check("masked", masked);
+}
+
+// As for maps of a million columns: everything as wide as the map in files, a tile at a time.
+TEST_F(Parts, BecomeTheSameBytesInStepsOfATile)
+{
+    const std::string source = test::writeVrt(folder_, "map", recipeOf<std::int16_t>(1900, 2200));
+    const Files whole = once(source);
+    memory_ = inFiles();
+    for (const std::size_t parts : {1U, 9U}) {
+        expectEqual(joined(source, parts), whole, std::to_string(parts) + " parts");
+    }
+    expectEqual(joined(source, 4, Measured::WhileJoining), whole, "measured while joining");
+}
+
+TEST_F(Parts, ReadTheSameRowsInPieces)
+{
+    const std::vector<float> samples = terrain<float>(1300, 700);
+    const std::string strips = test::writeVrt(folder_, "map", test::recipeFor(1300, samples));
+    JobMonitor monitor;
+    const std::string tiles = folder_.file("tiles.tif");
+    ASSERT_TRUE(writeTiledGeoTiff({.source = strips, .path = tiles}, monitor));
+    for (const std::string& path : {strips, tiles}) {
+        Result<OpenRaster> raster = openRaster({.path = path});
+        ASSERT_TRUE(raster);
+        RowMemory memory = inFiles();
+        memory.scratch->folder = folder_.path();
+        SourceRows pieces(raster->file, raster->info, memory);
+        std::size_t next = 0;
+        const auto compare = [&](const SampleGrid& grid, std::size_t grid_row,
+                                 std::size_t tile_row) -> Status {
+            EXPECT_EQ(tile_row, next++);
+            EXPECT_TRUE(grid.isInFile());
+            for (std::size_t row = 0; row < std::min<std::size_t>(256, 700 - tile_row * 256);
+                 ++row) {
+                for (std::size_t column = 0; column < 1300; ++column) {
+                    const std::size_t i = (tile_row * 256 + row) * 1300 + column;
+                    EXPECT_EQ(grid.raw(column, grid_row + row), samples[i]);
+                }
+            }
+            return Done{};
+        };
+        ASSERT_TRUE(pieces.each(0, 3, compare));
+        EXPECT_EQ(next, 3U);
+        EXPECT_EQ(pieces.samplesRead(), 1300U * 700U);
+    }
 }
 
 // More than 256 rows of tiles: overviews that no part can make, because their pixels lie in tiles
@@ -301,7 +364,8 @@ TEST_F(Parts, AreMadeAgainWhereTheirFilesAreDamaged)
         ASSERT_TRUE(make(number));
     }
     const std::string name = partsFolder() + "/1-of-2.";
-    for (const char* ending : {"tif", "levels", "survey", "means", "border", "fills", "errors"}) {
+    for (const char* ending :
+         {"tif", "levels", "survey", "means", "border", "edges", "fills", "errors"}) {
         const std::string whole = test::readFile(name + ending);
         ASSERT_FALSE(whole.empty()) << ending;
         std::string damaged = whole;

@@ -2,6 +2,7 @@
 #include "tests/support/nan.h"
 #include "tests/support/random.h"
 #include "tests/support/sample_types.h"
+#include "tests/support/temp_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -9,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <limits>
 #include <string>
 #include <vector>
@@ -186,6 +188,60 @@ TYPED_TEST(SampleGridOf, VoidsAreExactlyTheSamplesThatStandForNothing)
             EXPECT_EQ(grid.hasVoids(), voids > 0);
         }
     }
+}
+
+TYPED_TEST(SampleGridOf, KeepsPartsThatArePutInMemoryAndInFiles)
+{
+    using T = TypeParam;
+    test::Random random;
+    const test::TempFolder folder;
+    const ScratchPlace scratch{.folder = folder.path(), .bytes_min = 1};
+    const std::vector<T> values = palette<T>();
+    for (int round = 0; round < 20; ++round) {
+        const std::size_t columns = 1 + random.below(200);
+        const std::size_t rows = 1 + random.below(9);
+        const std::size_t first = random.below(150);
+        std::vector<T> samples(columns * rows);
+        for (T& sample : samples) {
+            sample = values[random.below(values.size())];
+        }
+        SampleGrid part = gridOf(columns, samples);
+        part.applyRule({static_cast<double>(values[0])}, 0, rows);
+        for (const ScratchPlace* place : {static_cast<const ScratchPlace*>(nullptr), &scratch}) {
+            SampleGrid grid =
+                SampleGrid::create(part.type(), first + columns + 70, rows + 2, place).value();
+            EXPECT_EQ(grid.isInFile(), place != nullptr);
+            EXPECT_TRUE(std::filesystem::is_empty(folder.path())); // its files have no names
+            grid.put(part, first, 1);
+            grid.releasePages();
+            for (std::size_t row = 0; row < grid.rows(); ++row) {
+                for (std::size_t column = 0; column < grid.columns(); ++column) {
+                    const bool is_in =
+                        row > 0 && row <= rows && column >= first && column < first + columns;
+                    ASSERT_EQ(grid.isVoid(column, row),
+                              is_in && part.isVoid(column - first, row - 1));
+                    if (is_in && !grid.isVoid(column, row)) {
+                        ASSERT_EQ(grid.raw(column, row), part.raw(column - first, row - 1));
+                    }
+                }
+            }
+            grid.clearVoids();
+            EXPECT_FALSE(grid.hasVoids());
+            grid.markVoid(0, 0);
+            EXPECT_FALSE(grid.isVoid(first, 1) && first > 0);
+        }
+    }
+}
+
+TEST(SampleGrid, InAFileNamesTheFolderThatHasNoRoom)
+{
+    const test::TempFolder folder;
+    const std::string missing = folder.file("missing");
+    const ScratchPlace scratch{.folder = missing, .bytes_min = 1};
+    const auto grid = SampleGrid::create(SampleType::Int16, 10, 10, &scratch);
+    ASSERT_FALSE(grid);
+    EXPECT_EQ(grid.error().code, ErrorCode::TooLarge);
+    EXPECT_TRUE(grid.error().message.starts_with(missing + ": no room for 0.0 MB"));
 }
 
 TYPED_TEST(SampleGridOf, BandsOfRowsAddUpToTheWhole)
