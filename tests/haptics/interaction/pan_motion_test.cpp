@@ -62,6 +62,24 @@ TEST(PanMotion, DragLimitsTheSpeedOfAPulledMap)
     EXPECT_NEAR(-force_n.x, options.mass_kg * options.drag_per_s * kSpeed, 1e-6);
 }
 
+// grabMap: the hold begins with the force that the hand feels, whatever hand and map do. The force
+// of a moment later, F = k s + b (v - v'), is the same.
+TEST(PanMotion, TheForceContinuesAtTheGrab)
+{
+    const PanOptions options;
+    for (const Vec3& hand_m_per_s : {Vec3{}, Vec3{0.2, -0.1, 0.3}, Vec3{-0.3, 0.0, 0.0}}) {
+        for (const Vec3& map_m_per_s : {Vec3{}, Vec3{0.1, 0.25, 0.0}}) {
+            PanState state{.velocity_m_per_s = map_m_per_s};
+            grabMap(options, state, {0.4, -0.7, 1.5}, hand_m_per_s);
+            constexpr double kMomentS = 1e-9;
+            const Vec3 force_n =
+                pullMap(options, state, hand_m_per_s * kMomentS, 1.0, kMomentS).force_n;
+            EXPECT_NEAR(length(force_n - Vec3{0.4, -0.7, 0.0}), 0.0, 1e-6);
+            EXPECT_NEAR(length(state.velocity_m_per_s - map_m_per_s), 0.0, 1e-6);
+        }
+    }
+}
+
 TEST(PanMotion, MomentumComesFromTheHand)
 {
     Random random;

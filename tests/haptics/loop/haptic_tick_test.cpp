@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace marsview::test {
@@ -562,6 +563,29 @@ TEST(HapticTick, AJumpOfTheDeviceSwitchesTheForceOffAndContinuesFromThere)
     EXPECT_EQ(rig.at({0.07, 0.0, -0.025}).reason, ForceOffReason::None);
 }
 
+// Beyond the workspace by its own width, here 0.16, 0.12 and 0.12 m, or by 0.25 m if that is more.
+TEST(HapticTick, APositionFarOutsideTheWorkspaceIsImplausibleOnEachAxis)
+{
+    for (const Vec3& axis : {Vec3{1.0, 0.0, 0.0}, Vec3{0.0, 1.0, 0.0}, Vec3{0.0, 0.0, 1.0}}) {
+        for (const double side : {1.0, -1.0}) {
+            Rig rig;
+            const auto reason_at = [&](double beyond_m) {
+                const Vec3& high = {0.08, 0.06, 0.06};
+                rig.state.has_hand = false; // no jump
+                return rig.at(WorkspacePoint{} + axis * (side * (dot(axis, high) + beyond_m)))
+                    .reason;
+            };
+            EXPECT_EQ(reason_at(0.249), ForceOffReason::None);
+            EXPECT_EQ(reason_at(0.251), ForceOffReason::DeviceImplausible);
+        }
+    }
+    Rig wide;
+    wide.device.workspace = {{-0.2, -0.2, -0.2}, {0.2, 0.2, 0.2}};
+    EXPECT_EQ(wide.at({0.599, 0.0, 0.0}).reason, ForceOffReason::None);
+    wide.state.has_hand = false;
+    EXPECT_EQ(wide.at({0.601, 0.0, 0.0}).reason, ForceOffReason::DeviceImplausible);
+}
+
 TEST(HapticTick, AMapThatJumpsPutsTheProxyStraightAboveTheHand)
 {
     // A ridge between the two points, higher than the device: a proxy that slid over would be
@@ -697,6 +721,95 @@ TEST(HapticTick, StiffnessIsLimitedByTheDeviceAndTheLoop)
     silent.force_n_peak = 0.0;
     EXPECT_EQ(usedStiffness(1e5, silent, 1e-3, 1e-3), 1e5) << "it cannot push";
     EXPECT_EQ(usedStiffness(std::nan(""), device, 1e-3, 1e-3), 0.0);
+}
+
+// The mean of about 50 ticks: p' = p + 0.02 (dt - p). From 1 ms on, after n ticks of 2 ms it is
+// 2 ms - 0.98^n ms.
+TEST(HapticTick, ASlowLoopLearnsItsPeriodAndSoftensTheSurface)
+{
+    Rig rig;
+    rig.settings.stiffness_n_per_m = 900.0;
+    EXPECT_EQ(rig.at({}, 0.5e-3).stiffness_n_per_m, 600.0);
+    EXPECT_EQ(rig.state.period_s, 1e-3) << "at least the device's";
+    for (int n = 1; n <= 100; ++n) {
+        const double period_ms = 2.0 - std::pow(0.98, n);
+        ASSERT_NEAR(rig.at({}, 2e-3).stiffness_n_per_m, 600.0 / period_ms, 1e-9) << n;
+    }
+    const double learned_s = rig.state.period_s;
+    rig.at({}, 0.0);
+    EXPECT_EQ(rig.state.period_s, learned_s) << "nothing is learned from no time";
+    Rig slow; // from the first tick on
+    slow.settings.stiffness_n_per_m = 900.0;
+    EXPECT_NEAR(slow.at({}, 4e-3).stiffness_n_per_m, 600.0 / 4.0, 1e-9);
+    DeviceCapabilities device = desktopDevice();
+    device.rate_hz = 500.0;
+    EXPECT_EQ(tickOptionsFor(device).period_s, 2e-3);
+    device.rate_hz = 0.0; // unstated
+    EXPECT_EQ(tickOptionsFor(device).period_s, 1e-3);
+}
+
+TEST(HapticTick, TheShareOfTheForceIsBetweenNoneAndAll)
+{
+    for (const auto& [share, force_n] :
+         {std::pair(0.5, 1.0), std::pair(1.0, 2.0), std::pair(3.0, 2.0), std::pair(-1.0, 0.0)}) {
+        Rig rig;
+        rig.settings.force_share = share;
+        rig.at({});
+        EXPECT_NEAR(rig.to({0.0, 0.0, -0.025}).force_n.z, force_n, 1e-9) << share;
+    }
+}
+
+// The naive sum of section 4.2 of the paper: beside a wall the surface pushes as elsewhere.
+TEST(HapticTick, TheNaiveSumDoesNotFade)
+{
+    Rig rig;
+    rig.options.mixing = ForceMixing::NaiveSum;
+    rig.at({});
+    EXPECT_NEAR(rig.to({0.0, 0.0, -0.025}).force_n.z, 2.0, 1e-9);
+    const StepResult beyond = rig.to({0.082, 0.0, -0.025});
+    EXPECT_NEAR(beyond.force_n.z, 2.0, 1e-9);
+    EXPECT_NEAR(beyond.force_n.x, -0.8, 1e-9);
+}
+
+// A surplus of energy is damped along the motion: F - b v. What the surface's spring holds, F²/2k,
+// counts as energy that it may return.
+TEST(HapticTick, DampsASurplusOfEnergyAndLetsSpringsReturnTheirs)
+{
+    Rig rig;
+    rig.at({});
+    rig.to({0.0, 0.0, -0.025}); // 5 mm deep
+    rig.options.is_passivity_kept = true;
+    rig.state.passivity = {.energy_j = -1e-3, .velocity_m_per_s = {0.0, 0.0, 0.1}};
+    const StepResult damped = rig.at({0.0, 0.0, -0.0249});
+    EXPECT_GT(damped.damping_n_s_per_m, 0.0);
+    EXPECT_NEAR(damped.force_n.z,
+                400.0 * 4.9e-3 - damped.damping_n_s_per_m * rig.state.passivity.velocity_m_per_s.z,
+                1e-9);
+    rig.state.passivity.energy_j = 1.0;
+    rig.at({0.0, 0.0, -0.025});
+    EXPECT_NEAR(rig.state.passivity.energy_j,
+                rig.options.passivity.energy_j_max + 0.5 * 2.0 * 2.0 / 400.0, 1e-12);
+}
+
+// The hand is 20 mm from the map's edge, which glides towards it at 0.3 m/s.
+TEST(HapticTick, AGlidingMapStopsWhereItsEdgeReachesTheHand)
+{
+    Rig rig;
+    rig.at({});
+    rig.to({-0.05, 0.0, 0.0});
+    rig.settings.frame.place.x -= 30.0; // the edge, 100 m west of the middle, is now at -70 mm
+    ++rig.settings.frame_number;
+    rig.to({-0.05, 0.0, 0.0});
+    rig.state.modes.pan.velocity_m_per_s = {0.3, 0.0, 0.0};
+    rig.at({-0.05, 0.0, 0.0});
+    EXPECT_GT(rig.state.modes.pan.velocity_m_per_s.x, 0.29);
+    StepResult result;
+    for (int i = 0; i < 200; ++i) {
+        result = rig.at({-0.05, 0.0, 0.0});
+        EXPECT_FALSE(result.is_at_edge);
+    }
+    EXPECT_NEAR(rig.state.frame.toScene({-0.05, 0.0, 0.0}).x, -100.0, 1e-9);
+    EXPECT_EQ(rig.state.modes.pan.velocity_m_per_s, Vec3{});
 }
 
 TEST(HapticTick, AModelThatIsGivenTheGoalsAgainGivesTheSameProxiesToTheBit)
