@@ -1,6 +1,7 @@
 #include "core/prepare/tile_row_writer.h"
 
 #include "core/base/parallel.h"
+#include "core/prepare/tiff/tiff_tiles.h"
 #include "core/prepare/tiff/tile_encoding.h"
 #include "core/tiles/tile.h"
 
@@ -65,7 +66,7 @@ std::vector<std::byte> encodeMask(const TiffPage& page, std::vector<std::byte> t
 
 } // namespace
 
-TileRowWriter::TileRowWriter(TiffTiles tiles,
+TileRowWriter::TileRowWriter(std::unique_ptr<EncodedTiles> tiles,
                              const RasterInfo& info,
                              std::string path,
                              const RowMemory& memory)
@@ -89,7 +90,15 @@ TileRowWriter::open(const std::string& path, const RasterInfo& info, const RowMe
     if (!tiles) {
         return std::move(tiles).error();
     }
-    TileRowWriter writer(std::move(tiles).value(), info, path, memory);
+    return to(std::make_unique<TiffTiles>(std::move(tiles).value()), info, path, memory);
+}
+
+Result<TileRowWriter> TileRowWriter::to(std::unique_ptr<EncodedTiles> tiles,
+                                        const RasterInfo& info,
+                                        const std::string& path,
+                                        const RowMemory& memory)
+{
+    TileRowWriter writer(std::move(tiles), info, path, memory);
     if (!writer.findPages()) {
         return writeError(path, 0, "was not created with the requested layout");
     }
@@ -99,7 +108,7 @@ TileRowWriter::open(const std::string& path, const RasterInfo& info, const RowMe
 // Finds the page of every level by its size.
 bool TileRowWriter::findPages()
 {
-    const std::vector<TiffPage>& pages = tiles_.pages();
+    const std::vector<TiffPage>& pages = tiles_->pages();
     for (std::size_t i = 0; i < pages.size(); ++i) {
         for (std::size_t level = 0; level < pages_.size(); ++level) {
             if (pages[i].columns == TileLayout::samplesAlong(TileKind::Means, level, columns_) &&
@@ -122,7 +131,7 @@ template <typename Encode, typename Release>
 Status
 TileRowWriter::appendRow(std::size_t page, std::size_t tile_row, Encode&& encode, Release&& release)
 {
-    const std::size_t count = tiles_.pages()[page].tile_columns;
+    const std::size_t count = tiles_->pages()[page].tile_columns;
     for (std::size_t first = 0; first < count; first += tiles_at_once_) {
         std::vector<std::vector<std::byte>> tiles(std::min(tiles_at_once_, count - first));
         parallelRanges(tiles.size(), 1, [&](std::size_t begin, std::size_t end) {
@@ -135,7 +144,7 @@ TileRowWriter::appendRow(std::size_t page, std::size_t tile_row, Encode&& encode
                 return Error{ErrorCode::TooLarge,
                              fmt::format("{}: not enough memory to compress its tiles", path_)};
             }
-            if (Status written = tiles_.append(page, tile_row * count + first + i, tiles[i]);
+            if (Status written = tiles_->append(page, tile_row * count + first + i, tiles[i]);
                 !written) {
                 return written;
             }
@@ -152,7 +161,7 @@ Status TileRowWriter::copyRow(const SampleGrid& grid,
 {
     const std::size_t height = std::min(kTileSide, rows_ - tile_row * kTileSide);
     const std::size_t sample_bytes = sampleBytes(type_);
-    const TiffPage& page = tiles_.pages()[pages_[0]];
+    const TiffPage& page = tiles_->pages()[pages_[0]];
     const std::byte* const rows = grid.visit([&](auto samples) {
         return reinterpret_cast<const std::byte*>(samples.row(grid_row).data());
     });
@@ -171,7 +180,7 @@ Status TileRowWriter::copyRow(const SampleGrid& grid,
     if (!written || !hasMasks()) {
         return written;
     }
-    const TiffPage& mask_page = tiles_.pages()[mask_pages_[0]];
+    const TiffPage& mask_page = tiles_->pages()[mask_pages_[0]];
     const auto encode_mask = [&](std::size_t column) {
         const std::size_t first = column * kTileSide;
         const auto is_valid = [&](std::size_t x, std::size_t y) {
@@ -188,7 +197,7 @@ Status TileRowWriter::writeLevelRow(std::size_t level,
                                     std::size_t tile_row)
 {
     const std::size_t sample_bytes = sampleBytes(type_);
-    const TiffPage& page = tiles_.pages()[pages_[level]];
+    const TiffPage& page = tiles_->pages()[pages_[level]];
     const auto release = [&] { rows.release(); };
     Status written = appendRow(
         pages_[level], tile_row,
@@ -201,7 +210,7 @@ Status TileRowWriter::writeLevelRow(std::size_t level,
     if (!written || !hasMasks()) {
         return written;
     }
-    const TiffPage& mask_page = tiles_.pages()[mask_pages_[level]];
+    const TiffPage& mask_page = tiles_->pages()[mask_pages_[level]];
     const auto encode_mask = [&](std::size_t column) {
         const std::size_t first = column * kTileSide;
         const auto is_valid = [&](std::size_t x, std::size_t y) {

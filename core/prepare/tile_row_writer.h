@@ -4,26 +4,34 @@
 #include "core/base/result.h"
 #include "core/prepare/overview_builder.h"
 #include "core/prepare/row_memory.h"
-#include "core/prepare/tiff/tiff_tiles.h"
+#include "core/prepare/tiff/encoded_tiles.h"
 #include "core/raster/raster_info.h"
 #include "core/raster/sample_grid.h"
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace marsview {
 
-/// The file is one of writeGeoTiffSkeleton(). Tiles of a row are encoded on all cores, a limited
+/// Tiles of a row are encoded on all cores, a limited
 /// number at a time. For one thread.
 class TileRowWriter {
 public:
-    /// Opens the file. Unreadable if it was not laid out for such a map.
+    /// Opens a file of writeGeoTiffSkeleton(), as TiffTiles. Unreadable if it was not laid out for
+    /// such a map.
     static Result<TileRowWriter>
     open(const std::string& path, const RasterInfo& info, const RowMemory& memory = {});
 
-    TiffTiles& tiles() noexcept { return tiles_; }
-    const TiffTiles& tiles() const noexcept { return tiles_; }
+    /// To a file whose pages are those of the map.
+    static Result<TileRowWriter> to(std::unique_ptr<EncodedTiles> tiles,
+                                    const RasterInfo& info,
+                                    const std::string& path,
+                                    const RowMemory& memory);
+
+    EncodedTiles& tiles() noexcept { return *tiles_; }
+    const EncodedTiles& tiles() const noexcept { return *tiles_; }
     std::size_t levelCount() const noexcept { return pages_.size(); }
     /// The page of a level, 0 being the raster, and of its mask if the map needs one.
     std::size_t page(std::size_t level) const { return pages_[level]; }
@@ -43,7 +51,7 @@ public:
     Status writeLevel(std::size_t level, const OverviewBuilder::Rows& all);
 
 private:
-    TileRowWriter(TiffTiles tiles,
+    TileRowWriter(std::unique_ptr<EncodedTiles> tiles,
                   const RasterInfo& info,
                   std::string path,
                   const RowMemory& memory);
@@ -51,7 +59,7 @@ private:
     template <typename Encode, typename Release>
     Status appendRow(std::size_t page, std::size_t tile_row, Encode&& encode, Release&& release);
 
-    TiffTiles tiles_;
+    std::unique_ptr<EncodedTiles> tiles_;
     std::string path_;
     std::size_t columns_;
     std::size_t rows_;

@@ -70,6 +70,8 @@ private:
     bool opensAsTheMap() const;
     Status writeOverviewRows(std::size_t tile_row, bool is_last);
     std::optional<JobPlace> reach();
+    // TileRowWriter::open() makes no others.
+    TiffTiles& tiles() { return static_cast<TiffTiles&>(writer_->tiles()); }
     std::size_t tileRows() const { return (info_.rows + kTileSide - 1) / kTileSide; }
 
     const TiledGeoTiffJob& job_;
@@ -135,7 +137,7 @@ bool Preparation::tryResume()
         return false;
     }
     writer_ = std::move(writer).value();
-    TiffTiles& tiles = writer_->tiles();
+    TiffTiles& tiles = this->tiles();
     const auto tile_rows = static_cast<std::size_t>(place.rows);
     const Result<std::uint64_t> bytes = tiles.fileBytes();
     if (!bytes || *bytes < place.file_bytes || !overviews_.restore(tile_rows, overviews)) {
@@ -214,8 +216,8 @@ Status Preparation::writeOverviewRows(std::size_t tile_row, bool is_last)
 
 std::optional<JobPlace> Preparation::reach()
 {
-    const Status flushed = writer_->tiles().flush();
-    const Result<std::uint64_t> bytes = writer_->tiles().fileBytes();
+    const Status flushed = tiles().flush();
+    const Result<std::uint64_t> bytes = tiles().fileBytes();
     if (!flushed || !bytes) {
         return std::nullopt;
     }
@@ -258,7 +260,7 @@ Status Preparation::copy(JobMonitor& monitor)
             return written;
         }
     }
-    TiffTiles& tiles = writer_->tiles();
+    TiffTiles& tiles = this->tiles();
     if (Status flushed = tiles.flush(); !flushed) {
         return flushed;
     }

@@ -3,6 +3,9 @@
 #include "core/base/check.h"
 #include "core/base/deflate.h"
 
+#include <new>
+#include <utility>
+
 namespace marsview {
 namespace {
 
@@ -23,11 +26,17 @@ std::size_t countBelow(const TileLayout& layout, std::size_t end_level)
 } // namespace
 
 TileChecksums::TileChecksums(const TileLayout& layout)
+    : count_(countFor(layout))
 {
     for (std::size_t level = 0; level <= layout.mean_levels; ++level) {
         levels_.push_back({countBelow(layout, level), layout.tileColumns(kindAt(level), level)});
     }
-    values_.resize(countFor(layout));
+    auto values =
+        ScratchBytes::create(count_ * sizeof(std::uint32_t), ScratchBytes::Content::Zeros);
+    if (!values) {
+        throw std::bad_alloc();
+    }
+    values_ = std::move(values).value();
 }
 
 std::size_t TileChecksums::countFor(const TileLayout& layout)

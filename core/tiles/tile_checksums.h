@@ -1,6 +1,7 @@
 // Checksums, computed when tiles are first read, that detect damaged tiles of a raster.
 #pragma once
 
+#include "core/base/scratch_bytes.h"
 #include "core/raster/grid_window.h"
 #include "core/raster/sample_grid.h"
 #include "core/tiles/tile.h"
@@ -29,12 +30,18 @@ public:
         return id.kind == TileKind::Means || id.level == 0;
     }
 
-    std::uint32_t of(const TileId& id) const { return values_[numberOf(id)]; }
-    void set(const TileId& id, std::uint32_t checksum) { values_[numberOf(id)] = checksum; }
+    std::uint32_t of(const TileId& id) const { return values()[numberOf(id)]; }
+    void set(const TileId& id, std::uint32_t checksum) { values()[numberOf(id)] = checksum; }
 
     /// Samples row by row, then the means of each level.
-    std::span<const std::uint32_t> values() const noexcept { return values_; }
-    std::span<std::uint32_t> values() noexcept { return values_; }
+    std::span<const std::uint32_t> values() const noexcept
+    {
+        return {reinterpret_cast<const std::uint32_t*>(values_.data()), count_};
+    }
+    std::span<std::uint32_t> values() noexcept
+    {
+        return {reinterpret_cast<std::uint32_t*>(values_.data()), count_};
+    }
 
 private:
     std::size_t numberOf(const TileId& id) const;
@@ -44,7 +51,8 @@ private:
         std::size_t tile_columns = 0;
     };
     std::vector<Level> levels_; // samples, then means from level 1 on
-    std::vector<std::uint32_t> values_;
+    std::size_t count_;
+    ScratchBytes values_; // those of rows of tiles that are not used take no memory
 };
 
 /// CRC-32 of the raw samples.

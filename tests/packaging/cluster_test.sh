@@ -40,7 +40,7 @@ cat >"$work/killed-once" <<SCRIPT
 #!/usr/bin/env bash
 if [[ "\$*" == *"--part 2" ]] && mkdir "$work/was-killed" 2>/dev/null; then
     "$cli" "\$@" &
-    until [ -e "$work/map.tif.parts/2-of-4.new.tif" ]; do sleep 0.01; done
+    until [ -e "$work/map.tif.parts/2-of-4.new.tiles" ]; do sleep 0.01; done
     kill -KILL \$!
     exit 137
 fi

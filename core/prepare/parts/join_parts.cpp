@@ -11,10 +11,12 @@
 #include "core/prepare/parts/merged_survey.h"
 #include "core/prepare/parts/overview_edges.h"
 #include "core/prepare/parts/part_state.h"
+#include "core/prepare/parts/part_tiles.h"
 #include "core/prepare/parts/survey_part.h"
 #include "core/prepare/tiff/cloud_order.h"
 #include "core/prepare/tiff/tiff_stream.h"
 #include "core/raster/source_identity.h"
+#include "core/tiles/geotiff_tile_source.h"
 
 #include <algorithm>
 #include <chrono>
@@ -97,7 +99,7 @@ public:
     void removeParts() const
     {
         for (std::size_t part = 1; part <= map_.parts; ++part) {
-            for (const char* ending : {kPartRaster, kPartLevels, kPartSurvey, kPartMeans,
+            for (const char* ending : {kPartTiles, kPartLevels, kPartSurvey, kPartMeans,
                                        kPartBorder, kPartEdges, kPartFills, kPartErrors}) {
                 removePartFile(map_.file(part, ending));
             }
@@ -117,7 +119,8 @@ private:
             return std::move(writer).error();
         }
         shared_ = std::move(writer).value();
-        const auto source = openPartTiles(map_, shared_path_);
+        const Result<RasterFile> file = RasterFile::open(shared_path_);
+        const auto source = file ? GeotiffTileSource::of(*file, map_.voids) : file.error();
         if (!source) {
             return source.error();
         }
@@ -155,6 +158,7 @@ private:
             return begun;
         }
         checksums_.resize(map_.parts + 1);
+        sizes_.resize(map_.parts + 1);
         for (std::size_t part = 1; part <= map_.parts; ++part) {
             if (monitor_.isCanceled()) {
                 return Error{ErrorCode::Canceled, "canceled"};
@@ -190,11 +194,12 @@ private:
         if (!state) {
             return std::move(state).error();
         }
-        PartTiles tiles;
+        PartFiles tiles;
         if (!tiles.restore(*state)) {
             return ofPart(part, kPartSurvey, {ErrorCode::Damaged, "is damaged"});
         }
         checksums_[part] = std::move(tiles.checksums);
+        sizes_[part] = std::move(tiles.sizes);
         const PartRows rows = map_.rowsOf(part);
         const OverviewBuilder::TileSums sums = overviews_.sumsOf(rows.first, rows.end);
         if (tiles.sums.size() != sums.sums.size() || tiles.counts.size() != sums.counts.size()) {
@@ -216,6 +221,12 @@ private:
         Status merged = mergeSurvey(*state, *survey_, source_->layout(), rows, &*levels, &*edges,
                                     map_.file(part, kPartMeans));
         return merged ? merged : Status(ofPart(part, kPartSurvey, merged.error()));
+    }
+
+    Result<std::unique_ptr<PartTileFile>> openTiles(std::size_t part) const
+    {
+        return PartTileFile::open(map_, map_.rowsOf(part), shared_->tiles().pages(),
+                                  map_.file(part, kPartTiles), sizes_[part], checksums_[part]);
     }
 
     Status mergeErrorsOrMeasure()
@@ -246,13 +257,14 @@ private:
     Status measure(std::size_t part)
     {
         ++report_.measured;
-        const std::string path = map_.file(part, kPartRaster);
-        const auto tiles = openPartTiles(map_, path);
+        const std::string path = map_.file(part, kPartTiles);
+        const auto tiles = openTiles(part);
         if (!tiles) {
-            return ofPart(part, kPartRaster, tiles.error());
+            return ofPart(part, kPartTiles, tiles.error());
         }
         const PartRows rows = map_.rowsOf(part);
-        TileReaders readers(**tiles, levelThreads(source_->layout()));
+        const auto source = sourceOf(map_, **tiles);
+        TileReaders readers(*source, levelThreads(source_->layout()));
         const auto measure_row = [this](TileReader& reader, std::size_t row) {
             return errors_->measureRow(reader, row);
         };
@@ -260,7 +272,7 @@ private:
             readers.eachRow({.first = rows.first, .end = rows.end}, measure_row, monitor_);
         if (!done && (done.error().code == ErrorCode::Invalid ||
                       done.error().code == ErrorCode::Unreadable)) {
-            return ofPart(part, kPartRaster, {ErrorCode::Damaged, "is damaged"});
+            return ofPart(part, kPartTiles, {ErrorCode::Damaged, "is damaged"});
         }
         return done ? Status(Done{}) : Status(done.error());
     }
@@ -296,19 +308,18 @@ private:
                              .tiles = {},
                              .names = {shared_path_},
                              .remedies = {std::string()}};
-        std::vector<TiffTiles> files;
+        std::vector<std::unique_ptr<PartTileFile>> files;
         for (std::size_t part = 1; part <= map_.parts; ++part) {
-            Result<TiffTiles> tiles =
-                TiffTiles::open(map_.file(part, kPartRaster), TiffTiles::Access::Read);
+            auto tiles = openTiles(part);
             if (!tiles) {
-                return ofPart(part, kPartRaster, tiles.error());
+                return ofPart(part, kPartTiles, tiles.error());
             }
             files.push_back(std::move(tiles).value());
-            stream.names.push_back(map_.file(part, kPartRaster));
+            stream.names.push_back(map_.file(part, kPartTiles));
             stream.remedies.push_back(fmt::format("; prepare part {} again", part));
         }
-        for (const TiffTiles& file : files) {
-            stream.files.push_back(&file);
+        for (const auto& file : files) {
+            stream.files.push_back(file.get());
         }
         if (Status made =
                 writeGeoTiffSkeleton(stream.skeleton, map_.info, {map_.key, map_.source_path});
@@ -460,6 +471,7 @@ private:
     std::optional<LevelSurveyPass> survey_;
     std::optional<LevelErrorPass> errors_;
     std::vector<std::vector<std::uint32_t>> checksums_; // of tiles, by part
+    std::vector<std::vector<std::uint32_t>> sizes_;
 };
 
 Result<FileLock> lockFile(const std::string& path)
@@ -510,9 +522,7 @@ Result<JoinReport> joinParts(const OpenRaster& raster, const JoinJob& job, JobMo
         }
         output_lock = std::move(output).value();
     }
-    // All parts are open at a time, with a handle for each page (TiffTiles).
-    allowOpenFiles(job.parts * (overviewCount(map->info.columns, map->info.rows) + 1) *
-                   (map->info.needsVoidMask() ? 2 : 1));
+    allowOpenFiles(job.parts); // all parts are open at a time
     JoinReport report;
     report.samples = std::uint64_t{map->info.columns} * map->info.rows;
     Join join(*map, job, report, monitor);

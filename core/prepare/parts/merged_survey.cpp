@@ -30,8 +30,8 @@ Status restoreSurvey(const PartedMap& map,
     };
     const PartRows rows = map.rowsOf(part);
     Status done = merge(part, kPartSurvey, [&](CheckpointReader& state) -> Status {
-        PartTiles tiles;
-        return tiles.restore(state) ? mergeSurvey(state, pass, layout, rows, nullptr, nullptr,
+        PartFiles files;
+        return files.restore(state) ? mergeSurvey(state, pass, layout, rows, nullptr, nullptr,
                                                   map.file(part, kPartMeans))
                                     : Status(Error{ErrorCode::Damaged, "is damaged"});
     });

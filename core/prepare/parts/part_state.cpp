@@ -125,33 +125,34 @@ bool FileMark::restore(CheckpointReader& from)
     return from.get(bytes) && from.get(checksum);
 }
 
-void PartTiles::save(CheckpointWriter& to) const
+void PartFiles::save(CheckpointWriter& to) const
 {
-    to.put(raster_bytes);
+    to.put(tile_bytes);
     levels.save(to);
     means.save(to);
+    to.putArray(sizes);
     to.putArray(checksums);
     to.putArray(sums);
     to.putArray(counts);
 }
 
-bool PartTiles::restore(CheckpointReader& from)
+bool PartFiles::restore(CheckpointReader& from)
 {
-    return from.get(raster_bytes) && levels.restore(from) && means.restore(from) &&
-           from.getAny(checksums) && from.getAny(sums) && from.getAny(counts);
+    return from.get(tile_bytes) && levels.restore(from) && means.restore(from) &&
+           from.getAny(sizes) && from.getAny(checksums) && from.getAny(sums) && from.getAny(counts);
 }
 
-bool PartTiles::areOnDisk(const PartedMap& map, std::size_t part) const
+bool PartFiles::areOnDisk(const PartedMap& map, std::size_t part) const
 {
     std::error_code ignored;
-    return bytesOnDisk(map.file(part, kPartRaster)) == raster_bytes &&
+    return bytesOnDisk(map.file(part, kPartTiles)) == tile_bytes &&
            bytesOnDisk(map.file(part, kPartLevels)) == levels.bytes &&
            bytesOnDisk(map.file(part, kPartMeans)) == means.bytes &&
            std::filesystem::exists(map.file(part, kPartBorder), ignored) &&
            std::filesystem::exists(map.file(part, kPartEdges), ignored);
 }
 
-bool PartTiles::areIntact(const PartedMap& map, std::size_t part) const
+bool PartFiles::areIntact(const PartedMap& map, std::size_t part) const
 {
     return areOnDisk(map, part) && openPartState(map, part, kPartBorder) &&
            openPartState(map, part, kPartEdges) &&
@@ -159,14 +160,15 @@ bool PartTiles::areIntact(const PartedMap& map, std::size_t part) const
            FileMark::of(map.file(part, kPartMeans)) == means;
 }
 
-Result<std::shared_ptr<const GeotiffTileSource>> openPartTiles(const PartedMap& map,
-                                                               const std::string& path)
+TileLayout layoutOf(const PartedMap& map)
 {
-    const Result<RasterFile> file = RasterFile::open(path);
-    if (!file) {
-        return file.error();
-    }
-    return GeotiffTileSource::of(*file, map.voids);
+    const RasterInfo& info = map.info;
+    return {.columns = info.columns,
+            .rows = info.rows,
+            .type = info.type,
+            .has_voids = info.needsVoidMask() || map.voids.nodata.has_value() ||
+                         info.type == SampleType::Float32 || info.type == SampleType::Float64,
+            .mean_levels = overviewCount(info.columns, info.rows)};
 }
 
 std::vector<std::size_t> absentParts(const PartedMap& map)
@@ -186,7 +188,7 @@ std::vector<std::size_t> missingParts(const PartedMap& map)
     std::vector<std::size_t> missing;
     for (std::size_t part = 1; part <= map.parts; ++part) {
         Result<CheckpointReader> state = openPartState(map, part, kPartSurvey);
-        PartTiles tiles;
+        PartFiles tiles;
         if (!state || !tiles.restore(*state) || !tiles.areOnDisk(map, part)) {
             missing.push_back(part);
         }

@@ -7,12 +7,11 @@
 #include "core/prepare/parts/part_rows.h"
 #include "core/prepare/row_memory.h"
 #include "core/raster/open_raster.h"
-#include "core/tiles/geotiff_tile_source.h"
+#include "core/tiles/tile.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,7 +34,7 @@ struct PartedMap {
     PartRows rowsOf(std::size_t part) const { return rowsOfPart(tileRows(), part, parts); }
     /// Identifies the map, the settings and the number of parts.
     std::string subject() const;
-    /// A file of a part, counted from 1, for example "3-of-8.tif".
+    /// A file of a part, counted from 1, for example "3-of-8.tiles".
     std::string file(std::size_t part, const char* ending) const;
 };
 
@@ -47,7 +46,7 @@ Result<PartedMap> partedMap(const OpenRaster& raster,
                             RowMemory memory);
 
 /// Endings of the files of a part.
-inline constexpr const char* kPartRaster = "tif";    // a tiled GeoTIFF with the part's tiles only
+inline constexpr const char* kPartTiles = "tiles";   // of the raster and its overviews, encoded
 inline constexpr const char* kPartLevels = "levels"; // tiles of its nested levels
 inline constexpr const char* kPartSurvey = "survey"; // what the first pass found
 inline constexpr const char* kPartMeans = "means";   // finest means, on large maps with voids
@@ -80,12 +79,13 @@ struct FileMark {
 };
 
 /// What the first pass leaves for the file to be joined, at the beginning of its state.
-struct PartTiles {
-    std::uint64_t raster_bytes = 0;
+struct PartFiles {
+    std::uint64_t tile_bytes = 0;
     FileMark levels;
     FileMark means;
-    std::vector<std::uint32_t> checksums; // of encoded tiles, in the order of forEachTileRow()
-    std::vector<std::uint64_t> sums;      // of OverviewBuilder::sumsOf()
+    std::vector<std::uint32_t> sizes; // of encoded tiles, as in PartTileFile
+    std::vector<std::uint32_t> checksums;
+    std::vector<std::uint64_t> sums; // of OverviewBuilder::sumsOf()
     std::vector<std::uint64_t> counts;
 
     void save(CheckpointWriter& to) const;
@@ -114,9 +114,8 @@ void forEachTileRow(const PartedMap& map, const PartRows& rows, Function&& funct
     }
 }
 
-/// The part's tiles for reading.
-Result<std::shared_ptr<const GeotiffTileSource>> openPartTiles(const PartedMap& map,
-                                                               const std::string& path);
+/// The layout of the map's tiles, as GeotiffTileSource finds it in the tiled GeoTIFF.
+TileLayout layoutOf(const PartedMap& map);
 
 /// Parts whose first pass is not complete, or was made for another map or is damaged. Reads the
 /// states of all parts.

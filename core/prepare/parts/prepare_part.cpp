@@ -1,15 +1,14 @@
 #include "core/prepare/parts/prepare_part.h"
 
-#include "core/base/deflate.h"
 #include "core/base/elapsed.h"
 #include "core/base/file_lock.h"
 #include "core/files/file_bytes.h"
 #include "core/prepare/disk_room.h"
-#include "core/prepare/geotiff_skeleton.h"
 #include "core/prepare/parts/errors_part.h"
 #include "core/prepare/parts/merged_survey.h"
 #include "core/prepare/parts/overview_edges.h"
 #include "core/prepare/parts/part_state.h"
+#include "core/prepare/parts/part_tiles.h"
 #include "core/prepare/parts/survey_part.h"
 #include "core/prepare/source_rows.h"
 #include "core/prepare/tile_row_writer.h"
@@ -59,14 +58,14 @@ public:
         , part_(part)
         , rows_(map.rowsOf(part))
         , monitor_(monitor)
-        , new_raster_(map.file(part, "new.tif"))
+        , new_tiles_(map.file(part, "new.tiles"))
     {}
 
     // Whether the first pass is complete and its files are intact, except for tiles of the raster.
     bool isSurveyed() const
     {
         Result<CheckpointReader> state = openPartState(map_, part_, kPartSurvey);
-        PartTiles tiles;
+        PartFiles tiles;
         return state && tiles.restore(*state) && tiles.areIntact(map_, part_);
     }
 
@@ -78,34 +77,32 @@ public:
                FileMark::of(map_.file(part_, kPartFills)) == fills;
     }
 
-    // Whether the tiles of the raster match the checksums of the first pass. Reads them all.
+    // Whether the encoded tiles match the checksums of the first pass. Reads them all.
     bool hasIntactTiles() const
     {
-        Result<CheckpointReader> state = openPartState(map_, part_, kPartSurvey);
-        PartTiles tiles;
-        if (!state || !tiles.restore(*state)) {
-            return false;
-        }
-        const Result<TileRowWriter> file =
-            TileRowWriter::open(map_.file(part_, kPartRaster), map_.info);
-        const auto found = file ? checksums(*file) : file.error();
-        return found && *found == tiles.checksums;
+        const auto file = openTiles();
+        return file && (*file)->isIntact();
     }
 
-    Status copy(PartTiles& tiles, OverviewEdges& edges)
+    Status copy(PartFiles& tiles, OverviewEdges& edges)
     {
         for (const char* ending : {kPartSurvey, kPartBorder, kPartEdges, kPartMeans, kPartErrors}) {
             removePartFile(map_.file(part_, ending));
         }
-        if (Status made =
-                writeGeoTiffSkeleton(new_raster_, map_.info, {map_.key, map_.source_path});
-            !made) {
-            return made;
+        auto pages = pagesOfMap(map_, part_);
+        if (!pages) {
+            return std::move(pages).error();
         }
-        Result<TileRowWriter> writer = TileRowWriter::open(new_raster_, map_.info, map_.memory);
+        auto created = PartTileFile::create(map_, rows_, std::move(pages).value(), new_tiles_);
         Result<RasterFile> source = RasterFile::open(raster_.spec.path, raster_.spec.band);
-        if (!writer || !source) {
-            return writer ? std::move(source).error() : std::move(writer).error();
+        if (!created || !source) {
+            return source ? std::move(created).error() : std::move(source).error();
+        }
+        PartTileFile& file = **created;
+        auto writer =
+            TileRowWriter::to(std::move(created).value(), map_.info, new_tiles_, map_.memory);
+        if (!writer) {
+            return std::move(writer).error();
         }
         const RasterInfo& info = map_.info;
         OverviewBuilder overviews(info.columns, info.rows, info.type, info.nodata,
@@ -134,30 +131,26 @@ public:
         const OverviewBuilder::TileSums sums = overviews.sumsOf(rows_.first, rows_.end);
         tiles.sums.assign(sums.sums.begin(), sums.sums.end());
         tiles.counts.assign(sums.counts.begin(), sums.counts.end());
-        if (Status flushed = writer->tiles().flush(); !flushed) {
+        if (Status flushed = file.flush(); !flushed) {
             return flushed;
         }
-        auto found = checksums(*writer);
-        if (!found) {
-            return std::move(found).error();
-        }
-        tiles.checksums = std::move(found).value();
+        tiles.sizes = file.sizes();
+        tiles.checksums = file.checksums();
+        writer_ = std::move(writer).value();
+        tiles_ = &file;
         return Done{};
     }
 
-    Status survey(PartTiles& tiles, const OverviewEdges& edges)
+    Status survey(PartFiles& tiles, const OverviewEdges& edges)
     {
-        const auto source = openPartTiles(map_, new_raster_);
-        if (!source) {
-            return source.error();
-        }
-        const TileLayout& layout = (*source)->layout();
+        const auto source = sourceOf(map_, *tiles_);
+        const TileLayout& layout = source->layout();
         const std::string levels = map_.file(part_, kPartLevels);
         auto writer = LevelFileWriter::create(levels);
         if (!writer) {
             return std::move(writer).error();
         }
-        LevelSurveyPass pass({.source = source->get(),
+        LevelSurveyPass pass({.source = source.get(),
                               .scale = map_.scale,
                               .means_path = map_.file(part_, kPartMeans),
                               .mean_blocks_max = map_.mean_blocks_max,
@@ -168,7 +161,7 @@ public:
             return begun;
         }
         startTiles(pass.state().ordered);
-        TileReaders readers(**source, threads(layout));
+        TileReaders readers(*source, threads(layout));
         const auto survey_row = [&pass](TileReader& reader, std::size_t row) {
             return pass.surveyRow(reader, row);
         };
@@ -191,7 +184,7 @@ public:
         }
         (*writer)->keep();
         tiles.levels = FileMark::of(levels + ".part");
-        tiles.raster_bytes = bytesOnDisk(new_raster_);
+        tiles.tile_bytes = bytesOnDisk(new_tiles_);
         CheckpointWriter border(map_.file(part_, kPartBorder));
         beginPartState(border, map_);
         if (!saveBorder(border, pass, layout, rows_) || !border.finish()) {
@@ -211,7 +204,7 @@ public:
         saveSurvey(to, pass, layout, rows_);
         Status saved = renameTo(levels + ".part", levels);
         if (saved) {
-            saved = renameTo(new_raster_, map_.file(part_, kPartRaster));
+            saved = renameTo(new_tiles_, map_.file(part_, kPartTiles));
         }
         if (saved && !to.finish()) {
             return writingState(map_.file(part_, kPartSurvey));
@@ -221,22 +214,23 @@ public:
 
     Status measure()
     {
-        const auto source = openPartTiles(map_, map_.file(part_, kPartRaster));
-        if (!source) {
-            return source.error();
+        const auto file = openTiles();
+        if (!file) {
+            return file.error();
         }
-        const TileLayout& layout = (*source)->layout();
-        LevelSurveyPass survey({.source = source->get(),
+        const auto source = sourceOf(map_, **file);
+        const TileLayout& layout = source->layout();
+        LevelSurveyPass survey({.source = source.get(),
                                 .scale = map_.scale,
                                 .means_path = {},
                                 .mean_blocks_max = map_.mean_blocks_max,
                                 .rows = {rows_.first, rows_.end}},
                                nullptr, monitor_);
         const Status restored = restoreSurvey(map_, part_, layout, survey);
-        return restored ? measureRows(**source, survey.finish()) : restored;
+        return restored ? measureRows(*source, survey.finish()) : restored;
     }
 
-    void discard() const { removePartFile(new_raster_); }
+    void discard() const { removePartFile(new_tiles_); }
 
 private:
     std::size_t threads(const TileLayout& layout) const
@@ -254,29 +248,7 @@ private:
         }
     }
 
-    // Of the encoded tiles that the part has alone.
-    Result<std::vector<std::uint32_t>> checksums(const TileRowWriter& file) const
-    {
-        std::vector<std::uint32_t> found;
-        Status read = Done{};
-        forEachTileRow(map_, rows_, [&](std::size_t level, std::size_t row) {
-            if (!rows_.hasMeans(level, row, map_.tileRows())) {
-                return;
-            }
-            forEachTileOfRow(file, level, row, [&](std::size_t page, std::size_t tile) {
-                const auto encoded = file.tiles().encoded(page, tile);
-                if (!encoded) {
-                    read = encoded.error();
-                    return;
-                }
-                found.push_back(crc32Of(*encoded));
-            });
-        });
-        if (!read) {
-            return std::move(read).error();
-        }
-        return found;
-    }
+    Result<std::unique_ptr<PartTileFile>> openTiles() const { return openPartTiles(map_, part_); }
 
     Status measureRows(const TileSource& source, const LevelSurvey& survey)
     {
@@ -320,7 +292,9 @@ private:
     std::size_t part_;
     PartRows rows_;
     JobMonitor& monitor_;
-    std::string new_raster_;
+    std::string new_tiles_;
+    std::optional<TileRowWriter> writer_; // of new_tiles_
+    const PartTileFile* tiles_ = nullptr; // in it
 };
 
 // Of the time of a part.
@@ -330,7 +304,7 @@ constexpr double kSurveyEnd = 0.8;
 Status copyAndSurvey(Part& part, const PartedMap& map, PartReport& report, JobMonitor& monitor)
 {
     const Clock::time_point start = Clock::now();
-    PartTiles tiles;
+    PartFiles tiles;
     OverviewEdges edges(map.info.type, map.tileRows(), map.memory.place());
     {
         const JobPart copying(monitor, 0.0, kCopyingShare);
@@ -414,7 +388,7 @@ Result<PartReport> preparePart(const OpenRaster& raster, const PartJob& job, Job
         return Error{ErrorCode::Unreadable,
                      fmt::format("{}: is being prepared by another program (process {}); wait for "
                                  "it or cancel it there",
-                                 map->file(job.part, kPartRaster), FileLock::holder(lock_path))};
+                                 map->file(job.part, kPartTiles), FileLock::holder(lock_path))};
     }
     PartReport report;
     report.rows = map->rowsOf(job.part);
@@ -438,7 +412,7 @@ Result<PartReport> preparePart(const OpenRaster& raster, const PartJob& job, Job
         part.discard();
         if (made.error().code == ErrorCode::Canceled) {
             return Error{ErrorCode::Canceled, fmt::format("{}: preparing was canceled",
-                                                          map->file(job.part, kPartRaster))};
+                                                          map->file(job.part, kPartTiles))};
         }
         return std::move(made).error();
     }

@@ -47,11 +47,11 @@ struct StreamedTile {
 struct TiffStreamJob {
     /// A file without tiles, whose directories become those of the new file.
     std::string skeleton;
-    std::uint64_t skeleton_bytes = 0;    // before its first tile; 0: all bytes
-    std::vector<const TiffTiles*> files; // from the same skeleton
-    std::vector<StreamedTile> tiles;     // all tiles, in the order of the new file
-    std::vector<std::string> names;      // of the files, for messages
-    std::vector<std::string> remedies;   // what to do if a file is damaged; as many, or none
+    std::uint64_t skeleton_bytes = 0;       // before its first tile; 0: all bytes
+    std::vector<const EncodedTiles*> files; // with the same pages
+    std::vector<StreamedTile> tiles;        // all tiles, in the order of the new file
+    std::vector<std::string> names;         // of the files, for messages
+    std::vector<std::string> remedies;      // what to do if a file is damaged; as many, or none
 };
 
 /// Writes the skeleton, with its directories filled, and then the tiles. Memory: 16 bytes for each

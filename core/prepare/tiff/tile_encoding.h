@@ -22,4 +22,11 @@ std::vector<std::byte> encodeTile(std::span<std::byte> tile,
                                   std::size_t sample_bytes,
                                   TiffPredictor predictor);
 
+/// Decodes what encodeTile() made for a tile of the size of `tile`. False if it is damaged.
+bool decodeTile(std::span<const std::byte> encoded,
+                std::size_t row_samples,
+                std::size_t sample_bytes,
+                TiffPredictor predictor,
+                std::span<std::byte> tile);
+
 } // namespace marsview

@@ -328,13 +328,13 @@ TEST_F(Parts, AreNamedIfTheyAreMissingDamagedOrOfAnotherSource)
     EXPECT_THAT(join(source, 5).error().message, HasSubstr("lacks 1 of 5 parts: 4"));
     ASSERT_TRUE(part(source, 4, 5)->is_copied);
 
-    const std::string raster = partsFolder() + "/2-of-5.tif";
+    const std::string raster = partsFolder() + "/2-of-5.tiles";
     content = test::readFile(raster);
     content[content.size() - 10] = static_cast<char>(content[content.size() - 10] ^ 1);
     std::ofstream(raster, std::ios::binary) << content;
     const auto damaged = join(source, 5);
     ASSERT_FALSE(damaged);
-    EXPECT_THAT(damaged.error().message, HasSubstr("2-of-5.tif"));
+    EXPECT_THAT(damaged.error().message, HasSubstr("2-of-5.tiles"));
     EXPECT_THAT(damaged.error().message, HasSubstr("prepare part 2 again"));
     EXPECT_FALSE(fs::exists(out()));
 
@@ -365,7 +365,7 @@ TEST_F(Parts, AreMadeAgainWhereTheirFilesAreDamaged)
     }
     const std::string name = partsFolder() + "/1-of-2.";
     for (const char* ending :
-         {"tif", "levels", "survey", "means", "border", "edges", "fills", "errors"}) {
+         {"tiles", "levels", "survey", "means", "border", "edges", "fills", "errors"}) {
         const std::string whole = test::readFile(name + ending);
         ASSERT_FALSE(whole.empty()) << ending;
         std::string damaged = whole;
