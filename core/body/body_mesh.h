@@ -200,8 +200,8 @@ public:
     /// Where a vertical path down to `point` begins above all of the map.
     ScenePoint highAbove(const ScenePoint& point) const noexcept;
 
-    /// TriangleTree's queries: its items are blocks of cells. In place of alongSegment(),
-    /// pointsAlong() calls visit(face, points, t_max).
+    /// TriangleTree's queries: its items are blocks of cells. In place of alongSegment() and
+    /// nearestFirst(), pointsAlong() and pointsNearest() call visit(face, points, t_max or limit).
     class Tree {
     public:
         const ScenePoint& middle() const noexcept { return mesh_.tree_.middle(); }
@@ -211,17 +211,20 @@ public:
         {
             const Beam beam(mesh_.tree_, from, along, slack);
             mesh_.tree_.alongSegment(from, along, slack, [&](std::uint32_t block, double& t_max) {
-                mesh_.eachFaceAlong(beam, block,
-                                    [&](std::uint32_t face, const std::array<ScenePoint, 3>& at) {
-                                        visit(face, at, t_max);
-                                    });
+                mesh_.eachFaceOfCells(block, beam,
+                                      [&](std::uint32_t face, const std::array<ScenePoint, 3>& at) {
+                                          visit(face, at, t_max);
+                                      });
             });
         }
         template <typename F>
-        void nearestFirst(const ScenePoint& point, F&& visit) const noexcept
+        void pointsNearest(const ScenePoint& point, F&& visit) const noexcept
         {
             mesh_.tree_.nearestFirst(point, [&](std::uint32_t block, double& limit) {
-                mesh_.eachFace(block, [&](std::uint32_t face) { visit(face, limit); });
+                mesh_.eachFaceOfCells(block, Near(point, limit),
+                                      [&](std::uint32_t face, const std::array<ScenePoint, 3>& at) {
+                                          visit(face, at, limit);
+                                      });
             });
         }
         template <typename F>
@@ -365,16 +368,19 @@ private:
             constexpr double kRounding = 256.0 * std::numeric_limits<double>::epsilon();
             margin_m_ = 2.0 * slack + kRounding * (tree.reach() + length(from));
         }
-        /// Two coordinates across the line.
-        std::array<double, 2> seen(const ScenePoint& point) const noexcept
+        using Seen = std::array<double, 2>; // across the line
+        Seen seen(const ScenePoint& point) const noexcept
         {
             const Vec3 p = turn(point - start_);
             return {p.x - across_ * p.z, p.y - down_ * p.z};
         }
-        /// Whether the line may hit what has these bounds.
-        bool meets(double low, double high) const noexcept
+        template <typename Range>
+        bool mayMeet(const Range& range) const noexcept
         {
-            return low <= margin_m_ && high >= -margin_m_;
+            const auto contains = [this](const std::pair<double, double>& low_high) {
+                return low_high.first <= margin_m_ && low_high.second >= -margin_m_;
+            };
+            return contains(range(0)) && contains(range(1));
         }
 
     private:
@@ -390,10 +396,41 @@ private:
         double margin_m_;
     };
 
-    // The faces of a block that the line may hit: each of its points is computed once, and cells
-    // beside the line are left out.
-    template <typename F>
-    void eachFaceAlong(const Beam& beam, std::uint32_t block, F&& visit) const noexcept
+    /// A point, with the squared distance to the nearest place found so far.
+    class Near {
+    public:
+        Near(const ScenePoint& point, const double& limit) noexcept
+            : point_(point)
+            , limit_(limit)
+        {}
+        using Seen = std::array<double, 3>;
+        Seen seen(const ScenePoint& point) const noexcept
+        {
+            const Vec3 to = point - point_;
+            return {to.x, to.y, to.z};
+        }
+        template <typename Range>
+        bool mayMeet(const Range& range) const noexcept
+        {
+            double least = 0.0;
+            for (std::size_t i = 0; i < 3; ++i) {
+                const auto [low, high] = range(i);
+                const double beyond = std::max({low, -high, 0.0});
+                least += beyond * beyond;
+            }
+            constexpr double kRounding = 1e-12; // more than that of distances
+            return (1.0 - kRounding) * least <= limit_;
+        }
+
+    private:
+        const ScenePoint& point_;
+        const double& limit_;
+    };
+
+    // The faces of those cells of a block that `filter` wants from what it sees of their corners.
+    // Each point is computed and seen once.
+    template <typename Filter, typename F>
+    void eachFaceOfCells(std::uint32_t block, const Filter& filter, F&& visit) const noexcept
     {
         if (block >= cell_blocks_) {
             eachFace(block, [&](std::uint32_t face) { visit(face, points(face)); });
@@ -405,24 +442,24 @@ private:
         const std::uint32_t columns = std::min(kBlockCells, cell_columns_ - column);
         const std::uint32_t rows = std::min(kBlockCells, rows_ - 1 - row);
         std::array<ScenePoint, kSide * kSide> at;
-        std::array<std::array<double, 2>, kSide * kSide> seen;
+        std::array<typename Filter::Seen, kSide * kSide> seen;
         for (std::uint32_t r = 0; r <= rows; ++r) {
             for (std::uint32_t c = 0; c <= columns; ++c) {
                 const std::uint32_t there = column + c;
                 at[r * kSide + c] = sampleAt(there == columns_ ? 0 : there, row + r);
-                seen[r * kSide + c] = beam.seen(at[r * kSide + c]);
+                seen[r * kSide + c] = filter.seen(at[r * kSide + c]);
             }
         }
         for (std::uint32_t r = 0; r < rows; ++r) {
             for (std::uint32_t c = 0; c < columns; ++c) {
                 const std::uint32_t first = r * kSide + c;
                 const std::uint32_t far = first + kSide + 1;
-                const auto meets = [&](std::size_t i) {
-                    const auto [low, high] = std::minmax(
+                // The range of what is seen of the corners, by coordinate.
+                const auto range = [&](std::size_t i) {
+                    return std::minmax(
                         {seen[first][i], seen[first + 1][i], seen[first + kSide][i], seen[far][i]});
-                    return beam.meets(low, high);
                 };
-                if (!meets(0) || !meets(1)) {
+                if (!filter.mayMeet(range)) {
                     continue;
                 }
                 const std::uint32_t lower = 2 * ((row + r) * cell_columns_ + column + c);

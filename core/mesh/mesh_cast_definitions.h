@@ -254,11 +254,11 @@ template <typename Mesh>
 MeshPlace nearestPlace(const Mesh& mesh, const ScenePoint& point) noexcept
 {
     MeshPlace nearest;
-    mesh.tree().nearestFirst(point, [&](std::uint32_t index, double& limit) {
-        const auto [p0, p1, p2] = mesh.points(index);
-        const Vec3 a = p0 - point;
-        const Vec3 b = p1 - point;
-        const Vec3 c = p2 - point;
+    using Points = std::array<ScenePoint, 3>;
+    const auto look_at = [&](std::uint32_t index, const Points& points, double& limit) {
+        const Vec3 a = points[0] - point;
+        const Vec3 b = points[1] - point;
+        const Vec3 c = points[2] - point;
         const std::array<double, 3> weights = nearestWeights(a, b, c);
         const Vec3 rest = a * weights[0] + b * weights[1] + c * weights[2];
         const double squared = dot(rest, rest);
@@ -266,7 +266,15 @@ MeshPlace nearestPlace(const Mesh& mesh, const ScenePoint& point) noexcept
             limit = squared;
             nearest = {index, weights};
         }
-    });
+    };
+    const auto& tree = mesh.tree();
+    if constexpr (requires { tree.pointsNearest(point, look_at); }) {
+        tree.pointsNearest(point, look_at);
+    } else {
+        tree.nearestFirst(point, [&](std::uint32_t index, double& limit) {
+            look_at(index, mesh.points(index), limit);
+        });
+    }
     return nearest;
 }
 

@@ -1,4 +1,5 @@
 #include "core/body/body_mesh.h"
+#include "core/mesh/mesh_cast_definitions.h"
 #include "core/mesh/triangle_mesh.h"
 #include "tests/core/contact/body_maps.h"
 
@@ -8,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -67,6 +69,33 @@ TEST_P(BodyMeshOf, StepsOverEdgesLeadToTheFaceBeyond)
     }
     // Most edges are between cells away from the seam.
     EXPECT_GT(steps, mesh->faceCount() / 2);
+}
+
+// From inside the body, from far out, and from beside the map. TriangleMesh has the nearest place
+// of its triangles (mesh.NearestPlace), and compares all of a box.
+TEST_P(BodyMeshOf, TheNearestPlaceIsThatOfAListOfItsTriangles)
+{
+    const auto mesh = test::bodyMesh(GetParam(), 1.0);
+    const auto listed = test::listedMesh(*mesh);
+    std::mt19937 random(26);
+    std::uniform_int_distribution<std::size_t> vertex(0, mesh->vertexCount() - 1);
+    std::normal_distribution<double> shift(0.0, 1.0);
+    for (int i = 0; i < 300; ++i) {
+        const ScenePoint on = mesh->vertex(static_cast<std::uint32_t>(vertex(random)));
+        const double reach_m = length(on) * std::pow(10.0, -1.0 - i % 6);
+        const ScenePoint point = on + Vec3{shift(random), shift(random), shift(random)} * reach_m;
+        const auto distance = [&](const auto& of) {
+            const MeshPlace place = nearestPlace(of, point);
+            const auto corners = of.points(place.face);
+            Vec3 at{};
+            for (std::size_t k = 0; k < 3; ++k) {
+                at = at + (corners[k] - point) * place.weights[k];
+            }
+            return length(at);
+        };
+        const double expected_m = distance(*listed);
+        EXPECT_NEAR(distance(*mesh), expected_m, 1e-12 * length(point)) << i;
+    }
 }
 
 // A map around the body with both poles closed encloses the body: the divergence theorem gives its
