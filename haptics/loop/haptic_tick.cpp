@@ -30,12 +30,12 @@ bool isBeyond(const WorkspaceBox& box, const WorkspacePoint& p) noexcept
            isOut(p.z, box.low.z, box.high.z);
 }
 
-// A hand moves its stylus at less than 5 m/s.
+// A hand moves its stylus at less than 5 m/s. `dt_s` is at most kStepMaxS.
 bool isJump(const Vec3& shift_m, double dt_s) noexcept
 {
     constexpr double kSpeedMaxMPerS = 5.0;
     constexpr double kSlackM = 0.01;
-    return !(length(shift_m) <= kSlackM + kSpeedMaxMPerS * std::min(dt_s, 0.1));
+    return !(length(shift_m) <= kSlackM + kSpeedMaxMPerS * dt_s);
 }
 
 ForceOffReason reasonOf(DeviceStatus status) noexcept
