@@ -1,5 +1,6 @@
 #include "core/prepare/parts/survey_part.h"
 
+#include "core/prepare/parts/part_state.h"
 #include "core/prepare/parts/stored_tiles.h"
 #include "core/prepare/parts/survey_rows.h"
 
