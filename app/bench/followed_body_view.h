@@ -3,8 +3,7 @@
 #pragma once
 
 #include "core/globe/body_navigation.h"
-#include "haptics/interaction/body_view.h"
-#include "haptics/loop/haptic_tick.h"
+#include "haptics/loop/camera_link.h"
 
 #include <cstdint>
 
@@ -27,19 +26,18 @@ public:
                 StylusMode mode,
                 LoopSettings& settings);
 
-    const BodyCamera& camera() const noexcept { return view_.camera; }
+    const BodyCamera& camera() const noexcept { return link_.view().camera; }
     /// The frame that fits what the camera shows.
-    WorkspaceFrame fittedFrame() const;
+    WorkspaceFrame fittedFrame() const { return frameFor(camera()); }
 
 private:
     BodyCamera limited(const BodyCamera& camera) const;
-    void takeView(FrameOrigin origin, LoopSettings& settings) const;
+    WorkspaceFrame frameFor(const BodyCamera& camera) const;
 
     WorkspaceBox reach_;
     BodyLimits limits_;
     BodyGround ground_;
-    BodyHandView view_;
-    bool is_fitted_ = true;
+    BodyCameraLink link_;
 };
 
 } // namespace marsview

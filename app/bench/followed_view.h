@@ -4,8 +4,7 @@
 #include "core/geo/scene_frame.h"
 #include "core/view/navigation.h"
 #include "haptics/device/workspace.h"
-#include "haptics/interaction/hand_view.h"
-#include "haptics/loop/haptic_tick.h"
+#include "haptics/loop/camera_link.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -40,19 +39,18 @@ public:
                 StylusMode mode,
                 LoopSettings& settings);
 
-    const OrbitCamera& camera() const noexcept { return view_.camera; }
+    const OrbitCamera& camera() const noexcept { return link_.view().camera; }
     /// The camera within its limits.
     OrbitCamera limited(const OrbitCamera& camera) const;
     /// The frame that fits what the camera shows.
-    WorkspaceFrame fittedFrame() const;
+    WorkspaceFrame fittedFrame() const { return frameFor(camera()); }
 
 private:
-    void takeView(FrameOrigin origin, LoopSettings& settings) const;
+    WorkspaceFrame frameFor(const OrbitCamera& camera) const;
 
     WorkspaceBox reach_;
     FollowedMap map_;
-    HandView view_;
-    bool is_fitted_ = true;
+    FlatCameraLink link_;
 };
 
 } // namespace marsview

@@ -351,7 +351,7 @@ Status runLoop(const LoopOptions& options)
         report.recorded = recorder->updates();
     }
     if (!options.flight.empty()) {
-        if (Status written = saveFlight(loop.flight(), options.flight, goals); !written) {
+        if (Status written = saveFlight(loop.flight(), options.flight); !written) {
             return written;
         }
     }

@@ -178,6 +178,11 @@ std::string replayOnBody(std::string_view uri)
                        replay.end == ReplayEnd::BeginAnew ? kLoop : std::string_view());
 }
 
+bool isReplayOnBody(std::string_view uri)
+{
+    return parsed(uri).columns == GoalColumns::Geographic;
+}
+
 std::unique_ptr<DeviceDriver> makeReplayDriver()
 {
     return std::make_unique<ReplayDriver>();

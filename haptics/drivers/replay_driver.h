@@ -43,6 +43,7 @@ bool isReplay(std::string_view uri) noexcept;
 std::string replayedFile(std::string_view uri);
 /// The same recording for a map on its body.
 std::string replayOnBody(std::string_view uri);
+bool isReplayOnBody(std::string_view uri);
 
 /// Scheme "replay". The address is the file; append "#body" if its goals are those of the body
 /// scene (GoalColumns::Geographic), and "#loop" to restart at its end.

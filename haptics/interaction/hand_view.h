@@ -37,8 +37,11 @@ LimitedView limitedView(const HandView& followed, const OrbitCamera& camera) noe
 /// map comes to rest at the limit instead of being moved back by the view.
 struct ViewBounds {
     WorkspacePoint target{}; // the camera's target, constant while the camera follows the hand
-    ScenePoint low{};        // horizontally
+    ScenePoint low{};        // horizontally, in the plane
     ScenePoint high{};
+    // On a body, instead: an angle from a direction, a unit vector from its center.
+    Vec3 middle{};
+    double reach_rad = 0.0;
 };
 
 /// The bounds of a view, until something else than the hand moves it.

@@ -1,5 +1,6 @@
 #include "haptics/loop/haptic_tick.h"
 
+#include "core/base/rotation.h"
 #include "core/body/body_positions.h"
 #include "haptics/device/time_between.h"
 
@@ -414,6 +415,20 @@ private:
                 state_.modes.mode == StylusMode::Pan ? hold_share : 0.0);
     }
 
+    // The same by a turn of the body about its center.
+    void rollBack(const Rotation& turn, double hold_share) noexcept
+    {
+        const ScenePoint at = state_.frame.toScene(state_.hand);
+        for (WorkspaceFrame* frame : {&state_.frame, &state_.seen_frame}) {
+            frame->place = turn * frame->place;
+            frame->body_axes = (turn * *frame->body_axes).orthonormal();
+        }
+        const Vec3 shift_m = state_.frame.differenceToWorkspace(at - turn * at);
+        state_.body_modes.spin_rad_per_s = {};
+        stopMap(state_.modes.pan, state_.body_modes.level * shift_m,
+                state_.modes.mode == StylusMode::Pan ? hold_share : 0.0);
+    }
+
     // The map's motion ends where the camera's target reaches its bounds: a hand that goes on
     // pulling feels the hold's spring, which relaxes at a wall.
     void keepWithinView(double share) noexcept
@@ -423,6 +438,15 @@ private:
         }
         const ViewBounds& bounds = *settings_.view_bounds;
         const ScenePoint target = state_.seen_frame.toScene(bounds.target);
+        if (isOnBody()) {
+            const Vec3 axis = cross(bounds.middle, target);
+            const double over_rad =
+                std::atan2(length(axis), dot(bounds.middle, target)) - bounds.reach_rad;
+            if (over_rad > 0.0) {
+                rollBack(Rotation::by(normalized(axis) * -over_rad), share);
+            }
+            return;
+        }
         ScenePoint kept = target;
         kept.x = std::clamp(target.x, bounds.low.x, std::max(bounds.low.x, bounds.high.x));
         kept.y = std::clamp(target.y, bounds.low.y, std::max(bounds.low.y, bounds.high.y));
@@ -507,7 +531,11 @@ private:
         } else if (has_jumped_ || is_fresh_) {
             state_.is_on_map = false;
         }
-        if (!state_.is_on_map) {
+        if (settings_.is_covered) {
+            state_.is_on_map = false;
+            is_entering_ = false;
+        }
+        if (!state_.is_on_map) { // coming back, the proxy is put straight above the hand
             state_.goal = at;
             state_.contact = {};
             state_.contact.proxy = at;

@@ -47,6 +47,9 @@ struct LoopSettings {
     /// second one still grabs.
     bool is_placing = false;
     bool is_stopped = false; // emergency stop
+    /// What is seen at the hand is not this map but another one that cannot be touched: the hand is
+    /// in free space, and there is no edge.
+    bool is_covered = false;
     ModeOptions modes{};
     /// The part of the workspace in which a simulated hand strokes; empty: all of it.
     std::optional<WorkspaceBox> strokes{};

@@ -99,6 +99,7 @@ struct TickRecord {
     double surface_z_m = std::numeric_limits<double>::quiet_NaN();
     float tick_us = 0.0F;
     TouchedGround ground{};
+    bool is_on_body = false;          // the map lies on its body
     std::uint32_t ground_records = 0; // number of terrain records since the last update
 };
 

@@ -318,6 +318,7 @@ void ServoCore::record(const StepResult& result, double tick_s) noexcept
                          .kind = map->kind,
                          .radius_m = map->radius_m,
                          .exaggeration = map->frame.exaggeration()};
+        record.is_on_body = map->surface->body() != nullptr;
     }
     const bool is_kept = takeRecording();
     const bool has_room = !is_kept || recordGround(result.has_ground_changed);

@@ -166,6 +166,12 @@ std::shared_ptr<ServoMap> madeOf(const GoalFrame& frame,
 
 } // namespace
 
+std::uint64_t nextMapId()
+{
+    static std::atomic<std::uint64_t> last{0};
+    return last.fetch_add(1, std::memory_order_relaxed) + 1;
+}
+
 std::shared_ptr<ServoMap> makeServoMap(const GoalFrame& frame,
                                        std::shared_ptr<const FilledHeightfield> filled,
                                        const ServoMapOptions& options)

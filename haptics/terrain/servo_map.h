@@ -39,6 +39,9 @@ inline GridPoint onGrid(const Georeference& map, const GridPoint& at) noexcept
     return {along(at.column, map.columns()), along(at.row, map.rows())};
 }
 
+/// Another number at every call, for ServoMap::map_id.
+std::uint64_t nextMapId();
+
 struct ServoMapOptions {
     ContactModelKind kind = kContactModelDefault;
     ContactModelOptions contact{};

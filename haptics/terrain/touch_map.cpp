@@ -1,22 +1,11 @@
 #include "haptics/terrain/touch_map.h"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <limits>
 #include <utility>
 
 namespace marsview {
-namespace {
-
-std::uint64_t nextMapId()
-{
-    static std::atomic<std::uint64_t> last{0};
-    return last.fetch_add(1, std::memory_order_relaxed) + 1;
-}
-
-} // namespace
-
 TouchMap::TouchMap(const SceneMap& map)
     : map_(map)
     , map_id_(nextMapId())

@@ -5,10 +5,13 @@
 #include "haptics/trace/recording_reader.h"
 #include "haptics/trace/table_words.h"
 
+#include <algorithm>
 #include <cerrno>
+#include <cstddef>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
+#include <ios>
 #include <iostream>
 #include <optional>
 #include <string_view>
@@ -130,6 +133,21 @@ readGoalRecording(const std::string& text, const std::string& name, GoalColumns 
                                  name, headerOf(columns))};
     }
     return recording;
+}
+
+std::optional<GoalColumns> goalColumnsOf(const std::string& path)
+{
+    constexpr std::size_t kHeaderBytesMax = 4096;
+    std::ifstream file(path, std::ios::binary);
+    std::string begin(kHeaderBytesMax, '\0');
+    file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+    begin.resize(static_cast<std::size_t>(std::max<std::streamsize>(file.gcount(), 0)));
+    for (const GoalColumns columns : {GoalColumns::Map, GoalColumns::Geographic}) {
+        if (readGoalRecording(begin.substr(0, begin.find('\n')), path, columns)) {
+            return columns;
+        }
+    }
+    return std::nullopt;
 }
 
 Result<std::string> readGoalText(const std::string& path)

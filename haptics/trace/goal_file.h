@@ -85,6 +85,9 @@ Result<GoalRecording> readGoalRecording(const std::string& text,
                                         const std::string& name,
                                         GoalColumns columns = GoalColumns::Map);
 
+/// The kind of goals that a file has by its header; empty if it cannot be read or is another file.
+std::optional<GoalColumns> goalColumnsOf(const std::string& path);
+
 /// The text of a file, or of standard input if `path` is "-". TooLarge above 1 GiB, or with a line
 /// above 1 MiB.
 Result<std::string> readGoalText(const std::string& path);

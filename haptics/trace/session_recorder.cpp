@@ -4,6 +4,7 @@
 #include "haptics/trace/ground_text.h"
 #include "haptics/trace/motion_text.h"
 
+#include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
 #include <limits>
@@ -157,16 +158,27 @@ void SessionRecorder::addGround(std::uint32_t count)
     }
 }
 
-Status saveFlight(const FlightRecorder& flight, const std::string& path, GoalColumns goals)
+std::vector<TickRecord> ofLastScene(std::vector<TickRecord> records)
 {
-    return saveFlight(flight.records(), path, goals);
+    const auto other =
+        std::find_if(records.rbegin(), records.rend(), [&](const TickRecord& record) {
+            return record.is_on_body != records.back().is_on_body;
+        });
+    records.erase(records.begin(), other.base());
+    return records;
 }
 
-Status
-saveFlight(const std::vector<TickRecord>& records, const std::string& path, GoalColumns goals)
+Status saveFlight(const FlightRecorder& flight, const std::string& path)
 {
+    return saveFlight(ofLastScene(flight.records()), path);
+}
+
+Status saveFlight(const std::vector<TickRecord>& records, const std::string& path)
+{
+    const bool is_on_body = !records.empty() && records.back().is_on_body;
     Result<TraceFile> file = TraceFile::begin(
-        path, fmt::format("{},hand_x,hand_y,hand_z,tick_us,surface_z", sessionColumns(goals)));
+        path, fmt::format("{},hand_x,hand_y,hand_z,tick_us,surface_z",
+                          sessionColumns(is_on_body ? GoalColumns::Geographic : GoalColumns::Map)));
     if (!file) {
         return std::move(file).error();
     }

@@ -75,16 +75,15 @@ private:
     std::jthread thread_;
 };
 
-/// Saves a flight recorder's ticks in the same columns, plus the stylus position and the duration
-/// of each tick. Goals are nan for ticks without a contact update.
-Status saveFlight(const std::vector<TickRecord>& records,
-                  const std::string& path,
-                  GoalColumns goals = GoalColumns::Map);
-/// Any thread except the servo thread; the loop may run and is not disturbed. A window copies
-/// `flight.records()`, which takes a millisecond or two, and saves the copy on another thread, so
-/// that the loop may end in the meantime.
-Status saveFlight(const FlightRecorder& flight,
-                  const std::string& path,
-                  GoalColumns goals = GoalColumns::Map);
+/// The last of these ticks: all that touched the flat map, or all on the body.
+std::vector<TickRecord> ofLastScene(std::vector<TickRecord> records);
+
+/// Saves a flight recorder's ticks, all of one scene, in the same columns, plus the stylus position
+/// and the duration of each tick. Goals are nan for ticks without a contact update.
+Status saveFlight(const std::vector<TickRecord>& records, const std::string& path);
+/// The same for the last ticks of one scene. Any thread except the servo thread; the loop may run
+/// and is not disturbed. A window copies `flight.records()`, which takes a millisecond or two, and
+/// saves the copy on another thread, so that the loop may end in the meantime.
+Status saveFlight(const FlightRecorder& flight, const std::string& path);
 
 } // namespace marsview

@@ -2,11 +2,13 @@
 #include "haptics/interaction/body_frame.h"
 #include "haptics/interaction/body_modes.h"
 #include "haptics/interaction/body_view.h"
+#include "haptics/interaction/stroke_area.h"
 #include "haptics/interaction/workspace_fit.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace marsview {
@@ -56,7 +58,57 @@ TEST(BodyView, TheWorkspaceCoversWhatTheViewShows)
     // From far away the whole ball is in the picture: to its edge where the view is tangent to it.
     const BodyCamera far = cameraOver(40.0, 60.0, 1e7);
     const double edge_m = 1e6 * std::sqrt(1.0 - 1.0 / (11.0 * 11.0));
-    EXPECT_NEAR(frameFor(far, kBall).scene_per_meter, 2.0 * edge_m / 0.12, 0.02 * edge_m / 0.12);
+    const WorkspaceFrame whole = frameFor(far, kBall);
+    EXPECT_NEAR(whole.scene_per_meter, 2.0 * edge_m / 0.12, 0.02 * edge_m / 0.12);
+    // A hand in the middle of the workspace is at the side that faces up, not in the ball.
+    EXPECT_NEAR(length(whole.toScene({0.0, 0.0, 0.0})) / 1e6, 1.0, 1e-3);
+}
+
+TEST(BodyView, FindsTheTerrainOnTheVerticalOfTheWorkspace)
+{
+    constexpr double kHeightM = 5e3;
+    const BodyCamera camera = cameraOver(-100.0, 35.0, 4e6);
+    const WorkspaceFrame frame = frameFor(camera, kBall);
+    const double radius = (1e6 + kHeightM) / frame.scene_per_meter;
+    const WorkspacePoint center = frame.toWorkspace({});
+    const BodyGround level = [](const GeographicPoint&) { return kHeightM; };
+    for (const double x : {-0.5, 0.0, 0.3}) {
+        for (const double y : {-0.2, 0.6}) {
+            const WorkspacePoint at{center.x + x * radius, center.y + y * radius, 0.02};
+            const auto found = terrainAlong(frame, at, level, kBall);
+            ASSERT_TRUE(found);
+            const double z = center.z + radius * std::sqrt(1.0 - x * x - y * y);
+            EXPECT_NEAR(length(frame.toWorkspace(*found) - WorkspacePoint{at.x, at.y, z}), 0.0,
+                        1e-9);
+        }
+    }
+    EXPECT_FALSE(terrainAlong(frame, {center.x + 1.01 * radius, center.y, 0.0}, level, kBall));
+    const BodyGround none = [](const GeographicPoint&) {
+        return std::numeric_limits<double>::quiet_NaN();
+    };
+    EXPECT_FALSE(terrainAlong(frame, center, none, kBall));
+}
+
+// From far away a ball is a disc: the largest rectangle in it is a square.
+TEST(BodyView, ASimulatedHandStrokesOnTheBallThatIsSeen)
+{
+    const BodyCamera far = cameraOver(40.0, 60.0, 2e7);
+    const WorkspaceFrame frame = frameFor(far, kBall);
+    const CameraPose pose = poseOf(far, kBall);
+    const BodyGround level = [](const GeographicPoint&) { return 0.0; };
+    const auto area = strokeArea(kReach, kSquare, [&](const WorkspacePoint& at) {
+        const auto terrain = terrainAlong(frame, at, level, kBall);
+        return terrain && dot(*terrain, pose.eye - *terrain) > 0.0
+                   ? project(pose, kSquare, *terrain)
+                   : std::nullopt;
+    });
+    ASSERT_TRUE(area);
+    const double half = 1e6 / frame.scene_per_meter / std::numbers::sqrt2;
+    constexpr double kCell = 0.16 / 32.0;
+    EXPECT_NEAR(area->high.x, half, kCell);
+    EXPECT_NEAR(area->low.x, -half, kCell);
+    EXPECT_NEAR(area->high.y, half, kCell);
+    EXPECT_NEAR(area->low.y, -half, kCell);
 }
 
 // On a sphere a roll and a turn about the vertical leave the camera level: the frame that follows
@@ -64,24 +116,24 @@ TEST(BodyView, TheWorkspaceCoversWhatTheViewShows)
 TEST(BodyView, CameraAndFrameFollowEachOther)
 {
     const BodyCamera camera = cameraOver(-30.0, 20.0, 3e5);
-    const BodyHandView before{camera, frameFor(camera, kBall)};
+    const BodyHandView before{camera, frameFor(camera, kBall), kBall};
     WorkspaceFrame frame = rolled(before.frame, kBall, {0.01, 0.02, 0.0}, Vec3{0.3, -0.7, 0.0});
-    const BodyCamera followed = cameraFollowing(before, frame, kBall);
+    const BodyCamera followed = cameraFollowing(before, frame);
     EXPECT_NEAR(followed.distance_m, camera.distance_m, 1e-6);
     EXPECT_NEAR(followed.height_m, camera.height_m, 1e-5);
     EXPECT_GT(length(targetOf(followed, kBall) - targetOf(camera, kBall)), 1e5);
-    const WorkspaceFrame again = frameFollowing(before, followed, kBall);
+    const WorkspaceFrame again = frameFollowing(before, followed);
     EXPECT_NEAR(angleBetween(again, frame), 0.0, 1e-9);
     const WorkspacePoint corner{0.05, 0.05, 0.0};
     EXPECT_NEAR(length(again.toScene(corner) - frame.toScene(corner)), 0.0, 1e-3);
-    const LimitedBodyView limited = limitedView({followed, frame}, followed, kBall);
+    const LimitedBodyView limited = limitedView({followed, frame, kBall}, followed);
     EXPECT_FALSE(limited.is_moved);
     BodyCamera higher = followed;
     higher.height_m += 1e4;
-    EXPECT_FALSE(limitedView({followed, frame}, higher, kBall).is_moved);
+    EXPECT_FALSE(limitedView({followed, frame, kBall}, higher).is_moved);
     BodyCamera beside = followed;
     beside.target.latitude = beside.target.latitude + Angle::degrees(5.0);
-    const LimitedBodyView moved = limitedView({followed, frame}, beside, kBall);
+    const LimitedBodyView moved = limitedView({followed, frame, kBall}, beside);
     EXPECT_TRUE(moved.is_moved);
     EXPECT_NEAR(length(moved.view.frame.toWorkspace(targetOf(beside, kBall)) -
                        frame.toWorkspace(targetOf(followed, kBall))),

@@ -3,6 +3,7 @@
 #include "core/contact/body_surface.h"
 #include "core/globe/body_camera.h"
 #include "haptics/interaction/body_frame.h"
+#include "haptics/loop/camera_link.h"
 #include "haptics/loop/haptic_tick.h"
 #include "haptics/loop/rt_scope.h"
 #include "tests/core/contact/body_maps.h"
@@ -415,6 +416,94 @@ TEST(BodyTick, ZoomAndTwistAreAboutTheVerticalAtTheHand)
     const Vec3 north = frame.body_axes->inverse() * Vec3{0.0, 0.0, 1.0};
     const Vec3 turned = after.body_axes->inverse() * Vec3{0.0, 0.0, 1.0};
     EXPECT_NEAR(length(Rotation::by(up * kTwist) * north - turned), 0.0, 1e-9);
+    EXPECT_EQ(rig.allocations, 0U);
+}
+
+// Hand, tick, frame, camera and the camera's limits together. The ball is pulled eastward by an arc
+// that is longer than the camera may go: its target turns by the arc, as far as its limit.
+TEST(BodyTick, TheCameraFollowsTheHandUpToItsLimits)
+{
+    const GeographicPoint site = degrees(20.0, 0.0);
+    Rig rig(ball(), site);
+    constexpr double kReachDeg = 20.0;
+    const BodyLimits limits{.ellipsoid = ball().body(),
+                            .area = {.middle = site, .reach = Angle::degrees(kReachDeg)},
+                            .lowest_m = kElevationM,
+                            .highest_m = kElevationM,
+                            .distance_min_m = 1e3,
+                            .distance_max_m = 1e8};
+    const BodyGround ground = [](const GeographicPoint&) { return kElevationM; };
+    BodyCamera camera =
+        constrained({.target = site, .height_m = kElevationM, .distance_m = 2e6}, limits, ground);
+    BodyCameraLink link;
+    link.begin({.camera = camera, .frame = rig.settings.frame, .body = limits.ellipsoid}, limits,
+               rig.settings);
+    const double radius = (kRadiusM + kElevationM) / kMetersPerMeter;
+    const auto along = [&](double angle) {
+        return point(Vec3{std::sin(angle), 0.0, std::cos(angle)} * (radius - 0.003) -
+                     Vec3{0.0, 0.0, radius});
+    };
+    int corrections = 0;
+    const auto hold = [&](double angle, int ticks) {
+        StepResult last;
+        for (int i = 0; i < ticks; ++i) {
+            last = rig.at(along(angle));
+            EXPECT_FALSE(last.has_changed_map);
+            if (i % 16 == 0) {
+                const LinkStep step = link.follow(
+                    {.seen = rig.state.seen_frame,
+                     .number = rig.state.frame_number,
+                     .mode = rig.state.modes.mode},
+                    limits, rig.settings,
+                    [&](const BodyCamera& wanted) {
+                        return camera = constrained(wanted, limits, ground);
+                    },
+                    [&] { return rig.settings.frame; });
+                corrections += step.has_moved_camera && step.has_changed_settings ? 1 : 0;
+            }
+        }
+        return last;
+    };
+    rig.at({0.0, 0.0, 0.01});
+    rig.to(along(0.0));
+    rig.settings.is_grabbing = true;
+    hold(0.0, 300);
+    const double target_x = rig.state.frame.toWorkspace(targetOf(camera, limits.ellipsoid)).x;
+    for (int i = 1; i <= 200; ++i) {
+        hold(1e-3 * i, 4);
+    }
+    hold(0.2, 2000);
+    // The terrain goes east with the hand, and the target of the picture to the west.
+    EXPECT_NEAR(camera.target.longitude.degrees(), 20.0 - Angle::radians(0.2).degrees(), 0.1);
+    EXPECT_NEAR(camera.target.latitude.degrees(), 0.0, 1e-6);
+    EXPECT_NEAR(rig.state.frame.toWorkspace(targetOf(camera, limits.ellipsoid)).x, target_x, 1e-4);
+    for (int i = 201; i <= 500; ++i) {
+        hold(1e-3 * i, 4);
+    }
+    const StepResult held = hold(0.5, 2000);
+    EXPECT_EQ(corrections, 0) << "the tick keeps within the limits by itself";
+    EXPECT_EQ(held.mode, StylusMode::Pan);
+    EXPECT_NEAR(camera.target.longitude.degrees(), 20.0 - kReachDeg, 0.1);
+    EXPECT_NEAR(rig.state.frame.toWorkspace(targetOf(camera, limits.ellipsoid)).x, target_x, 1e-3);
+    EXPECT_EQ(rig.allocations, 0U);
+}
+
+// Where another map is seen that cannot be touched, the hand is in free space, inside and beyond.
+TEST(BodyTick, ACoveredMapIsNotFelt)
+{
+    Rig rig(ball(), degrees(40.0, 30.0));
+    rig.at({0.0, 0.0, 0.01});
+    expectPressedBack(rig, rig.to({0.0, 0.0, -0.003}), {0.0, 0.0, -0.003});
+    rig.settings.is_covered = true;
+    StepResult covered = rig.to({0.0, 0.0, -0.003}, 20);
+    EXPECT_EQ(covered.force_n, Vec3{});
+    EXPECT_FALSE(covered.contact.is_in_contact);
+    EXPECT_EQ(covered.goals.count, 0U) << "the model is not asked";
+    covered = rig.to({0.01, 0.0, -0.02});
+    EXPECT_EQ(length(covered.goal - rig.state.frame.toScene({0.01, 0.0, -0.02})), 0.0);
+    rig.settings.is_covered = false;
+    rig.to({0.01, 0.0, -0.004}, 20);
+    expectPressedBack(rig, rig.at({0.01, 0.0, -0.004}), {0.01, 0.0, -0.004});
     EXPECT_EQ(rig.allocations, 0U);
 }
 
