@@ -42,7 +42,7 @@ ContactFeel ContactListener::hear(const ContactMoment& moment) noexcept
             .force_n = moment.stiffness_n_per_m * length(spring_m),
             .speed_m_per_s = speed_m_per_s_,
             .roughness_rad = roughness_rad_,
-            .height_share = span_m > 0.0 ? (moment.proxy.z - options_.lowest_m) / span_m : 0.5,
+            .height_share = span_m > 0.0 ? (moment.height_m - options_.lowest_m) / span_m : 0.5,
             .across =
                 half_m > 0.0 ? (moment.frame.toWorkspace(moment.proxy).x - middle) / half_m : 0.0};
 }

@@ -15,6 +15,7 @@ struct ContactMoment {
     std::int64_t time_ns = 0; // of any clock
     ScenePoint proxy{};
     ScenePoint goal{};
+    double height_m = 0.0;      // of the proxy
     bool is_in_contact = false; // and the surface force is on: not suppressed, map not held
     WorkspaceFrame frame;
     double stiffness_n_per_m = 0.0;
@@ -22,7 +23,7 @@ struct ContactMoment {
 
 /// The reference ranges. Constant while a map is shown with one exaggeration.
 struct ListenerOptions {
-    double lowest_m = 0.0; // scene z of height_share 0; all shares are 0.5 unless highest_m > it
+    double lowest_m = 0.0; // height of height_share 0; all shares are 0.5 unless highest_m > it
     double highest_m = 1.0;
     WorkspaceBox reach; // of the device: its ends along x are left and right
 };

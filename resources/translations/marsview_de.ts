@@ -2763,7 +2763,14 @@ y %2</translation>
     </message>
 </context>
 <context>
-    <name>marsview::GlobeTouch</name>
+    <name>marsview::GlobeHandScene</name>
+    <message>
+        <source>Preparing the terrain for touch…</source>
+        <translation>Das Gelände wird zum Ertasten vorbereitet …</translation>
+    </message>
+</context>
+<context>
+    <name>marsview::GlobeMeshes</name>
     <message>
         <source>The globe can be touched only where the map is held in memory. Choose View › Scene › Flat Map to touch this map</source>
         <translation>Der Globus lässt sich nur ertasten, wenn die Karte im Speicher liegt. Wählen Sie Ansicht › Szene › Ebene Karte, um diese Karte zu ertasten</translation>
@@ -2954,6 +2961,27 @@ y %2</translation>
     <message>
         <source>&amp;Record Touch…</source>
         <translation>Berührung auf&amp;zeichnen …</translation>
+    </message>
+</context>
+<context>
+    <name>marsview::HapticsController</name>
+    <message>
+        <source>The replay has ended: another scene is shown</source>
+        <translation>Die Wiedergabe ist beendet: Eine andere Szene wird gezeigt</translation>
+    </message>
+    <message>
+        <source>%1 was recorded on the flat map. Choose View › Scene › Flat Map to replay it</source>
+        <extracomment>%1 is a file</extracomment>
+        <translation>%1 wurde auf der ebenen Karte aufgezeichnet. Wählen Sie Ansicht › Szene › Ebene Karte, um es wiederzugeben</translation>
+    </message>
+    <message>
+        <source>%1 was recorded on the globe. Choose View › Scene › Globe to replay it</source>
+        <extracomment>%1 is a file</extracomment>
+        <translation>%1 wurde auf dem Globus aufgezeichnet. Wählen Sie Ansicht › Szene › Globus, um es wiederzugeben</translation>
+    </message>
+    <message>
+        <source>Nothing to touch here: the layer is not held in memory</source>
+        <translation>Hier ist nichts zu ertasten: Die Ebene liegt nicht im Speicher</translation>
     </message>
 </context>
 <context>
@@ -5222,10 +5250,6 @@ Bewegen Sie die Karte zu einer Ansicht, die Sie behalten wollen, und drücken Si
     <message>
         <source>Not available: the body of the topmost layer is not known. Set it with Layer › Set Body, CRS…</source>
         <translation>Nicht verfügbar: Der Himmelskörper des obersten Layers ist unbekannt. Legen Sie ihn mit Layer › Raumbezug festlegen … fest</translation>
-    </message>
-    <message>
-        <source>Not available: a haptic device cannot touch the globe yet. Disconnect it first</source>
-        <translation>Nicht verfügbar: Ein haptisches Gerät kann den Globus noch nicht berühren. Trennen Sie es zuerst</translation>
     </message>
     <message>
         <source>Not available on the globe yet. Choose View › Scene › Flat Map first</source>

@@ -90,4 +90,18 @@ QCursor cursorOf(MapCursor cursor)
     return Qt::ArrowCursor;
 }
 
+CursorShape shapeOf(const StylusPose& pose)
+{
+    switch (pose.mode) {
+    case StylusMode::Pan:
+        return CursorShape::FlatSphere;
+    case StylusMode::Zoom:
+        return CursorShape::LongSphere;
+    case StylusMode::Hover:
+    case StylusMode::Press:
+        break;
+    }
+    return pose.is_in_contact ? CursorShape::Cone : CursorShape::Sphere;
+}
+
 } // namespace marsview

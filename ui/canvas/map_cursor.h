@@ -1,8 +1,9 @@
-// The shape of the pointer over the map.
+// The shapes of the pointer and of a stylus over the map.
 #pragma once
 
 #include "haptics/interaction/mouse_stylus.h"
 #include "ui/canvas/gestures.h"
+#include "ui/render/cursor_renderer.h"
 
 #include <QCursor>
 
@@ -22,5 +23,8 @@ struct PointerState {
 MapCursor mapCursor(const PointerState& state);
 
 QCursor cursorOf(MapCursor cursor);
+
+/// How a stylus is drawn on the terrain.
+CursorShape shapeOf(const StylusPose& pose);
 
 } // namespace marsview

@@ -1,5 +1,6 @@
 #include "ui/canvas/terrain_canvas.h"
 
+#include "ui/canvas/map_cursor.h"
 #include "ui/render/cursor_solids.h"
 #include "ui/render/offscreen_picture.h"
 
@@ -21,20 +22,6 @@ constexpr int kShadowSides = 24;
 
 // Of pictures for files, a pixel.
 constexpr int kSmoothSamples = 4;
-
-CursorShape shapeOf(const StylusPose& pose)
-{
-    switch (pose.mode) {
-    case StylusMode::Pan:
-        return CursorShape::FlatSphere;
-    case StylusMode::Zoom:
-        return CursorShape::LongSphere;
-    case StylusMode::Hover:
-    case StylusMode::Press:
-        break;
-    }
-    return pose.is_in_contact ? CursorShape::Cone : CursorShape::Sphere;
-}
 
 // Around the place below the stylus, on the terrain.
 std::vector<ScenePoint> shadowOf(const ScenePoint& place, double radius_m, const ShownScene& scene)

@@ -3,10 +3,11 @@
 #include "core/globe/body_navigation.h"
 #include "ui/canvas/terrain_view.h"
 #include "ui/controllers/annotation_controller.h"
-#include "ui/controllers/haptics/device_session.h"
+#include "ui/controllers/haptics/haptics_controller.h"
 #include "ui/controllers/measure_controller.h"
 #include "ui/controllers/session_controller.h"
 #include "ui/controllers/vector_overlays.h"
+#include "ui/globe/globe_hand_scene.h"
 #include "ui/globe/globe_scene.h"
 #include "ui/globe/globe_view.h"
 #include "ui/panels/layer_model.h"
@@ -48,10 +49,10 @@ bool isWhole(const TerrainView& view)
 SceneCommands::SceneCommands(const Parts& parts)
     : parts_(parts)
     , globe_scene_(new GlobeScene(parts.globe, &parts.globe))
+    , globe_hand_(new GlobeHandScene(parts.globe, &parts.globe))
 {
     const WindowActions& actions = parts_.actions;
-    parts_.flat_actions += {actions.save_picture, actions.stretch_to_view, actions.layer.go_to,
-                            actions.haptic_devices, actions.replay_touch};
+    parts_.flat_actions += {actions.save_picture, actions.stretch_to_view, actions.layer.go_to};
     parts_.globe.addActions(parts_.view.actions()); // their keys
     connectParts();
     showChoices();
@@ -69,7 +70,6 @@ void SceneCommands::connectParts()
     connect(view, &TerrainView::lookChanged, this, &SceneCommands::follow);
     connect(view, &TerrainView::exaggerationChanged, this, &SceneCommands::follow);
     connect(view, &TerrainView::toolChanged, &parts_.globe, &GlobeView::setTool);
-    connect(&parts_.device, &DeviceSession::connectionChanged, this, &SceneCommands::showChoices);
     connect(parts_.actions.contact_model_group, &QActionGroup::triggered, this, [this] {
         if (is_globe_shown_) {
             parts_.globe.setContactModel(parts_.view.contactModel());
@@ -79,7 +79,9 @@ void SceneCommands::connectParts()
     connect(
         &parts_.globe, &GlobeView::touchFailed, this,
         [this](const QString& reason) {
-            parts_.view.setTool(Tool::Pan);
+            if (parts_.view.tool() == Tool::Touch) {
+                parts_.view.setTool(Tool::Pan);
+            }
             parts_.messages.show(reason);
         },
         Qt::QueuedConnection);
@@ -111,7 +113,8 @@ void SceneCommands::readOnGlobe()
                 if (!is_globe_shown_) {
                     return;
                 }
-                readout->setSource(ReadingSource::Pointer);
+                const bool is_stylus = globe->readingSource() == ReadingSource::Stylus;
+                readout->setSource(is_stylus ? ReadingSource::Stylus : ReadingSource::Pointer);
                 if (!ground) {
                     readout->setPlace(std::nullopt);
                     return;
@@ -141,9 +144,6 @@ QString SceneCommands::whyNoGlobe() const
         return tr(
             "Not available: the body of the topmost layer is not known. Set it with Layer › "
             "Set Body, CRS…");
-    }
-    if (parts_.device.state() != DeviceState::Idle) {
-        return tr("Not available: a haptic device cannot touch the globe yet. Disconnect it first");
     }
     return {};
 }
@@ -279,6 +279,7 @@ void SceneCommands::setGlobeShown(bool is_shown)
         handToGlobe();
         follow();
         drawOn(globe_scene_);
+        parts_.haptics.touchOn(globe_hand_);
         view.hide();
         view.setFocusProxy(&globe); // what begins there begins on the globe
         globe.show();
@@ -286,6 +287,7 @@ void SceneCommands::setGlobeShown(bool is_shown)
         handToMap();
         globe.setTool(Tool::Pan); // lifts the stylus
         drawOn(nullptr);
+        parts_.haptics.touchOn(nullptr);
         view.setFocusProxy(nullptr);
         globe.hide();
         globe.setLayers({});
@@ -296,12 +298,6 @@ void SceneCommands::setGlobeShown(bool is_shown)
     }
     for (QAction* action : std::as_const(parts_.flat_actions)) {
         is_shown ? withhold(*action) : release(*action);
-    }
-    for (QWidget* widget : std::as_const(parts_.flat_widgets)) {
-        widget->setEnabled(!is_shown);
-        widget->setToolTip(is_shown ? tr("Not available on the globe yet. Choose View › Scene › "
-                                         "Flat Map first")
-                                    : QString());
     }
     if (parts_.layer_list != nullptr) {
         parts_.layer_list->setSceneOfBody(is_shown);

@@ -17,17 +17,17 @@
 #include <vector>
 
 class QAction;
-class QWidget;
 
 namespace marsview {
 
 class AnnotationController;
-class DeviceSession;
 class DrawingScene;
+class GlobeHandScene;
 class GlobeScene;
 class GlobeView;
-class MainToolBar;
+class HapticsController;
 class LayerModel;
+class MainToolBar;
 class MeasureController;
 class SessionController;
 class StatusReadout;
@@ -49,15 +49,14 @@ public:
         TerrainView& view;
         GlobeView& globe;
         SessionController& session;
-        const DeviceSession& device;
+        HapticsController& haptics;
         StatusReadout& readout;
         WindowMessages& messages;
         MeasureController& measuring;
         AnnotationController& annotating;
         VectorOverlays& vector_files;
-        /// Further actions and widgets of the flat map alone.
+        /// Further actions of the flat map alone.
         QList<QAction*> flat_actions;
-        QList<QWidget*> flat_widgets;
         /// Which layers are in the picture, as people see it; may be null.
         LayerModel* layer_list = nullptr;
     };
@@ -109,7 +108,8 @@ private:
     };
 
     Parts parts_;
-    GlobeScene* globe_scene_; // a child of the globe
+    GlobeScene* globe_scene_;    // a child of the globe
+    GlobeHandScene* globe_hand_; // the same
     SceneChoice choice_ = SceneChoice::Automatic;
     bool is_globe_shown_ = false;
     bool is_withholding_ = false; // this changes an action, not its feature

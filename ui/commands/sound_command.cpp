@@ -1,7 +1,7 @@
 #include "ui/commands/sound_command.h"
 
-#include "ui/canvas/terrain_view.h"
 #include "ui/controllers/contact_sounds.h"
+#include "ui/controllers/haptics/haptics_controller.h"
 #include "ui/text/sentence.h"
 #include "ui/window/window_messages.h"
 
@@ -20,7 +20,7 @@ QString soundKey()
 
 SoundCommand::SoundCommand(const Parts& parts)
     : parts_(parts)
-    , sounds_(new ContactSounds(parts.view, parts.open_sound, this))
+    , sounds_(new ContactSounds(parts.haptics.scene(), parts.open_sound, this))
     , is_on_by_settings_(parts.is_remembered && QSettings().value(soundKey(), false).toBool())
 {
     connect(&parts_.action, &QAction::triggered, this, [this](bool is_on) {
@@ -30,6 +30,8 @@ SoundCommand::SoundCommand(const Parts& parts)
             remember(false);
         }
     });
+    connect(&parts_.haptics, &HapticsController::sceneChanged, this,
+            [this] { sounds_->setScene(parts_.haptics.scene()); });
     connect(sounds_, &ContactSounds::opened, this, [this] { remember(true); });
     connect(sounds_, &ContactSounds::failed, this, [this](const QString& why) {
         remember(false);

@@ -12,7 +12,7 @@ class QAction;
 namespace marsview {
 
 class ContactSounds;
-class TerrainView;
+class HapticsController;
 class WindowMessages;
 
 /// A sound that failed is off at the next start too. A failure is reported only to a user who has
@@ -23,7 +23,7 @@ class SoundCommand final : public QObject {
 public:
     struct Parts {
         QAction& action; // checkable
-        TerrainView& view;
+        HapticsController& haptics;
         WindowMessages& messages;
         std::function<Result<SoundPlayer>()> open_sound;
         bool is_remembered = false; // for later windows

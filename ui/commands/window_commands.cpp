@@ -205,7 +205,7 @@ WindowCommands::WindowCommands(const WindowParts& parts, const WindowOptions& op
                .fetched_tiles = options.opener.resources.fetched_tiles},
               noticeCommandsOf(parts))
     , sound({.action = *parts.actions.contact_sound,
-             .view = parts.view,
+             .haptics = parts.haptics,
              .messages = parts.messages,
              .open_sound = options.open_sound,
              .is_remembered = options.isRemembered()})
@@ -215,14 +215,13 @@ WindowCommands::WindowCommands(const WindowParts& parts, const WindowOptions& op
              .view = parts.view,
              .globe = parts.globe,
              .session = parts.session,
-             .device = parts.haptics.device(),
+             .haptics = parts.haptics,
              .readout = parts.readout,
              .messages = parts.messages,
              .measuring = parts.measuring,
              .annotating = parts.annotating,
              .vector_files = vector_files.overlays(),
              .flat_actions = flatActions(parts.overlays, views, reports),
-             .flat_widgets = {&parts.haptics_panel},
              .layer_list = parts.layers.findChild<LayerModel*>()})
 {
     project.setScene({.choice = [this] { return scene.choice(); },

@@ -1,8 +1,7 @@
 #include "ui/controllers/contact_sounds.h"
 
 #include "haptics/sound/contact_sound.h"
-#include "ui/canvas/terrain_view.h"
-#include "ui/controllers/hand_sight.h"
+#include "ui/controllers/hand_scene.h"
 
 #include <chrono>
 #include <mutex>
@@ -29,23 +28,36 @@ struct ContactSounds::Opening {
     ContactSounds* owner = nullptr; // null once the owner is destroyed
 };
 
-ContactSounds::ContactSounds(TerrainView& view, OpenPlayer open, QObject* parent)
+ContactSounds::ContactSounds(HandScene& scene, OpenPlayer open, QObject* parent)
     : QObject(parent)
-    , view_(view)
+    , scene_(&scene)
     , open_(std::move(open))
 {
     timer_.setInterval(kPeriod);
     timer_.setTimerType(Qt::PreciseTimer);
     connect(&timer_, &QTimer::timeout, this, &ContactSounds::play);
-    connect(&view_, &TerrainView::stylusMoved, this, [this] {
-        const auto& pose = view_.shownStylus();
+    connectScene();
+}
+
+void ContactSounds::connectScene()
+{
+    connect(scene_, &HandScene::stylusMoved, this, [this] {
+        const auto& pose = scene_->shownStylus();
         if (player_ && pose && pose->is_in_contact && !timer_.isActive()) {
             timer_.start();
         }
     });
-    connect(&view_, &TerrainView::sightChanged, this, &ContactSounds::takeSight);
-    connect(&view_, &TerrainView::layersChanged, this, &ContactSounds::listenAnew);
-    connect(&view_, &TerrainView::exaggerationChanged, this, &ContactSounds::listenAnew);
+    connect(scene_, &HandScene::sightChanged, this, &ContactSounds::takeSight);
+    connect(scene_, &HandScene::mapsChanged, this, &ContactSounds::listenAnew);
+    connect(scene_, &HandScene::exaggerationChanged, this, &ContactSounds::listenAnew);
+}
+
+void ContactSounds::setScene(HandScene& scene)
+{
+    scene_->disconnect(this);
+    scene_ = &scene;
+    connectScene();
+    listenAnew();
 }
 
 ContactSounds::~ContactSounds()
@@ -111,34 +123,34 @@ void ContactSounds::take(Result<SoundPlayer> player)
 void ContactSounds::listenAnew()
 {
     listener_.reset();
-    if (!player_ || view_.ground().maps().empty()) {
+    if (!player_ || scene_->isEmpty()) {
         return;
     }
-    const SceneBox box = view_.ground().box(view_.exaggeration());
-    listener_.emplace(
-        ListenerOptions{.lowest_m = box.minimum.z, .highest_m = box.maximum.z, .reach = kReach});
+    const HeightRange heights = scene_->heightRange();
+    listener_.emplace(ListenerOptions{
+        .lowest_m = heights.minimum_m, .highest_m = heights.maximum_m, .reach = kReach});
     takeSight();
     timer_.start();
 }
 
 void ContactSounds::takeSight()
 {
-    if (listener_) {
-        frame_ = frameForSight(view_.camera(), view_.viewport(), view_.ground(),
-                               view_.exaggeration(), kReach);
+    if (listener_ && !scene_->isEmpty()) {
+        frame_ = scene_->fittedFrame(kReach);
     }
 }
 
 ContactMoment ContactSounds::moment() const
 {
     ContactMoment moment{.time_ns = nowNs(), .frame = frame_};
-    const auto& pose = view_.shownStylus();
+    const auto& pose = scene_->shownStylus();
     if (!pose || !pose->is_in_contact ||
         (pose->mode != StylusMode::Hover && pose->mode != StylusMode::Press)) {
         return moment;
     }
     moment.proxy = pose->proxy;
     moment.goal = pose->goal;
+    moment.height_m = scene_->heightOf(pose->proxy);
     moment.is_in_contact = true;
     const double spring_m = length(frame_.differenceToWorkspace(pose->proxy - pose->goal));
     moment.stiffness_n_per_m = spring_m > 0.0 ? length(pose->force_n) / spring_m : 0.0;

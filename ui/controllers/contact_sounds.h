@@ -14,10 +14,10 @@
 
 namespace marsview {
 
-class TerrainView;
+class HandScene;
 
 /// Off until it is switched on. Plays from the GUI thread's timer, which runs only while something
-/// is touched or fades out; the output is opened on a separate thread. Must not outlive the view.
+/// is touched or fades out; the output is opened on a separate thread. Must not outlive the scene.
 class ContactSounds final : public QObject {
     Q_OBJECT
 
@@ -25,11 +25,13 @@ public:
     /// Opens an output; any thread.
     using OpenPlayer = std::function<Result<SoundPlayer>()>;
 
-    explicit ContactSounds(TerrainView& view,
+    explicit ContactSounds(HandScene& scene,
                            OpenPlayer open = &SoundPlayer::open,
                            QObject* parent = nullptr);
     ~ContactSounds() override;
 
+    /// Another scene is shown.
+    void setScene(HandScene& scene);
     void setOn(bool is_on);
     bool isOn() const noexcept { return is_on_; }
     /// The output is open.
@@ -49,6 +51,7 @@ Q_SIGNALS:
 private:
     struct Opening;
 
+    void connectScene();
     void open();
     void take(Result<SoundPlayer> player);
     void listenAnew();
@@ -56,7 +59,7 @@ private:
     void play();
     ContactMoment moment() const;
 
-    TerrainView& view_;
+    HandScene* scene_;
     OpenPlayer open_;
     std::shared_ptr<Opening> opening_; // what the opening thread knows of this object
     bool is_on_ = false;

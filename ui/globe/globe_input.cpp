@@ -28,6 +28,9 @@ constexpr milliseconds kWheelDuration{140};
 
 constexpr double kDeeperPerNotch = 1.15; // of the stylus' depth
 
+// The pointer is read for so long after it moved, in place of the stylus of a device.
+constexpr milliseconds kLeadDuration{2000};
+
 } // namespace
 
 PlaceTool* GlobeView::placeTool() const
@@ -41,11 +44,85 @@ void GlobeView::setTool(Tool tool)
     endDrag();
     if (PlaceTool* left = placeTool(); left != nullptr && tool != tool_) {
         left->hover(std::nullopt);
+        left->releaseStylus();
     }
     tool_ = tool;
     touch_.setChosen(tool == Tool::Touch);
     followTouch();
     showCursor();
+    Q_EMIT toolChanged();
+}
+
+void GlobeView::showDevice(const std::optional<StylusPose>& pose)
+{
+    if (pose == device_) {
+        return;
+    }
+    const bool was_shown = device_.has_value();
+    device_ = pose;
+    update(); // over the picture that was kept
+    Q_EMIT stylusMoved();
+    if (pose) {
+        moveStylus(pose->proxy);
+    } else {
+        releaseStylus();
+    }
+    if (isStylusRead() || was_shown != device_.has_value()) {
+        report();
+    }
+}
+
+const std::optional<StylusPose>& GlobeView::shownStylus() const noexcept
+{
+    const auto& mouse = touch_.pose();
+    const bool is_mouse_at_work = mouse && mouse->mode != StylusMode::Hover;
+    return device_ && !is_mouse_at_work ? device_ : mouse;
+}
+
+// On the grid of the topmost map, which the place may be beside.
+std::optional<RayHit> GlobeView::onTopmost(const ScenePoint& place) const
+{
+    const auto ground = groundBelow(place);
+    const auto grid =
+        ground ? layers_.front().map->georeference().toGrid(placeOf(place, scene_.ellipsoid()).foot)
+               : std::nullopt;
+    return grid ? std::optional(RayHit{.grid = ground->index == 0 ? ground->hit.grid : *grid,
+                                       .height_m = ground->hit.height_m,
+                                       .t = ground->hit.distance_m})
+                : std::nullopt;
+}
+
+void GlobeView::pressStylus(const ScenePoint& place)
+{
+    PlaceTool* tool = placeTool();
+    const auto hit = tool != nullptr ? onTopmost(place) : std::nullopt;
+    if (hit) {
+        tool->pressStylus(*hit);
+    }
+}
+
+void GlobeView::moveStylus(const ScenePoint& place)
+{
+    PlaceTool* tool = placeTool();
+    const auto hit = tool != nullptr ? onTopmost(place) : std::nullopt;
+    if (hit) {
+        tool->moveStylus(*hit);
+    }
+}
+
+void GlobeView::releaseStylus()
+{
+    if (PlaceTool* tool = placeTool()) {
+        tool->releaseStylus();
+    }
+}
+
+void GlobeView::notePointer(QPointF position)
+{
+    if (device_ && pointer_ != position) {
+        lead_timer_.start(kLeadDuration);
+    }
+    pointer_ = position;
 }
 
 void GlobeView::mousePressEvent(QMouseEvent* event)
@@ -56,7 +133,7 @@ void GlobeView::mousePressEvent(QMouseEvent* event)
     motion_.stop();
     drag_button_ = event->button();
     drag_position_ = event->position();
-    pointer_ = event->position();
+    notePointer(event->position());
     PlaceTool* tool = placeTool();
     if (tool != nullptr && event->button() == Qt::LeftButton &&
         event->modifiers() == Qt::NoModifier && tool->grab(event->position())) {
@@ -83,7 +160,7 @@ void GlobeView::mouseMoveEvent(QMouseEvent* event)
         forgetPointer();
         return;
     }
-    pointer_ = event->position();
+    notePointer(event->position());
     const QPointF moved = event->position() - drag_position_;
     if (may_be_click_) {
         if (moved.manhattanLength() < QApplication::startDragDistance()) {
@@ -159,6 +236,13 @@ void GlobeView::contextMenuEvent(QContextMenuEvent* event)
 
 void GlobeView::keyPressEvent(QKeyEvent* event)
 {
+    if (event->key() == Qt::Key_Space && event->modifiers() == Qt::NoModifier && device_) {
+        if (!event->isAutoRepeat()) {
+            grab_key_.hold();
+            Q_EMIT grabbingChanged(true);
+        }
+        return;
+    }
     if (event->key() == Qt::Key_F10 && event->modifiers() == Qt::ShiftModifier) {
         if (!scene_.isEmpty()) { // the other key of the context menu, which Qt leaves out on X11
             Q_EMIT menuRequested(QRectF(rect()).center());

@@ -154,6 +154,11 @@ std::optional<DrawingScene::Place> GlobeScene::placeRead() const
     return placeOf(globe_.reading());
 }
 
+bool GlobeScene::isReadByStylus() const
+{
+    return globe_.readingSource() == ReadingSource::Stylus;
+}
+
 void GlobeScene::setPlaceTool(Tool tool, PlaceTool* place_tool)
 {
     globe_.setPlaceTool(tool, place_tool);

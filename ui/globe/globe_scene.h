@@ -34,7 +34,7 @@ public:
     DotSight dotSight(const QRectF& area) const override;
     std::optional<Place> placeAt(QPointF position) const override;
     std::optional<Place> placeRead() const override;
-    bool isReadByStylus() const override { return false; }
+    bool isReadByStylus() const override;
     void setPlaceTool(Tool tool, PlaceTool* place_tool) override;
     void setLines(std::vector<DrapedLine> lines, LineSet set) override;
     void flyToAll(const std::vector<ScenePoint>& places) override;

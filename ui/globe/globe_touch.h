@@ -1,36 +1,29 @@
 // The Touch tool on the globe: the stylus that the pointer moves.
 #pragma once
 
-#include "core/session/body_terrain.h"
 #include "haptics/interaction/body_stylus.h"
-#include "ui/controllers/detached_jobs.h"
+#include "ui/globe/globe_meshes.h"
 
 #include <QObject>
 
-#include <memory>
 #include <optional>
 
 namespace marsview {
 
-/// The mouse has a stylus while the tool is chosen and the pointer is over the terrain. What it
-/// presses into is made on a worker thread when the tool is chosen first, and made again where the
-/// exaggeration changes. GUI thread.
+/// The mouse has a stylus while the tool is chosen and the pointer is over the terrain. It is
+/// lifted where the scene changes. GUI thread.
 class GlobeTouch final : public QObject {
     Q_OBJECT
 
 public:
-    explicit GlobeTouch(QObject* parent = nullptr);
-    ~GlobeTouch() override;
+    /// The meshes outlive it.
+    explicit GlobeTouch(GlobeMeshes& meshes, QObject* parent = nullptr);
 
-    /// Lifts the stylus where anything changed.
-    void setScene(const BodyScene& scene, double exaggeration);
     void setChosen(bool is_chosen);
     bool isChosen() const noexcept { return is_chosen_; }
     void setModel(ContactModelKind model);
-    /// What the stylus presses into is being made.
-    bool isPreparing() const noexcept { return preparing_ != nullptr; }
-    /// It is there.
-    bool isReady() const noexcept { return is_ready_; }
+    /// There is something to press into.
+    bool isReady() const noexcept { return is_chosen_ && meshes_.isReady(); }
 
     void setPressing(bool is_pressing) { buttons_.is_pressing = is_pressing; }
     bool isPressing() const noexcept { return buttons_.is_pressing; }
@@ -47,24 +40,16 @@ public:
 Q_SIGNALS:
     /// pose() may have changed.
     void moved();
-    void preparingChanged(bool is_preparing);
-    /// Why the terrain cannot be touched.
-    void failed(const QString& reason);
 
 private:
-    void prepare();
-    void cancel();
+    void takeGround();
 
+    GlobeMeshes& meshes_;
     BodyStylus stylus_;
     StylusButtons buttons_;
-    BodyScene scene_;
-    double exaggeration_ = 1.0;
     bool is_chosen_ = false;
-    bool is_ready_ = false; // for exaggeration_
-    std::shared_ptr<JobMonitor> preparing_;
     std::optional<BodyAim> at_; // and again when it can be pressed
     double point_m_ = 1.0;
-    DetachedJobs jobs_;
 };
 
 } // namespace marsview

@@ -1,5 +1,6 @@
 #include "ui/globe/globe_view.h"
 
+#include "core/globe/horizon.h"
 #include "ui/canvas/view_projection.h"
 
 #include <QLabel>
@@ -74,8 +75,11 @@ GlobeView::GlobeView(QWidget* parent)
         update(); // over the picture that was kept
         Q_EMIT stylusMoved();
     });
-    connect(&touch_, &GlobeTouch::failed, this, &GlobeView::touchFailed);
-    connect(&touch_, &GlobeTouch::preparingChanged, this, [this](bool is_preparing) {
+    connect(&grab_key_, &GrabKey::released, this, [this] { Q_EMIT grabbingChanged(false); });
+    lead_timer_.setSingleShot(true);
+    connect(&lead_timer_, &QTimer::timeout, this, &GlobeView::report);
+    connect(&meshes_, &GlobeMeshes::failed, this, &GlobeView::touchFailed);
+    connect(&meshes_, &GlobeMeshes::preparingChanged, this, [this](bool is_preparing) {
         if (!scene_.isEmpty()) {
             wait_->setText(tr("Preparing the terrain for touch…"));
             wait_->setVisible(is_preparing);
@@ -223,7 +227,7 @@ void GlobeView::showPlaced()
         }
     }
     scene_ = BodyScene(std::move(maps));
-    touch_.setScene(scene_, style_.exaggeration);
+    meshes_.setScene(scene_, style_.exaggeration);
     are_layers_sent_ = false;
     if (!scene_.isEmpty()) {
         wait_->hide();
@@ -263,7 +267,7 @@ void GlobeView::showMissing()
 void GlobeView::setExaggeration(double exaggeration)
 {
     const double before = std::exchange(style_.exaggeration, exaggeration);
-    touch_.setScene(scene_, exaggeration);
+    meshes_.setScene(scene_, exaggeration);
     if (!scene_.isEmpty() && before != exaggeration) {
         BodyCamera camera = motion_.goal();
         camera.height_m *= exaggeration / before;
@@ -489,8 +493,50 @@ std::optional<BodyHit> GlobeView::hitAt(QPointF position) const
     return ground ? std::optional(ground->hit) : std::nullopt;
 }
 
+std::optional<BodyScenePoint> GlobeView::groundBelow(const ScenePoint& place) const
+{
+    if (scene_.isEmpty()) {
+        return std::nullopt;
+    }
+    const GeographicPoint foot = placeOf(place, scene_.ellipsoid()).foot;
+    const auto index = scene_.mapAt(foot);
+    const auto grid = index ? scene_.maps()[*index].gridAt(foot) : std::nullopt;
+    if (!grid) {
+        return std::nullopt;
+    }
+    const ScenePoint eye = poseOf(motion_.camera(), scene_.ellipsoid()).eye;
+    return BodyScenePoint{.index = *index,
+                          .hit = {.grid = *grid,
+                                  .height_m = scene_.maps()[*index].heightOnGrid(*grid),
+                                  .distance_m = length(place - eye)}};
+}
+
+bool GlobeView::isInPicture(const ScenePoint& place) const
+{
+    if (scene_.isEmpty()) {
+        return false;
+    }
+    const CameraPose pose = poseOf(motion_.camera(), scene_.ellipsoid());
+    const Viewport size = viewport();
+    const auto pixel = project(pose, size, place);
+    return pixel && pixel->x >= 0.0 && pixel->y >= 0.0 && pixel->x <= size.width &&
+           pixel->y <= size.height &&
+           !Horizon(scene_.ellipsoid(), scene_.range().minimum_m * style_.exaggeration)
+                .hides(place, pose.eye);
+}
+
+ReadingSource GlobeView::readingSource() const
+{
+    return isStylusRead()       ? ReadingSource::Stylus
+           : isCrosshairShown() ? ReadingSource::Crosshair
+                                : ReadingSource::Pointer;
+}
+
 std::optional<BodyScenePoint> GlobeView::reading() const
 {
+    if (isStylusRead()) {
+        return groundBelow(device_->proxy);
+    }
     std::optional<QPointF> position = pointer_;
     if (!position && hasFocus()) {
         position = QRectF(rect()).center();
@@ -500,7 +546,7 @@ std::optional<BodyScenePoint> GlobeView::reading() const
 
 bool GlobeView::isCrosshairShown() const
 {
-    return !scene_.isEmpty() && !pointer_ && hasFocus();
+    return !scene_.isEmpty() && !pointer_ && hasFocus() && !isStylusRead();
 }
 
 void GlobeView::forgetPointer()
@@ -782,14 +828,14 @@ void GlobeView::paintLines()
 
 void GlobeView::paintCursor()
 {
-    const auto& stylus = touch_.pose();
+    const auto& stylus = shownStylus();
     if (!stylus || !cursor_solids_) {
         return;
     }
     const Ellipsoid& ellipsoid = scene_.ellipsoid();
     const CameraPose pose = poseOf(motion_.camera(), ellipsoid);
     const Viewport size = viewport();
-    CursorPicture cursor{.shape = stylus->is_in_contact ? CursorShape::Cone : CursorShape::Sphere,
+    CursorPicture cursor{.shape = shapeOf(*stylus),
                          .position = stylus->proxy,
                          .goal = std::nullopt,
                          .shadow = {},

@@ -8,12 +8,15 @@
 #include "core/terrain/ray_cast.h"
 #include "ui/canvas/camera_controller.h"
 #include "ui/canvas/gestures.h"
+#include "ui/canvas/grab_key.h"
 #include "ui/canvas/line_sets.h"
 #include "ui/canvas/map_cursor.h"
+#include "ui/canvas/place_reader.h"
 #include "ui/canvas/place_tool.h"
 #include "ui/canvas/shown_layer.h"
 #include "ui/canvas/tool.h"
 #include "ui/controllers/detached_jobs.h"
+#include "ui/globe/globe_meshes.h"
 #include "ui/globe/globe_motion.h"
 #include "ui/globe/globe_touch.h"
 #include "ui/render/cursor_solids.h"
@@ -73,10 +76,20 @@ public:
     /// The stylus of the mouse, in the body-fixed frame; nothing while it is lifted or another tool
     /// is chosen.
     const std::optional<StylusPose>& stylus() const noexcept { return touch_.pose(); }
-    /// The local vertical at the stylus.
-    const Vec3& stylusUp() const noexcept { return touch_.up(); }
-    /// The terrain can be pressed.
+    /// The mouse can press into the terrain.
     bool isTouchReady() const noexcept { return touch_.isReady(); }
+    /// What is touched, by the mouse and by a device.
+    GlobeMeshes& meshes() noexcept { return meshes_; }
+
+    /// Where a haptic device has its stylus, in the body-fixed frame; nothing for none.
+    void showDevice(const std::optional<StylusPose>& pose);
+    /// The stylus drawn: the device's, unless the mouse presses with the Touch tool.
+    const std::optional<StylusPose>& shownStylus() const noexcept;
+    /// Whether the chosen tool places points: the button of a device's stylus is for it.
+    bool isPlacing() const { return placeTool() != nullptr; }
+    /// That button, with the stylus at a place of the body-fixed frame.
+    void pressStylus(const ScenePoint& place);
+    void releaseStylus();
 
     const BodyCamera& camera() const noexcept { return motion_.camera(); }
     const BodyCamera& cameraGoal() const noexcept { return motion_.goal(); }
@@ -102,8 +115,15 @@ public:
     /// The terrain under a position of the widget: the layer, and where it is on its grid.
     std::optional<BodyScenePoint> groundAt(QPointF position) const;
     std::optional<BodyHit> hitAt(QPointF position) const;
-    /// Under the pointer; at the middle while the pointer is elsewhere and the view has the focus.
+    /// The terrain straight below or above a place of the body-fixed frame.
+    std::optional<BodyScenePoint> groundBelow(const ScenePoint& place) const;
+    /// Whether nothing but terrain before it can hide a place.
+    bool isInPicture(const ScenePoint& place) const;
+    /// Under the stylus of a device, unless the pointer has just moved; otherwise under the
+    /// pointer; at the middle while the pointer is elsewhere and the view has the focus.
     std::optional<BodyScenePoint> reading() const;
+    /// What reading() is the place of.
+    ReadingSource readingSource() const;
     /// The reading is that of the middle, which the keyboard moves.
     bool isCrosshairShown() const;
     /// The pointer goes onto an overlay.
@@ -125,8 +145,11 @@ Q_SIGNALS:
     /// The layer, its look or the exaggeration.
     void sceneChanged();
     void crosshairChanged(bool is_shown);
-    /// stylus() may have changed.
+    /// shownStylus() may have changed.
     void stylusMoved();
+    /// The grab key was pressed or released for a device.
+    void grabbingChanged(bool is_grabbing);
+    void toolChanged();
     /// Why the terrain cannot be touched.
     void touchFailed(const QString& reason);
     /// A gesture of the mouse moved the camera or the stylus.
@@ -184,6 +207,10 @@ private:
     PlaceTool* placeTool() const;
     void endDrag();
     void followTouch();
+    std::optional<RayHit> onTopmost(const ScenePoint& place) const;
+    void moveStylus(const ScenePoint& place);
+    void notePointer(QPointF position);
+    bool isStylusRead() const { return device_ && !lead_timer_.isActive(); }
     void showCursor();
     void paintOver();
     void paintLines();
@@ -214,7 +241,11 @@ private:
     double zoom_left_ = 1.0; // the whole factor of the zoom in progress
     bool is_zooming_ = false;
 
-    GlobeTouch touch_;
+    GlobeMeshes meshes_;
+    GlobeTouch touch_{meshes_};
+    std::optional<StylusPose> device_;
+    GrabKey grab_key_;
+    QTimer lead_timer_; // runs while the pointer is read in place of the device's stylus
     MapCursor cursor_ = MapCursor::Arrow;
     std::unique_ptr<TerrainRenderer> renderer_;
     std::unique_ptr<GovernedPicture> picture_;

@@ -324,14 +324,17 @@ void GlobeOverlays::showLegend()
 void GlobeOverlays::showTouch()
 {
     showHand();
-    const auto& stylus = globe_.stylus();
-    if (!stylus || !stylus->is_in_contact || globe_.terrain() == nullptr) {
+    const auto& stylus = globe_.shownStylus();
+    // A replay has no force to show.
+    if (!stylus || !stylus->is_in_contact || !(stylus->force_n_max > 0.0) ||
+        globe_.terrain() == nullptr) {
         force_meter_->release();
         return;
     }
     // As the hand has it: to the right and away along the view, up along the local vertical.
-    const CameraPose pose = poseOf(globe_.camera(), globe_.scene().ellipsoid());
-    const Vec3& up = globe_.stylusUp();
+    const Ellipsoid& ellipsoid = globe_.scene().ellipsoid();
+    const CameraPose pose = poseOf(globe_.camera(), ellipsoid);
+    const Vec3 up = localAxes(ellipsoid, placeOf(stylus->goal, ellipsoid).foot).up;
     const Vec3 away = normalized(cross(up, pose.axes.right));
     const Vec3 right = cross(away, up);
     const Vec3& force_n = stylus->force_n;
@@ -342,7 +345,7 @@ void GlobeOverlays::showTouch()
 // An arrow to the cursor, where that cannot be seen.
 void GlobeOverlays::showHand()
 {
-    const auto& stylus = globe_.stylus();
+    const auto& stylus = globe_.shownStylus();
     if (!stylus || globe_.terrain() == nullptr) {
         hand_pointer_->release();
         return;

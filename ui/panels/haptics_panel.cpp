@@ -531,8 +531,10 @@ void HapticsPanel::showNoState()
     if (!device_.isRunning()) {
         force_->setValue(0);
         force_->setFormat(forceText(0.0, kForceNMax));
-        reason_->setText(device_.loop() != nullptr ? forceOffText(ForceOffReason::NoTouch)
-                                                   : QString());
+        const QString why = controller_.whyNoTouch();
+        reason_->setText(device_.loop() == nullptr ? QString()
+                         : why.isEmpty()           ? forceOffText(ForceOffReason::NoTouch)
+                                                   : why);
         rest_->hide();
         times_->clear();
     }
@@ -565,10 +567,12 @@ void HapticsPanel::showState(const LoopState& state)
                                ? forceOffText(state.reason)
                                //: %1 is the device's error
                                : tr("Force off: %1").arg(QString::fromStdString(trouble));
-    const QString text = !reason.isEmpty()  ? reason
-                         : is_replay        ? tr("Replaying")
-                         : state.is_at_edge ? tr("At the edge of the map")
-                                            : modeText(state.mode, state.contact.is_in_contact);
+    const QString why_not = controller_.whyNoTouch();
+    const QString text = !reason.isEmpty()    ? reason
+                         : is_replay          ? tr("Replaying")
+                         : !why_not.isEmpty() ? why_not
+                         : state.is_at_edge   ? tr("At the edge of the map")
+                                              : modeText(state.mode, state.contact.is_in_contact);
     if (text != reason_->text()) {
         reason_->setText(text);
     }
@@ -642,7 +646,7 @@ void HapticsPanel::chooseReplay()
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     connect(dialog, &QFileDialog::fileSelected, this, [this](const QString& file) {
         folder_ = QFileInfo(file).absolutePath();
-        device_.connectTo(QStringLiteral("replay:") + file);
+        controller_.replay(file);
     });
     dialog->open();
 }

@@ -23,6 +23,7 @@ ContactMoment pressed(std::int64_t number,
     return {.time_ns = 1'000'000'000 + number * kLookNs,
             .proxy = kFrame.toScene(at),
             .goal = kFrame.toScene(at + normal * -depth_m),
+            .height_m = kFrame.toScene(at).z,
             .is_in_contact = true,
             .frame = kFrame,
             .stiffness_n_per_m = 300.0};

@@ -4,6 +4,7 @@
 #include "tests/ui/timeout.h"
 #include "ui/canvas/terrain_view.h"
 #include "ui/controllers/contact_sounds.h"
+#include "ui/controllers/haptics/flat_hand_scene.h"
 
 #include <QApplication>
 #include <QMouseEvent>
@@ -61,7 +62,8 @@ protected:
 
 TEST_F(ContactSoundsTest, AreSilentUntilSwitchedOnAndHeardWhileTheMouseTouches)
 {
-    ContactSounds sounds(*view_, [] { return SoundPlayer::openLoopback(); });
+    FlatHandScene scene(*view_);
+    ContactSounds sounds(scene, [] { return SoundPlayer::openLoopback(); });
     double loudest = 0.0;
     slide(sounds, loudest);
     EXPECT_EQ(loudest, 0.0);
@@ -88,7 +90,8 @@ TEST_F(ContactSoundsTest, AreSilentUntilSwitchedOnAndHeardWhileTheMouseTouches)
 
 TEST_F(ContactSoundsTest, ReportAMissingOutputAndSwitchOff)
 {
-    ContactSounds sounds(*view_, []() -> Result<SoundPlayer> {
+    FlatHandScene scene(*view_);
+    ContactSounds sounds(scene, []() -> Result<SoundPlayer> {
         return Error{ErrorCode::NotFound, "sound: no output device"};
     });
     QSignalSpy failed(&sounds, &ContactSounds::failed);

@@ -181,10 +181,12 @@ TEST_F(GlobeTest, ReadsTheFullResolutionElevationOfTheMapUnderThePointer)
 TEST_F(GlobeTest, DisablesWithAReasonWhatItLacksAndGivesItBack)
 {
     const WindowActions& actions = window_->actionSet();
-    const QList<QAction*> lacking{actions.save_picture, actions.haptic_devices,
-                                  actions.stretch_to_view};
+    const QList<QAction*> lacking{actions.save_picture, actions.stretch_to_view};
     const QList<QAction*> shared{actions.measure_kinds->actions().front(),
-                                 actions.annotation_shapes->actions().front(), actions.open_vector,
+                                 actions.annotation_shapes->actions().front(),
+                                 actions.open_vector,
+                                 actions.haptic_devices,
+                                 actions.replay_touch,
                                  actions.tools->actions().at(static_cast<int>(Tool::Measure))};
     for (const QAction* action : lacking) {
         ASSERT_TRUE(action->isEnabled()) << action->text().toStdString();

@@ -1,11 +1,11 @@
 #include "ui/controllers/haptics/haptics_controller.h"
 
-#include "haptics/interaction/workspace_walls.h"
-#include "ui/canvas/terrain_view.h"
-#include "ui/controllers/hand_sight.h"
+#include "haptics/drivers/replay_driver.h"
+#include "ui/controllers/haptics/flat_hand_scene.h"
 #include "ui/text/haptics_text.h"
 
 #include <QCoreApplication>
+#include <QFileInfo>
 #include <QGuiApplication>
 #include <QKeyEvent>
 
@@ -27,11 +27,12 @@ bool isEmergencyKey(const QKeyEvent& event)
 
 HapticsController::HapticsController(TerrainView& view, DriverMaker make_drivers, QObject* parent)
     : QObject(parent)
-    , view_(view)
+    , flat_scene_(new FlatHandScene(view, this))
+    , scene_(flat_scene_)
     , device_(new DeviceSession(std::move(make_drivers), this))
     , recorder_(new TouchRecorder(
-          *device_, [this] { return hand_map_->make(model_, exaggeration_); }, this))
-    , exaggeration_(view.exaggeration())
+          *device_, [this] { return scene_->make(model_); }, this))
+    , exaggeration_(scene_->exaggeration())
     , jobs_(*this)
 {
     connect(device_, &DeviceSession::opened, this, &HapticsController::begin);
@@ -39,25 +40,88 @@ HapticsController::HapticsController(TerrainView& view, DriverMaker make_drivers
     connect(device_, &DeviceSession::ended, this, &HapticsController::releaseMap);
     connect(device_, &DeviceSession::forgotten, this, &HapticsController::forget);
     connect(device_, &DeviceSession::polled, this, &HapticsController::follow);
-    connect(&view_, &TerrainView::layersChanged, this, &HapticsController::takeGround);
-    connect(&view_, &TerrainView::exaggerationChanged, this, &HapticsController::takeExaggeration);
-    connect(&view_, &TerrainView::sightChanged, this, &HapticsController::followSight);
+    connect(device_, &DeviceSession::pointPressed, this,
+            [this](const ScenePoint& place) { scene_->pressStylus(place); });
+    connect(device_, &DeviceSession::pointReleased, this, [this] { scene_->releaseStylus(); });
+    connectScene();
+    QCoreApplication::instance()->installEventFilter(this);
+}
+
+void HapticsController::connectScene()
+{
+    connect(scene_, &HandScene::mapsChanged, this, &HapticsController::takeGround);
+    connect(scene_, &HandScene::exaggerationChanged, this, &HapticsController::takeExaggeration);
+    connect(scene_, &HandScene::sightChanged, this, &HapticsController::followSight);
     // Terrain that arrived since then may be higher or lower.
-    connect(&view_, &TerrainView::pictureCompleted, this, [this] {
-        if (device_->loop() != nullptr && device_->isSimulated() && !view_.ground().isEmpty()) {
+    connect(scene_, &HandScene::pictureCompleted, this, [this] {
+        if (device_->loop() != nullptr && device_->isSimulated() && scene_->touched()) {
             takeStrokes();
             device_->push();
         }
     });
-    connect(&view_, &TerrainView::grabbingChanged, this, [this](bool is_grabbing) {
+    connect(scene_, &HandScene::grabbingChanged, this, [this](bool is_grabbing) {
         is_grabbing_ = is_grabbing;
         push();
     });
     // A tool that places points has the stylus as its pointer.
-    connect(&view_, &TerrainView::toolChanged, this, &HapticsController::push);
-    connect(device_, &DeviceSession::pointPressed, &view_, &TerrainView::pressStylus);
-    connect(device_, &DeviceSession::pointReleased, &view_, &TerrainView::releaseStylus);
-    QCoreApplication::instance()->installEventFilter(this);
+    connect(scene_, &HandScene::toolChanged, this, &HapticsController::push);
+}
+
+// Without a map the loop stops. It starts again with the map and the frame of the other scene.
+void HapticsController::touchOn(HandScene* scene)
+{
+    HandScene* const next = scene != nullptr ? scene : flat_scene_;
+    if (next == scene_) {
+        return;
+    }
+    device_->stopReplay(tr("The replay has ended: another scene is shown"));
+    excursion_.reset();
+    recorder_->stop(RecordingEnd::WithItsMap);
+    device_->settings().map = nullptr;
+    is_grabbing_ = false;
+    push();
+    releaseMap();
+    scene_->setInUse(false);
+    scene_->disconnect(this);
+    scene_ = next;
+    connectScene();
+    scene_->setInUse(device_->loop() != nullptr);
+    takeGround();
+    Q_EMIT sceneChanged();
+}
+
+void HapticsController::replay(const QString& file)
+{
+    const auto columns = goalColumnsOf(file.toStdString());
+    if (columns && (*columns == GoalColumns::Geographic) != scene_->isOnBody()) {
+        device_->setProblem(otherSceneText(file));
+        return;
+    }
+    const QString uri = QStringLiteral("replay:") + file;
+    device_->connectTo(scene_->isOnBody() ? QString::fromStdString(replayOnBody(uri.toStdString()))
+                                          : uri);
+}
+
+QString HapticsController::otherSceneText(const QString& file) const
+{
+    const QString name = QFileInfo(file).fileName();
+    return scene_->isOnBody()
+               //: %1 is a file
+               ? tr("%1 was recorded on the flat map. Choose View › Scene › Flat Map to replay it")
+                     .arg(name)
+               //: %1 is a file
+               : tr("%1 was recorded on the globe. Choose View › Scene › Globe to replay it")
+                     .arg(name);
+}
+
+QString HapticsController::whyNoTouch() const
+{
+    if (device_->loop() == nullptr) {
+        return {};
+    }
+    return device_->settings().is_covered
+               ? tr("Nothing to touch here: the layer is not held in memory")
+               : scene_->whyNone();
 }
 
 HapticsController::~HapticsController()
@@ -84,6 +148,7 @@ bool HapticsController::eventFilter(QObject* watched, QEvent* event)
 void HapticsController::begin()
 {
     push(); // before anything is touched
+    scene_->setInUse(true);
     if (!device_->isReplaying()) {
         HapticsSettings settings = settings_;
         settings.device = device_->rememberedUri();
@@ -101,8 +166,11 @@ void HapticsController::end()
 
 void HapticsController::releaseMap()
 {
-    hand_map_.reset();
-    view_.showDevice(std::nullopt);
+    scene_->release();
+    scene_->show(std::nullopt);
+    if (device_->loop() == nullptr) {
+        scene_->setInUse(false);
+    }
 }
 
 void HapticsController::forget()
@@ -153,7 +221,7 @@ void HapticsController::setStopped(bool is_stopped)
 {
     if (is_stopped != is_stopped_) {
         is_stopped_ = is_stopped;
-        if (device_->loop() != nullptr && !view_.ground().isEmpty()) {
+        if (device_->loop() != nullptr && scene_->touched()) {
             takeStrokes();
         }
         push();
@@ -167,24 +235,28 @@ void HapticsController::takeGround()
     if (device_->loop() == nullptr) {
         return;
     }
-    const auto& maps = view_.ground().maps();
-    if (maps.empty()) {
+    const std::size_t count = scene_->maps().size();
+    std::size_t first = 0;
+    while (first < count && !scene_->canTouch(first)) {
+        ++first;
+    }
+    if (first == count) {
         recorder_->stop(RecordingEnd::WithItsMap);
-        hand_map_.reset();
         device_->settings().map = nullptr;
         push();
-        view_.showDevice(std::nullopt);
+        releaseMap();
         checkReplay();
         return;
     }
-    const bool is_kept =
-        hand_map_ && std::any_of(maps.begin(), maps.end(),
-                                 [this](const SceneMap& map) { return hand_map_->isOf(map); });
-    exaggeration_ = view_.exaggeration();
-    takeSight();
-    if (!is_kept) {
-        setMap(0);
+    const bool is_kept = scene_->touched().has_value();
+    const bool is_raised = std::exchange(exaggeration_, scene_->exaggeration()) != exaggeration_;
+    if (is_kept && is_raised) {
+        makeMapAgain();
     }
+    if (!is_kept) {
+        takeMap(first); // pushed together with the frame
+    }
+    takeSight();
     checkReplay();
 }
 
@@ -195,18 +267,23 @@ void HapticsController::checkReplay()
     if (!device_->isReplaying()) {
         return;
     }
+    if (isReplayOnBody(device_->uri().toStdString()) != scene_->isOnBody()) {
+        device_->stopReplay(otherSceneText(device_->replayedFile()));
+        return;
+    }
     reportReplay();
     std::vector<std::shared_ptr<const Georeference>> maps;
-    for (const SceneMap& map : view_.ground().maps()) {
-        maps.emplace_back(map.map, &map.map->georeference());
+    for (const auto& map : scene_->maps()) {
+        maps.emplace_back(map, &map->georeference());
     }
     if (maps.empty()) {
         return; // it waits for one
     }
+    const GoalColumns columns = scene_->isOnBody() ? GoalColumns::Geographic : GoalColumns::Map;
     // Reading may take a while.
-    jobs_.run([this, file = device_->replayedFile(), check = ++replay_check_,
+    jobs_.run([this, file = device_->replayedFile(), check = ++replay_check_, columns,
                maps = std::move(maps)](const auto& to) {
-        Result<ReplayFit> fit = replayFit(file.toStdString(), maps);
+        Result<ReplayFit> fit = replayFit(file.toStdString(), maps, columns);
         if (!fit) {
             return; // it could be opened, and has gone since: there is nothing to compare
         }
@@ -239,26 +316,26 @@ void HapticsController::reportReplay()
     }
 }
 
-void HapticsController::setMap(std::size_t index)
+void HapticsController::takeMap(std::size_t index)
 {
     recorder_->stop(RecordingEnd::WithItsMap);
-    hand_map_ = std::make_unique<TouchMap>(view_.ground().maps()[index]);
-    device_->settings().map = hand_map_->make(model_, exaggeration_);
-    push();
+    scene_->touch(index);
+    device_->settings().map = scene_->make(model_);
+    device_->settings().is_covered = false;
 }
 
 // The map is the same; the HIP continues at its position.
 void HapticsController::makeMapAgain()
 {
-    if (hand_map_) {
-        device_->settings().map = hand_map_->make(model_, exaggeration_); // recordings continue
+    if (scene_->touched()) {
+        device_->settings().map = scene_->make(model_); // recordings continue
     }
 }
 
 void HapticsController::takeExaggeration()
 {
-    if (view_.exaggeration() != exaggeration_) {
-        exaggeration_ = view_.exaggeration();
+    if (scene_->exaggeration() != exaggeration_) {
+        exaggeration_ = scene_->exaggeration();
         makeMapAgain(); // pushed together with the frame: no update sees one without the other
         takeSight();
         push();
@@ -269,33 +346,38 @@ void HapticsController::takeExaggeration()
 // Where several maps are shown, what lies uppermost below the hand is touched.
 void HapticsController::chooseMap(const LoopState& state)
 {
-    const SceneSurface& ground = view_.ground();
-    if (ground.maps().size() < 2 || !hand_map_ || recorder_->isRecording()) {
+    const auto touched = scene_->touched();
+    if (!touched || scene_->maps().size() < 2) {
+        setCovered(false);
         return;
     }
     // Where the hand is: the goal never leaves the map that it touches.
-    const ScenePoint hand = state.frame.toScene(state.hand);
-    const auto index = ground.mapAt(hand.x, hand.y);
-    if (index && !hand_map_->isOf(ground.maps()[*index])) {
-        setMap(*index);
+    const auto index = scene_->mapAt(state.frame.toScene(state.hand));
+    setCovered(index && !scene_->canTouch(*index));
+    if (index && *index != *touched && scene_->canTouch(*index) && !recorder_->isRecording()) {
+        takeMap(*index);
+        push();
     }
 }
 
-// A camera that moved takes the workspace along at once. If it only tilted, or the picture got
-// another size, the ground stays where the hand feels it until the tick can fit the workspace in
-// free space.
+void HapticsController::setCovered(bool is_covered)
+{
+    if (is_covered != device_->settings().is_covered) {
+        device_->settings().is_covered = is_covered;
+        push();
+    }
+}
+
+// A camera that moved takes the workspace along at once.
 void HapticsController::followSight()
 {
-    if (device_->loop() == nullptr || is_following_ || view_.ground().isEmpty()) {
+    if (device_->loop() == nullptr || is_following_ || !scene_->touched()) {
         return;
     }
-    const LimitedView seen = limitedView(hand_view_, view_.camera());
-    if (seen.is_moved) {
+    if (!scene_->keepsWorkspace()) {
         takeSight();
         return;
     }
-    hand_view_ = seen.view;
-    is_fitted_ = false;
     takeStrokes();
     push();
 }
@@ -303,45 +385,11 @@ void HapticsController::followSight()
 // Maps the workspace to the visible area.
 void HapticsController::takeSight()
 {
-    if (device_->loop() == nullptr || is_following_ || view_.ground().isEmpty()) {
+    if (device_->loop() == nullptr || is_following_ || !scene_->touched()) {
         return;
     }
-    hand_view_ = {.camera = view_.camera(),
-                  .frame =
-                      frameForSight(view_.camera(), view_.viewport(), view_.ground(),
-                                    view_.exaggeration(), device_->loop()->device().workspace)};
-    device_->settings().frame = hand_view_.frame;
-    device_->settings().frame_origin = FrameOrigin::View;
-    device_->settings().fit.reset();
-    is_fitted_ = true;
-    ++device_->settings().frame_number;
-    takeBounds();
+    scene_->fit(workspace(), device_->settings());
     takeStrokes();
-    push();
-}
-
-// The hand moves the map within the limits of the camera.
-void HapticsController::takeBounds()
-{
-    const SceneSurface& ground = view_.ground();
-    const NavigationLimits limits =
-        navigationLimits(ground.box(view_.exaggeration()), ground.pixelMeters());
-    device_->settings().view_bounds = boundsFor(hand_view_, limits);
-    boundZoom(hand_view_, limits, device_->settings().modes);
-}
-
-// The hand has moved the map and left it at rest: in free space, the tick fits the workspace to the
-// view again.
-void HapticsController::takeFit(const LoopState& state)
-{
-    if (is_fitted_ || isHolding(state.mode)) {
-        return;
-    }
-    is_fitted_ = true;
-    device_->settings().fit = WorkspaceFit{
-        .seen = hand_view_.frame,
-        .fitted = frameForSight(view_.camera(), view_.viewport(), view_.ground(),
-                                view_.exaggeration(), device_->loop()->device().workspace)};
     push();
 }
 
@@ -354,14 +402,9 @@ void HapticsController::takeStrokes()
         return;
     }
     constexpr double kHoverM = 0.004;
-    const WorkspaceBox& workspace = device_->loop()->device().workspace;
-    if (auto strokes =
-            strokesInSight(view_.camera(), view_.viewport(), view_.ground(), view_.exaggeration(),
-                           hand_view_.frame, reachWithin(workspace))) {
-        strokes->low.z = is_stopped_
-                             ? kHoverM + highestTerrainIn(*strokes, view_.ground(),
-                                                          view_.exaggeration(), hand_view_.frame)
-                             : workspace.low.z;
+    if (auto strokes = scene_->strokes(workspace())) {
+        strokes->low.z =
+            is_stopped_ ? kHoverM + scene_->highestTerrainIn(*strokes) : workspace().low.z;
         device_->settings().strokes = strokes;
     }
 }
@@ -370,34 +413,25 @@ void HapticsController::takeStrokes()
 // frame returns to the camera.
 void HapticsController::followHand(const LoopState& state)
 {
-    if (state.frame_number != device_->settings().frame_number) {
+    if (!scene_->touched()) {
         return;
     }
-    if (state.seen_frame == hand_view_.frame) {
-        takeFit(state);
-        return;
-    }
-    is_fitted_ = false;
-    const OrbitCamera wanted = cameraFollowing(hand_view_, state.seen_frame);
-    const bool is_replay = device_->isReplaying();
-    if (is_replay && (!excursion_ || excursion_->sent_to != view_.cameraGoal())) {
-        excursion_ = Excursion{.before = view_.cameraGoal(), .sent_to = {}};
-    }
+    const SceneCamera before = scene_->cameraGoal();
     is_following_ = true;
-    view_.setCamera(wanted);
+    const LinkStep step =
+        scene_->follow({.seen = state.seen_frame, .number = state.frame_number, .mode = state.mode},
+                       workspace(), device_->settings());
     is_following_ = false;
-    if (is_replay) {
-        excursion_->sent_to = view_.cameraGoal();
+    if (step.has_moved_camera && device_->isReplaying()) {
+        if (!excursion_ || excursion_->sent_to != before) {
+            excursion_ = Excursion{.before = before, .sent_to = {}};
+        }
+        excursion_->sent_to = scene_->cameraGoal();
     }
-    const LimitedView limited =
-        limitedView({.camera = wanted, .frame = state.seen_frame}, view_.camera());
-    hand_view_ = limited.view;
-    if (limited.is_moved) {
-        device_->settings().frame = hand_view_.frame;
-        device_->settings().frame_origin = FrameOrigin::Limit;
-        ++device_->settings().frame_number;
-        takeBounds();
+    if (step.has_moved_camera && step.has_changed_settings) {
         takeStrokes();
+    }
+    if (step.has_changed_settings) {
         push();
     }
 }
@@ -409,33 +443,34 @@ void HapticsController::showHand(const LoopState& state)
         state.frame.differenceToScene(state.force_n) * (1.0 / state.frame.scene_per_meter);
     // At the edge of the map, too, the cursor stays behind and its spring leads to the hand.
     const bool is_held_back = contact.is_in_contact || state.is_at_edge;
-    view_.showDevice(StylusPose{.mode = state.mode,
-                                .proxy = is_held_back ? contact.proxy : state.goal,
-                                .goal = state.goal,
-                                .is_in_contact = is_held_back,
-                                .force_n = force_n,
-                                .force_n_max = device_->loop()->device().force_n_peak});
+    scene_->show(StylusPose{.mode = state.mode,
+                            .proxy = is_held_back ? contact.proxy : state.goal,
+                            .goal = state.goal,
+                            .is_in_contact = is_held_back,
+                            .force_n = force_n,
+                            .force_n_max = device_->loop()->device().force_n_peak});
 }
 
 // A recording contains the device's positions and what it did to the map, but not the camera.
 void HapticsController::keepReplayInPicture(const LoopState& state)
 {
-    const bool is_user_moving = view_.isMoving() || QGuiApplication::mouseButtons() != Qt::NoButton;
+    const bool is_user_moving =
+        scene_->isMoving() || QGuiApplication::mouseButtons() != Qt::NoButton;
     if (device_->isReplaying() && !is_user_moving && state.contact.is_in_contact &&
-        !view_.isInPicture(state.contact.proxy)) {
-        if (!excursion_ || excursion_->sent_to != view_.cameraGoal()) {
-            excursion_ = Excursion{.before = view_.cameraGoal(), .sent_to = {}};
+        !scene_->isInPicture(state.contact.proxy)) {
+        if (!excursion_ || excursion_->sent_to != scene_->cameraGoal()) {
+            excursion_ = Excursion{.before = scene_->cameraGoal(), .sent_to = {}};
         }
-        view_.flyToPlace(state.contact.proxy);
-        excursion_->sent_to = view_.cameraGoal();
+        scene_->flyToPlace(state.contact.proxy);
+        excursion_->sent_to = scene_->cameraGoal();
     }
 }
 
 // Unless the user has moved the camera since the replay did: then it stays.
 void HapticsController::returnCamera()
 {
-    if (excursion_ && excursion_->sent_to == view_.cameraGoal()) {
-        view_.flyTo(excursion_->before);
+    if (excursion_ && excursion_->sent_to == scene_->cameraGoal()) {
+        scene_->flyTo(excursion_->before);
     }
     excursion_.reset();
 }
@@ -448,7 +483,7 @@ void HapticsController::push()
     loop.has_walls = settings_.has_walls;
     loop.is_stopped = is_stopped_;
     loop.is_grabbing = is_grabbing_;
-    loop.is_placing = view_.isPlacing();
+    loop.is_placing = scene_->isPlacing();
     device_->push();
 }
 

@@ -1,10 +1,9 @@
 // Haptic devices in the window: the only bridge between them, the servo loop, and the view.
 #pragma once
 
-#include "haptics/interaction/hand_view.h"
-#include "haptics/terrain/touch_map.h"
 #include "haptics/trace/replay_check.h"
 #include "ui/controllers/detached_jobs.h"
+#include "ui/controllers/hand_scene.h"
 #include "ui/controllers/haptics/device_session.h"
 #include "ui/controllers/haptics/touch_recorder.h"
 #include "ui/controllers/haptics_settings.h"
@@ -13,18 +12,15 @@
 #include <QString>
 
 #include <cstddef>
-#include <memory>
 #include <optional>
-#include <utility>
-#include <vector>
 
 namespace marsview {
 
 class TerrainView;
 
 /// Lets a connected device touch the visible terrain: maps its workspace to it, and passes settings
-/// and ground to the loop. A device that pans, zooms or turns the map moves the view's camera. GUI
-/// thread; must not outlive the view.
+/// and ground to the loop. A device that pans, zooms or turns the map moves the camera. The scene
+/// is that of the view, the flat map, unless another one is set. GUI thread; must not outlive them.
 class HapticsController final : public QObject {
     Q_OBJECT
 
@@ -38,6 +34,15 @@ public:
 
     /// A recording ends with its map or with the connection.
     TouchRecorder& recorder() noexcept { return *recorder_; }
+
+    /// Touches another scene from now on, or the flat map again if null: the force fades out, and a
+    /// recording or a replay ends.
+    void touchOn(HandScene* scene);
+    HandScene& scene() const noexcept { return *scene_; }
+    /// Replays a recording of the scene in place of the device.
+    void replay(const QString& file);
+    /// Why the hand has nothing to touch where it is; empty if it has, or if no map is open.
+    QString whyNoTouch() const;
 
     // Forces.
 
@@ -55,6 +60,7 @@ public:
     bool isStopped() const noexcept { return is_stopped_; }
 
 Q_SIGNALS:
+    void sceneChanged();
     void settingsChanged();
     void stoppedChanged(bool is_stopped);
 
@@ -69,25 +75,28 @@ private:
     void forget();
     void follow(const LoopState& state);
 
+    void connectScene();
     void takeGround();
     void takeExaggeration();
     void chooseMap(const LoopState& state);
+    void setCovered(bool is_covered);
     void checkReplay();
     void reportReplay();
-    void setMap(std::size_t index);
+    QString otherSceneText(const QString& file) const;
+    void takeMap(std::size_t index);
     void makeMapAgain();
     void followSight();
     void takeSight();
-    void takeBounds();
-    void takeFit(const LoopState& state);
     void takeStrokes();
     void followHand(const LoopState& state);
     void showHand(const LoopState& state);
     void keepReplayInPicture(const LoopState& state);
     void returnCamera();
     void push();
+    const WorkspaceBox& workspace() const { return device_->loop()->device().workspace; }
 
-    TerrainView& view_;
+    HandScene* flat_scene_; // of the view
+    HandScene* scene_;      // that is touched
     DeviceSession* device_;
     TouchRecorder* recorder_;
     std::optional<ReplayFit> replay_fit_; // of the recording that is replayed, once it is known
@@ -99,15 +108,12 @@ private:
     bool is_grabbing_ = false; // by a key
 
     double exaggeration_ = 1.0;
-    std::unique_ptr<TouchMap> hand_map_; // null without a map in the picture
     // Of a replay that has moved the camera: where the camera was, and where the replay sent it.
     struct Excursion {
-        OrbitCamera before;
-        OrbitCamera sent_to;
+        SceneCamera before;
+        SceneCamera sent_to;
     };
     std::optional<Excursion> excursion_;
-    HandView hand_view_;     // that the loop's frame_number is of
-    bool is_fitted_ = false; // the loop's fit is that of hand_view_
     bool is_following_ = false;
 
     DetachedJobs jobs_;

@@ -36,8 +36,9 @@ Status TouchRecorder::start(const QString& file)
     // From a model that nothing has touched yet, so that a replay has all that it needs. It begins
     // at the old one's proxy: the hand feels nothing of that.
     const std::shared_ptr<ServoMap> fresh = make_map_();
-    Result<std::unique_ptr<SessionRecorder>> recorder =
-        SessionRecorder::begin(*device_.loop(), file.toStdString(), fresh->serial);
+    Result<std::unique_ptr<SessionRecorder>> recorder = SessionRecorder::begin(
+        *device_.loop(), file.toStdString(), fresh->serial,
+        fresh->surface->body() != nullptr ? GoalColumns::Geographic : GoalColumns::Map);
     if (!recorder) {
         return refused(std::move(recorder).error());
     }
@@ -84,6 +85,7 @@ void TouchRecorder::saveTicks(std::vector<TickRecord> ticks, const QString& file
         Q_EMIT savingFailed(QString::fromStdString(writable.error().message));
         return;
     }
+    ticks = ofLastScene(std::move(ticks));
     SavedTicks saved{.file = file, .count = ticks.size()};
     for (std::size_t i = 1; i < ticks.size(); ++i) {
         const bool is_same_run = ticks[i].tick > ticks[i - 1].tick;

@@ -1,0 +1,75 @@
+// The triangles of the globe's layers, for the stylus of the mouse and for a haptic device.
+#pragma once
+
+#include "core/session/body_terrain.h"
+#include "haptics/interaction/body_stylus.h"
+#include "ui/controllers/detached_jobs.h"
+
+#include <QObject>
+#include <QString>
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace marsview {
+
+/// Made on a worker thread when the mouse or a device needs them, and again where the layers or the
+/// exaggeration change; until then the earlier ones are kept. GUI thread.
+class GlobeMeshes final : public QObject {
+    Q_OBJECT
+
+public:
+    enum class User : std::size_t { Mouse, Device };
+
+    /// One surface for each map of the scene. That of a tiled map has no mesh.
+    struct Ground {
+        BodyScene scene;
+        double exaggeration = 1.0;
+        std::vector<BodyStylus::Surface> surfaces;
+    };
+
+    explicit GlobeMeshes(QObject* parent = nullptr);
+    ~GlobeMeshes() override;
+
+    void setScene(const BodyScene& scene, double exaggeration);
+    void setWanted(User user, bool is_wanted);
+
+    bool isPreparing() const noexcept { return preparing_ != nullptr; }
+    /// ground() is that of the scene of now.
+    bool isReady() const noexcept { return is_ready_; }
+    /// The latest; empty before the first, and if a scene cannot be touched.
+    const std::optional<Ground>& ground() const noexcept { return ground_; }
+    /// Why the scene cannot be touched.
+    const QString& problem() const noexcept { return problem_; }
+
+Q_SIGNALS:
+    /// Another scene or exaggeration: isReady() is false.
+    void sceneChanged();
+    void groundChanged();
+    void preparingChanged(bool is_preparing);
+    /// problem(), when the terrain is to be touched.
+    void failed(const QString& problem);
+
+private:
+    bool isWanted() const noexcept { return is_wanted_[0] || is_wanted_[1]; }
+    void prepare();
+    void cancel();
+    void take(std::optional<Ground> ground, const QString& problem);
+
+    BodyScene scene_;
+    double exaggeration_ = 1.0;
+    std::array<bool, 2> is_wanted_{};
+    bool is_ready_ = false;
+    std::optional<Ground> ground_;
+    QString problem_;
+    std::shared_ptr<JobMonitor> preparing_;
+    DetachedJobs jobs_;
+};
+
+/// The same maps at the same places.
+bool areSameMaps(const BodyScene& a, const BodyScene& b);
+
+} // namespace marsview
