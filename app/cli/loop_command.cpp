@@ -237,8 +237,9 @@ Status runLoop(const LoopOptions& options)
     if (isReplay(options.device)) {
         files.read.push_back(replayedFile(options.device));
     }
-    if (Status checked = checkOutputs(files); !checked) {
-        return checked;
+    const Result<OpenFiles> inputs = checkOutputs(files);
+    if (!inputs) {
+        return inputs.error();
     }
     std::optional<LoopMap> map;
     {

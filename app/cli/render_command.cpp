@@ -40,10 +40,10 @@ struct RenderOptions {
 
 Status runRender(const RenderOptions& options)
 {
-    if (Status checked =
-            checkOutputs({.maps = {options.map.path}, .read = {}, .written = {options.output}});
-        !checked) {
-        return checked;
+    const Result<OpenFiles> inputs =
+        checkOutputs({.maps = {options.map.path}, .read = {}, .written = {options.output}});
+    if (!inputs) {
+        return inputs.error();
     }
     const Result<Viewport> viewport = viewportFrom(options.size);
     if (!viewport) {

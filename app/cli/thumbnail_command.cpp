@@ -53,10 +53,10 @@ Result<LayerRecord> layerIn(const std::string& path)
 
 Status runThumbnail(const ThumbnailOptions& options)
 {
-    if (Status checked =
-            checkOutputs({.maps = {options.path}, .read = {}, .written = {options.output}});
-        !checked) {
-        return checked;
+    const Result<OpenFiles> inputs =
+        checkOutputs({.maps = {options.path}, .read = {}, .written = {options.output}});
+    if (!inputs) {
+        return inputs.error();
     }
     const Result<LayerRecord> layer = layerIn(options.path);
     if (!layer) {

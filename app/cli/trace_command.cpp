@@ -300,11 +300,12 @@ openSubject(const TraceOptions& options, const GoalRecording& recording, JobMoni
 
 Status runTrace(const TraceOptions& options)
 {
-    if (Status checked = checkOutputs({.maps = {options.map.path},
-                                       .read = {options.goals == "-" ? "" : options.goals},
-                                       .written = {options.output, options.summary}});
-        !checked) {
-        return checked;
+    const Result<OpenFiles> inputs =
+        checkOutputs({.maps = {options.map.path},
+                      .read = {options.goals == "-" ? "" : options.goals},
+                      .written = {options.output, options.summary}});
+    if (!inputs) {
+        return inputs.error();
     }
     const Result<std::string> text = readGoalText(options.goals);
     if (!text) {

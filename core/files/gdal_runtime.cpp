@@ -2,6 +2,7 @@
 
 #include "core/files/block_cache.h"
 #include "core/files/gdal_drivers.h"
+#include "core/files/gdal_shared_files.h"
 
 #include <cpl_conv.h>
 #include <gdal_priv.h>
@@ -68,6 +69,7 @@ void ensureGdal()
     static std::once_flag once;
     std::call_once(once, [] {
         CPLSetErrorHandler(CPLQuietErrorHandler);
+        shareFilesOfGdal();
         GDALAllRegister(); // also reads the user's configuration file
         leaveOutDrivers();
         setDefaults();

@@ -6,6 +6,7 @@
 #include "core/files/opening_job.h"
 #include "core/files/probe_cache.h"
 #include "core/files/raster_path.h"
+#include "core/files/shared_file.h"
 #include "core/files/text_grid_size_check.h"
 #include "core/files/tiff_size_check.h"
 
@@ -20,7 +21,6 @@
 #include <fcntl.h>
 #include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
 #include <iterator>
 #include <memory>
 #include <mutex>
@@ -41,10 +41,9 @@ constexpr std::size_t kLabelBytes = 65536;
 
 std::string beginningOf(const std::string& path, std::size_t bytes)
 {
-    std::ifstream stream(path, std::ios::binary);
-    std::string text(bytes, '\0');
-    stream.read(text.data(), static_cast<std::streamsize>(bytes));
-    text.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, stream.gcount())));
+    const std::shared_ptr<const SharedFile> file = openShared(path);
+    std::string text(file ? bytes : 0, '\0');
+    text.resize(file ? file->read(text.data(), text.size(), 0) : 0);
     return text;
 }
 

@@ -2,6 +2,7 @@
 #include "core/files/gdal_runtime.h"
 #include "core/files/open_probe.h"
 #include "core/files/remote_raster.h"
+#include "core/files/shared_file.h"
 
 #include <cpl_string.h>
 #include <gdal_priv.h>
@@ -338,6 +339,7 @@ int probeMain(const std::vector<std::string>& arguments)
     std::set_new_handler(onOutOfMemory);
     const std::vector<std::string> names = readNames();
     ensureGdal();
+    const KeepOpen all;
     if (is_each) {
         for (std::size_t i = 0; i < names.size(); ++i) {
             describe(names[i], i);

@@ -3,15 +3,17 @@
 // StripByteCounts, or TileOffsets and TileByteCounts, have an entry for each block.
 #include "core/files/tiff_size_check.h"
 
+#include "core/files/shared_file.h"
+
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
 #include <cstring>
 #include <fmt/format.h>
-#include <fstream>
 #include <limits>
 #include <map>
+#include <memory>
 #include <set>
 #include <vector>
 
@@ -98,12 +100,9 @@ using Directory = std::map<std::uint16_t, Entry>;
 class Reader {
 public:
     explicit Reader(const std::string& path)
-        : stream_(path, std::ios::binary)
-    {
-        stream_.seekg(0, std::ios::end);
-        const auto end = stream_.tellg();
-        bytes_ = stream_ ? static_cast<std::uint64_t>(end) : 0;
-    }
+        : file_(openShared(path))
+        , bytes_(file_ ? file_->bytes() : 0)
+    {}
 
     std::uint64_t bytes() const { return bytes_; }
 
@@ -112,10 +111,7 @@ public:
     {
         std::vector<unsigned char> data(count, 0);
         if (place < bytes_) {
-            stream_.clear();
-            stream_.seekg(static_cast<std::streamoff>(place));
-            stream_.read(reinterpret_cast<char*>(data.data()),
-                         static_cast<std::streamsize>(std::min(count, bytes_ - place)));
+            file_->read(data.data(), std::min(count, bytes_ - place), place);
         }
         return data;
     }
@@ -141,8 +137,8 @@ public:
     bool is_big_tiff = false;
 
 private:
-    std::ifstream stream_;
-    std::uint64_t bytes_ = 0;
+    std::shared_ptr<const SharedFile> file_;
+    std::uint64_t bytes_;
 };
 
 Error cutShort(const std::string& what)

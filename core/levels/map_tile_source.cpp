@@ -1,6 +1,7 @@
 #include "core/levels/map_tile_source.h"
 
 #include "core/base/check.h"
+#include "core/files/shared_file.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -80,6 +81,7 @@ class MapTileSource final : public TileSource {
 public:
     explicit MapTileSource(MapTiles tiles)
         : tiles_(std::make_shared<const MapTiles>(std::move(tiles)))
+        , level_file_(tiles_->level_path ? openShared(*tiles_->level_path) : nullptr)
     {}
 
     const TileLayout& layout() const noexcept override { return tiles_->layout; }
@@ -105,6 +107,7 @@ public:
 
 private:
     std::shared_ptr<const MapTiles> tiles_;
+    std::shared_ptr<const SharedFile> level_file_; // open for all readers; null: none
 };
 
 } // namespace

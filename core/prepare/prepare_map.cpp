@@ -3,6 +3,7 @@
 #include "core/base/elapsed.h"
 #include "core/base/file_lock.h"
 #include "core/files/remote_raster.h"
+#include "core/files/shared_file.h"
 #include "core/levels/level_file.h"
 #include "core/prepare/disk_room.h"
 #include "core/prepare/geotiff_skeleton.h"
@@ -102,6 +103,7 @@ struct LevelWork {
 Result<LevelWork> levelWork(const OpenRaster& source, const PrepareReport& report)
 {
     const RasterInfo& info = source.info;
+    const KeepOpen opening; // what the tile source keeps open
     LevelWork work{.raster_path = report.raster_path,
                    .level_path = report.level_path,
                    .band = report.is_source_used ? source.spec.band : 1,
@@ -184,10 +186,11 @@ Status makeLevels(const OpenRaster& raster,
     return buildLevelFile(build, monitor);
 }
 
-// An error if the level file of an existing copy cannot be used or, without a level file, if the
-// copy is not a complete tiled GeoTIFF.
-Status checkKnown(const OpenRaster& raster, const PrepareReport& report)
+// The open files of an existing copy, or an error if its level file cannot be used or, without a
+// level file, if the copy is not a complete tiled GeoTIFF.
+Result<OpenFiles> checkKnown(const OpenRaster& raster, const PrepareReport& report)
 {
+    const KeepOpen opening;
     const Result<LevelWork> work = levelWork(raster, report);
     if (!work) {
         return work.error();
@@ -195,16 +198,18 @@ Status checkKnown(const OpenRaster& raster, const PrepareReport& report)
     const Result<LevelFile> levels = LevelFile::open(report.level_path, work->key);
     if (!levels && levels.error().code == ErrorCode::NotFound) {
         return isWholeTiledGeoTiff(report.raster_path)
-                   ? Status(Done{})
-                   : Status(Error{ErrorCode::Unreadable, report.raster_path + ": is damaged"});
+                   ? Result<OpenFiles>(opening.files())
+                   : Result<OpenFiles>(
+                         Error{ErrorCode::Unreadable, report.raster_path + ": is damaged"});
     }
-    return levels ? Status(Done{}) : Status(levels.error());
+    return levels ? Result<OpenFiles>(opening.files()) : Result<OpenFiles>(levels.error());
 }
 
-Status makeCopy(const OpenRaster& raster,
-                const PrepareJob& job,
-                PrepareReport& report,
-                JobMonitor& monitor)
+// Returns the open files of a copy that is used as it is.
+Result<OpenFiles> makeCopy(const OpenRaster& raster,
+                           const PrepareJob& job,
+                           PrepareReport& report,
+                           JobMonitor& monitor)
 {
     const Clock::time_point start = Clock::now();
     const JobPart copying(monitor, 0.0, kCopyingShare);
@@ -221,8 +226,11 @@ Status makeCopy(const OpenRaster& raster,
     copy.bytes_after = levelBytesFor(raster.info);
     copy.checkpoint_interval = job.checkpoint_interval;
     Result<TiledGeoTiffReport> copied = writeTiledGeoTiff(copy, monitor);
+    OpenFiles files;
     if (copied && copied->is_there) {
-        if (const Status known = checkKnown(raster, report); !known) {
+        if (Result<OpenFiles> known = checkKnown(raster, report)) {
+            files = std::move(*known);
+        } else {
             copy.when_there = TiledGeoTiffJob::WhenThere::Replace;
             copied = writeTiledGeoTiff(copy, monitor);
             report.notes.push_back(
@@ -235,7 +243,7 @@ Status makeCopy(const OpenRaster& raster,
     report.copy = std::move(*copied);
     report.notes.insert(report.notes.end(), report.copy.notes.begin(), report.copy.notes.end());
     report.copy_seconds += secondsSince(start);
-    return Done{};
+    return files;
 }
 
 Status
@@ -256,23 +264,41 @@ Status makeFiles(const OpenRaster& raster,
     if (report.is_source_used) {
         return measure(raster, job, report, monitor);
     }
-    if (Status copied = makeCopy(raster, job, report, monitor); !copied) {
-        return copied;
+    Result<OpenFiles> copied = makeCopy(raster, job, report, monitor);
+    if (!copied) {
+        return std::move(copied).error();
     }
     Status made = measure(raster, job, report, monitor);
     if (made || made.error().code == ErrorCode::Canceled ||
         made.error().code == ErrorCode::TooLarge || isWholeTiledGeoTiff(report.raster_path)) {
         return made;
     }
-    // The file there is makeCopy()'s own copy, which has been damaged since.
+    // The file there is makeCopy()'s own copy, which has been damaged since. Open, it would occupy
+    // the disk.
+    copied->clear();
     std::error_code ignored;
     std::filesystem::remove(report.raster_path, ignored);
     report.notes.push_back(
         fmt::format("{}: was damaged during preparation; it is rebuilt", report.raster_path));
     PrepareJob again = job;
     again.when_there = PrepareJob::WhenThere::Replace;
-    Status copied = makeCopy(raster, again, report, monitor);
-    return copied ? measure(raster, again, report, monitor) : copied;
+    copied = makeCopy(raster, again, report, monitor);
+    return copied ? measure(raster, again, report, monitor) : Status(copied.error());
+}
+
+// Compares existing files with their checksums.
+Result<std::optional<MapDamage>>
+damageTo(const OpenRaster& raster, const PrepareReport& report, JobMonitor& monitor)
+{
+    const Result<LevelWork> work = levelWork(raster, report);
+    if (!work) {
+        return work.error();
+    }
+    return findDamage({.raster = work->source.get(),
+                       .level_path = report.level_path,
+                       .level_key = work->key,
+                       .remedy = remedyFor(report.raster_path, report.level_path)},
+                      monitor);
 }
 
 } // namespace
@@ -333,16 +359,7 @@ prepareMapFiles(const OpenRaster& raster, const PrepareJob& job, JobMonitor& mon
         return report;
     }
     const Clock::time_point start = Clock::now();
-    const Result<LevelWork> work = levelWork(raster, report);
-    if (!work) {
-        return work.error();
-    }
-    const Result<std::optional<MapDamage>> damage =
-        findDamage({.raster = work->source.get(),
-                    .level_path = report.level_path,
-                    .level_key = work->key,
-                    .remedy = remedyFor(report.raster_path, report.level_path)},
-                   monitor);
+    const Result<std::optional<MapDamage>> damage = damageTo(raster, report, monitor);
     report.check_seconds = secondsSince(start);
     if (!damage) {
         return damage.error();

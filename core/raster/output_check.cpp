@@ -32,8 +32,9 @@ bool isIn(const std::vector<std::string>& files, const std::string& path)
 
 } // namespace
 
-Status checkOutputs(const FilesInUse& files)
+Result<OpenFiles> checkOutputs(const FilesInUse& files)
 {
+    const KeepOpen opening;
     std::vector<std::string> map_files = files.maps;
     std::vector<std::string> written;
     bool has_sources = false;
@@ -69,7 +70,7 @@ Status checkOutputs(const FilesInUse& files)
         }
         written.push_back(path);
     }
-    return Done{};
+    return opening.files();
 }
 
 } // namespace marsview

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/base/result.h"
+#include "core/files/shared_file.h"
 
 #include <string>
 #include <vector>
@@ -16,7 +17,8 @@ struct FilesInUse {
 };
 
 /// Invalid if an output file is also an input file, under any name or link, or is written twice.
-/// Call before anything is written. Any thread.
-Status checkOutputs(const FilesInUse& files);
+/// Call before anything is written. Returns the open files of the maps, if it had to look into
+/// them: while the caller keeps them, opening the maps does not open them again. Any thread.
+Result<OpenFiles> checkOutputs(const FilesInUse& files);
 
 } // namespace marsview

@@ -63,6 +63,7 @@ std::optional<NetcdfExtent> netcdfExtentOf(GDALDataset& dataset, const std::stri
 } // namespace
 
 struct RasterFile::Impl {
+    OpenFiles open_files; // that were opened for the raster
     Dataset dataset;
     GDALRasterBand* band = nullptr;
     std::optional<NetcdfExtent> netcdf;   // for classic netCDF files
@@ -113,6 +114,7 @@ const RasterInfo& RasterFile::info() const noexcept
 Result<RasterFile> RasterFile::open(const std::string& path, int band)
 {
     ensureGdal();
+    const KeepOpen opening;
     Result<OpenedDataset> opened = openDataset(path, band);
     if (!opened) {
         return std::move(opened).error();
@@ -126,6 +128,7 @@ Result<RasterFile> RasterFile::open(const std::string& path, int band)
         impl->info.path = path;
         impl->band = impl->dataset->GetRasterBand(1);
         impl->mosaic = std::move(opened->mosaic);
+        impl->open_files = opening.files();
         return RasterFile(std::move(impl));
     }
     GDALDataset& dataset = *impl->dataset;
@@ -209,7 +212,14 @@ Result<RasterFile> RasterFile::open(const std::string& path, int band)
         impl->strips->rest();
     }
     deduceHeightReference(info);
-    return RasterFile(std::move(impl));
+    RasterFile file(std::move(impl));
+    if (file.info().driver == "VRT") { // which opens its parts when they are read, on any thread
+        for (const std::string& part : file.files()) {
+            openShared(part);
+        }
+    }
+    file.impl_->open_files = opening.files();
+    return file;
 }
 
 std::vector<std::string> RasterFile::files() const
@@ -223,6 +233,11 @@ std::vector<std::string> RasterFile::files() const
         files.emplace_back(listed[i]);
     }
     return files;
+}
+
+const OpenFiles& RasterFile::openFiles() const noexcept
+{
+    return impl_->open_files;
 }
 
 Status RasterFile::checkComplete() const

@@ -3,6 +3,7 @@
 
 #include "core/base/job_monitor.h"
 #include "core/base/result.h"
+#include "core/files/shared_file.h"
 #include "core/raster/grid_window.h"
 #include "core/raster/raster_info.h"
 #include "core/raster/sample_grid.h"
@@ -20,8 +21,9 @@ struct LoadedSamples {
     SampleStatistics statistics;
 };
 
-/// An open raster. For one thread at a time; open it again for another thread. The user's file is
-/// never written to.
+/// An open raster. For one thread at a time, as GDAL's datasets are: open it again for another
+/// thread, which shares the open files of this one (shared_file.h). The user's file is never
+/// written to.
 class RasterFile {
 public:
     /// Opens any elevation raster that GDAL supports: files, labels, headers, archives
@@ -44,6 +46,9 @@ public:
     /// The files of the raster, as GDAL lists them, with overviews and statistics next to it; empty
     /// on a server.
     std::vector<std::string> files() const;
+    /// The files that were opened for the raster. Copies keep them open, for rasters that other
+    /// threads open later.
+    const OpenFiles& openFiles() const noexcept;
     /// Checks that raw data is as long as its header requires; fails with the message of a read.
     /// For other formats only reading can show this.
     Status checkComplete() const;

@@ -3,6 +3,7 @@
 #include "core/files/gdal_runtime.h"
 #include "core/files/open_guard.h"
 #include "core/files/raster_path.h"
+#include "core/files/shared_file.h"
 #include "core/raster/mosaic.h"
 
 #include <cpl_string.h>
@@ -70,6 +71,7 @@ std::vector<std::string> listedFilesOf(const std::string& path)
 std::vector<std::string> sourceFilesOf(const std::string& path, OverviewFiles overviews)
 {
     ensureGdal();
+    const KeepOpen opening;
     std::vector<std::string> files;
     for (const std::string& listed : listedFilesOf(path)) {
         std::string file = isSidecar(listed, overviews) ? std::string() : asOnDisk(listed);

@@ -5,6 +5,7 @@
 #include "core/files/gdal_file.h"
 #include "core/files/gdal_runtime.h"
 #include "core/files/remote_raster.h"
+#include "core/files/shared_file.h"
 #include "core/raster/source_files.h"
 
 #include <cpl_vsi.h>
@@ -126,6 +127,7 @@ Result<SourceIdentity> identify(const std::string& path, OverviewFiles overviews
         return Error{ErrorCode::NotFound, "no file name was given"};
     }
     const std::string name = nameForVsi(path);
+    const KeepOpen opening;
     const GdalMessages messages;
     VSIStatBufL status{};
     errno = 0;

@@ -1,6 +1,7 @@
 #include "core/raster/tiff_strips.h"
 
 #include "core/base/check.h"
+#include "core/files/tiff_handle.h"
 
 #include <algorithm>
 #include <array>
@@ -15,11 +16,6 @@
 
 namespace marsview {
 namespace {
-
-struct TiffCloser {
-    void operator()(TIFF* file) const { TIFFClose(file); }
-};
-using TiffHandle = std::unique_ptr<TIFF, TiffCloser>;
 
 struct OptionsFreer {
     void operator()(TIFFOpenOptions* options) const { TIFFOpenOptionsFree(options); }
@@ -49,8 +45,9 @@ TiffHandle openToRead(const std::string& path, std::string& complaint)
     }
     TIFFOpenOptionsSetErrorHandlerExtR(options.get(), noteError, &complaint);
     TIFFOpenOptionsSetWarningHandlerExtR(options.get(), dropWarning, nullptr);
-    // Not mapped: truncating the file during reading would crash the program.
-    return TiffHandle(TIFFOpenExt(path.c_str(), "rm", options.get()));
+    std::shared_ptr<const SharedFile> file = openShared(path);
+    return file ? openTiff(std::move(file), path, SharedFile::Access::Read, options.get())
+                : nullptr;
 }
 
 template <typename T>

@@ -55,6 +55,14 @@ Result<MapOpening> MapOpening::begin(OpenRaster raster, const MapResources& reso
 
 Status MapOpening::choose()
 {
+    const KeepOpen opening;
+    Status chosen = chooseStorage();
+    open_files_ = opening.files();
+    return chosen;
+}
+
+Status MapOpening::chooseStorage()
+{
     const bool is_remote = remoteNameFor(raster_.spec.path).has_value();
     const auto in_place = GeotiffTileSource::of(raster_.file, raster_.voids());
     if (in_place) {
@@ -147,6 +155,7 @@ Status MapOpening::discardPrepared()
                                  resources_.folder.string())};
     }
     levels_.reset();
+    open_files_.clear();
     lock_.reset();
     const Result<MapFolder> folder = MapFolder::open(resources_.folder);
     return folder ? folder->remove(std::filesystem::path(prepared_path_).filename().string())

@@ -3,6 +3,7 @@
 
 #include "core/base/job_monitor.h"
 #include "core/base/result.h"
+#include "core/files/shared_file.h"
 #include "core/levels/level_file_use.h"
 #include "core/prepare/kept_source.h"
 #include "core/raster/open_raster.h"
@@ -74,6 +75,7 @@ private:
     MapOpening(OpenRaster raster, const MapResources& resources);
 
     Status choose();
+    Status chooseStorage();
     Result<bool> useAdjacentLevels();
     bool usePrepared();
     bool usePreparedAt(const std::string& path, bool is_copy);
@@ -91,6 +93,7 @@ private:
     MapStorage storage_ = MapStorage::InMemory;
     std::shared_ptr<const GeotiffTileSource> in_place_; // null: cannot be read in tiles as it is
     std::optional<RasterLevels> levels_;
+    OpenFiles open_files_;         // what choose() opened
     std::string prepared_path_{};  // in the folder of prepared maps; empty: not from there
     bool is_copy_ = false;         // tiles are read from a copy at prepared_path_
     std::optional<FileLock> lock_; // protects prepared_path_ from removal; finish() takes it

@@ -211,7 +211,8 @@ Result<std::shared_ptr<const GeotiffTileSource>> GeotiffTileSource::of(const Ras
                   .remote_version = info.remote_version,
                   .band = info.band,
                   .voids = voids,
-                  .overviews = {0}};
+                  .overviews = {0},
+                  .open_files = file.openFiles()};
     TileLayout& layout = raster.layout;
     layout = {.columns = info.columns,
               .rows = info.rows,

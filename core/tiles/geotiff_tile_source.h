@@ -19,8 +19,8 @@ public:
     /// Samples exist at levels up to this: each further level reads four times as much per tile.
     static constexpr std::size_t kLastLevel = 2;
 
-    /// Inspects `file`, which the caller keeps. Unsupported, with the reason, if it cannot be read
-    /// in tiles. `nodata` replaces the file's.
+    /// Inspects `file`, which the caller keeps; its open files stay open for the readers.
+    /// Unsupported, with the reason, if it cannot be read in tiles. `nodata` replaces the file's.
     static Result<std::shared_ptr<const GeotiffTileSource>> of(const RasterFile& file,
                                                                const VoidRule& voids);
 
@@ -45,6 +45,7 @@ private:
         int band = 1;
         VoidRule voids;
         std::vector<std::size_t> overviews; // of the file, by level; [0] is unused
+        OpenFiles open_files;               // for all readers
         std::shared_ptr<const TileChecksums> checksums = nullptr; // null: unknown
         std::string remedy{};                                     // for checksum errors
     };

@@ -2,6 +2,7 @@
 
 #include "core/base/deflate.h"
 #include "core/base/parallel.h"
+#include "core/files/tiff_handle.h"
 #include "core/tiles/tile.h"
 
 #include <algorithm>
@@ -19,11 +20,6 @@ namespace marsview {
 namespace {
 
 constexpr std::size_t kTilesPerRange = 16;
-
-struct TiffCloser {
-    void operator()(TIFF* file) const { TIFFClose(file); }
-};
-using TiffHandle = std::unique_ptr<TIFF, TiffCloser>;
 
 struct OptionsFreer {
     void operator()(TIFFOpenOptions* options) const { TIFFOpenOptionsFree(options); }
@@ -53,8 +49,11 @@ int dropWarning(TIFF*, void*, const char*, const char*, va_list)
     return 1;
 }
 
-TiffHandle
-openAt(const std::string& path, TiffTiles::Access access, tdir_t directory, Complaint& complaint)
+TiffHandle openAt(const std::shared_ptr<const SharedFile>& shared,
+                  const std::string& path,
+                  TiffTiles::Access access,
+                  tdir_t directory,
+                  Complaint& complaint)
 {
     const std::unique_ptr<TIFFOpenOptions, OptionsFreer> options(TIFFOpenOptionsAlloc());
     if (!options) {
@@ -63,8 +62,10 @@ openAt(const std::string& path, TiffTiles::Access access, tdir_t directory, Comp
     TIFFOpenOptionsSetErrorHandlerExtR(options.get(), noteError, &complaint);
     TIFFOpenOptionsSetWarningHandlerExtR(options.get(), dropWarning, nullptr);
     errno = 0;
-    TiffHandle file(TIFFOpenExt(path.c_str(), access == TiffTiles::Access::Write ? "r+m" : "rm",
-                                options.get()));
+    TiffHandle file = openTiff(shared, path,
+                               access == TiffTiles::Access::Write ? SharedFile::Access::Update
+                                                                  : SharedFile::Access::Read,
+                               options.get());
     if (file && directory > 0 && TIFFSetDirectory(file.get(), directory) == 0) {
         return nullptr;
     }
@@ -83,7 +84,8 @@ T tagOf(TIFF* file, std::uint32_t tag, T otherwise)
 struct TiffTiles::Impl {
     std::string path;
     std::unique_ptr<Complaint> complaint = std::make_unique<Complaint>();
-    std::vector<TiffHandle> handles; // one per page, so that none switches directories
+    std::shared_ptr<const SharedFile> file;
+    std::vector<TiffHandle> handles; // of `file`, one per page, so that none switches directories
     std::vector<TiffPage> pages;
 
     Error failure() const
@@ -105,8 +107,14 @@ Result<TiffTiles> TiffTiles::open(const std::string& path, Access access)
 {
     auto impl = std::make_unique<Impl>();
     impl->path = path;
+    errno = 0;
+    impl->file = access == Access::Write ? openForUpdate(path) : openShared(path);
+    if (!impl->file) {
+        *impl->complaint = {fmt::format("{}: Cannot open", path), errno};
+        return impl->failure();
+    }
     for (tdir_t directory = 0;; ++directory) {
-        TiffHandle handle = openAt(path, access, directory, *impl->complaint);
+        TiffHandle handle = openAt(impl->file, path, access, directory, *impl->complaint);
         if (!handle) {
             return impl->failure();
         }
@@ -167,7 +175,7 @@ Status TiffTiles::flush()
             return impl_->failure();
         }
     }
-    if (fdatasync(TIFFFileno(impl_->handles.front().get())) != 0) {
+    if (fdatasync(impl_->file->descriptor()) != 0) {
         return writeError(impl_->path, errno, "cannot be written to the disk");
     }
     return Done{};
@@ -176,7 +184,7 @@ Status TiffTiles::flush()
 Result<std::uint64_t> TiffTiles::fileBytes() const
 {
     struct stat status {};
-    if (fstat(TIFFFileno(impl_->handles.front().get()), &status) != 0) {
+    if (fstat(impl_->file->descriptor(), &status) != 0) {
         return writeError(impl_->path, errno, "cannot determine its size");
     }
     return static_cast<std::uint64_t>(status.st_size);
@@ -200,8 +208,7 @@ Result<std::vector<std::byte>> TiffTiles::encoded(std::size_t page, std::size_t 
     const bool is_there = bytes > 0 && bytes <= 2 * std::uint64_t{TIFFTileSize64(file)};
     std::vector<std::byte> encoded(is_there ? bytes : 0);
     if (!is_there ||
-        pread(TIFFFileno(file), encoded.data(), encoded.size(),
-              static_cast<off_t>(offsetOf(page, tile))) != static_cast<ssize_t>(encoded.size())) {
+        impl_->file->read(encoded.data(), encoded.size(), offsetOf(page, tile)) != encoded.size()) {
         return Error{ErrorCode::Invalid,
                      fmt::format("{}: tile {} of page {} is missing", impl_->path, tile, page)};
     }
@@ -225,7 +232,6 @@ bool TiffTiles::areWhole(std::size_t page, std::size_t tiles) const
 {
     TIFF* file = impl_->handles.at(page).get();
     const auto decoded_bytes = static_cast<std::size_t>(TIFFTileSize64(file));
-    const int descriptor = TIFFFileno(file);
     std::atomic<bool> are_whole = true;
     parallelRanges(tiles, kTilesPerRange, [&](std::size_t begin, std::size_t end) {
         std::vector<std::byte> encoded;
@@ -239,10 +245,10 @@ bool TiffTiles::areWhole(std::size_t page, std::size_t tiles) const
                 return;
             }
             encoded.resize(bytes);
-            const ssize_t got = pread(descriptor, encoded.data(), encoded.size(),
-                                      static_cast<off_t>(TIFFGetStrileOffset(file, index)));
+            const std::size_t got =
+                impl_->file->read(encoded.data(), encoded.size(), TIFFGetStrileOffset(file, index));
             // Unlike the library's own reading it looks at the checksum at the end.
-            if (got != static_cast<ssize_t>(encoded.size()) || !inflate(encoded, decoded)) {
+            if (got != encoded.size() || !inflate(encoded, decoded)) {
                 are_whole = false;
             }
         }
@@ -269,7 +275,7 @@ Status TiffTiles::trim(std::uint64_t file_bytes)
             file_bytes = std::max(file_bytes, offset + bytes);
         }
     }
-    if (ftruncate(TIFFFileno(impl_->handles.front().get()), static_cast<off_t>(file_bytes)) != 0) {
+    if (ftruncate(impl_->file->descriptor(), static_cast<off_t>(file_bytes)) != 0) {
         return writeError(impl_->path, errno, "cannot be truncated");
     }
     return Done{};

@@ -25,7 +25,7 @@ TEST(OutputCheck, RefusesInputFilesUnderAnyName)
     fs::create_hard_link(map, folder.file("hard.tif"));
     const std::string goals = folder.write("goals.csv", "x,y,z\n");
     const auto check = [&](const std::vector<std::string>& written) {
-        const Status status = checkOutputs({.maps = {map}, .read = {goals}, .written = written});
+        const auto status = checkOutputs({.maps = {map}, .read = {goals}, .written = written});
         return status ? std::string() : status.error().message;
     };
     EXPECT_EQ(check({"", folder.file("new.csv"), folder.file("other.csv")}), "");
@@ -48,7 +48,7 @@ TEST(OutputCheck, RefusesThePartsOfAMap)
     fs::copy_file(bundledMars(), part);
     const std::string whole = folder.file("whole.vrt");
     runTool({"gdalbuildvrt", "-q", whole, part});
-    const Status status = checkOutputs({.maps = {whole}, .read = {}, .written = {part}});
+    const auto status = checkOutputs({.maps = {whole}, .read = {}, .written = {part}});
     ASSERT_FALSE(status);
     EXPECT_THAT(status.error().message, HasSubstr("part.tif: is an input raster or a part of one"));
 }

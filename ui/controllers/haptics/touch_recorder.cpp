@@ -60,7 +60,8 @@ Status TouchRecorder::checkWritable(const QString& file) const
     if (device_.isReplaying()) {
         files.read.push_back(device_.replayedFile().toStdString());
     }
-    return checkOutputs(files);
+    const Result<OpenFiles> inputs = checkOutputs(files);
+    return inputs ? Status(Done{}) : Status(inputs.error());
 }
 
 void TouchRecorder::stop(RecordingEnd end)
