@@ -15,7 +15,9 @@ namespace marsview {
 ///   position()      the proxy's position
 ///
 /// A value, for one thread at a time. `update` and `place` allocate, lock and throw nothing and are
-/// bounded by S::stepsMax(): they are safe on the servo thread.
+/// bounded: they are safe on the servo thread. A descent takes at most S::stepsMax() steps. The
+/// continuous walk takes at most as many of its own, and one of these may end in a fall, which is a
+/// descent.
 template <typename Model, ContactSurface S>
 class SurfaceProxy {
 public:
