@@ -108,7 +108,6 @@ struct SurfaceLegs {
 ///   toGoal(t, i, g), between(t, i, j)  the same from corner i of a facet
 ///   corners(f)         three vertices, counter-clockwise seen from free space
 ///   facet(f, i)        the face for walking, its corner i (0 to 2) first
-///   rotated(t, i)      the same facet, its corner i first
 ///   faceOf(t)          the face of a facet
 ///   edgeFacets(e)      the facets of an edge
 ///   hasBeyond(t, i)    whether there is a face beyond the edge opposite corner i of a facet
@@ -198,10 +197,6 @@ concept ContactSurface = requires(const S& s,
     noexcept->std::same_as<std::array<typename S::Vertex, 3>>;
     {
         s.facet(f, std::size_t{0})
-    }
-    noexcept->std::same_as<typename S::Facet>;
-    {
-        s.rotated(facet, std::size_t{0})
     }
     noexcept->std::same_as<typename S::Facet>;
     {

@@ -239,15 +239,6 @@ public:
         return facetOf(vertices, kinds,
                        {heightOf(vertices[0]), heightOf(vertices[1]), heightOf(vertices[2])});
     }
-    [[gnu::always_inline]] inline Facet rotated(const Facet& facet,
-                                                std::size_t first) const noexcept
-    {
-        const std::size_t second = (first + 1) % 3;
-        const std::size_t third = (first + 2) % 3;
-        return facetOf({facet.vertices[first], facet.vertices[second], facet.vertices[third]},
-                       {facet.kinds[first], facet.kinds[second], facet.kinds[third]},
-                       {facet.heights[first], facet.heights[second], facet.heights[third]});
-    }
     // The two faces of an edge make a parallelogram.
     bool hasBeyond(const Facet& facet, std::size_t opposite) const noexcept
     {

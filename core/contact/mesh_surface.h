@@ -191,15 +191,6 @@ public:
     {
         return facetAt(3 * face.face + static_cast<std::uint32_t>(first));
     }
-    Facet rotated(const Facet& facet, std::size_t first) const noexcept
-    {
-        const std::size_t second = (first + 1) % 3;
-        const std::size_t third = (first + 2) % 3;
-        return facetOf(turnedCorner(facet, first),
-                       {facet.vertices[first], facet.vertices[second], facet.vertices[third]},
-                       {facet.points[first], facet.points[second], facet.points[third]},
-                       turnedSteps(facet, {first, second, third}));
-    }
     Face faceOf(const Facet& facet) const noexcept { return {Mesh::faceOf(cornerOf(facet, 0))}; }
     EdgeFacets edgeFacets(Edge edge) const noexcept
     {

@@ -79,7 +79,7 @@ const std::optional<StylusPose>& GlobeView::shownStylus() const noexcept
     return device_ && !is_mouse_at_work ? device_ : mouse;
 }
 
-// On the grid of the topmost map, which the place may be beside.
+// On the grid of the topmost map, also where the place is outside it.
 std::optional<RayHit> GlobeView::onTopmost(const ScenePoint& place) const
 {
     const auto ground = groundBelow(place);
