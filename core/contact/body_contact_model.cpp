@@ -8,7 +8,7 @@ std::unique_ptr<ContactModel> makeContactModel(ContactModelKind kind,
                                                const BodySurface& surface,
                                                const ContactModelOptions& options)
 {
-    return makeHeld<HeldOverMesh, ContactModel>(kind, surface, options);
+    return makeModel<ContactModel>(kind, surface, options);
 }
 
 } // namespace marsview

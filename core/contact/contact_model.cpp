@@ -33,7 +33,7 @@ std::unique_ptr<ContactModel> makeContactModel(ContactModelKind kind,
                                                const MeshSurface& surface,
                                                const ContactModelOptions& options)
 {
-    return makeHeld<HeldOverMesh, ContactModel>(kind, surface, options);
+    return makeModel<ContactModel>(kind, surface, options);
 }
 
 std::unique_ptr<MapContactModel> makeContactModel(ContactModelKind kind,
@@ -41,12 +41,12 @@ std::unique_ptr<MapContactModel> makeContactModel(ContactModelKind kind,
                                                   const ContactModelOptions& options)
 {
     if (PlainHeights<std::int16_t>::canRead(*surface.terrain())) {
-        return makeHeldOverMap<PlainHeightfieldSurface<std::int16_t>>(kind, surface, options);
+        return makeMapModel<PlainHeightfieldSurface<std::int16_t>>(kind, surface, options);
     }
     if (PlainHeights<float>::canRead(*surface.terrain())) {
-        return makeHeldOverMap<PlainHeightfieldSurface<float>>(kind, surface, options);
+        return makeMapModel<PlainHeightfieldSurface<float>>(kind, surface, options);
     }
-    return makeHeldOverMap<HeightfieldSurface>(kind, surface, options);
+    return makeMapModel<HeightfieldSurface>(kind, surface, options);
 }
 
 } // namespace marsview

@@ -9,12 +9,12 @@ std::unique_ptr<MapContactModel> makeContactModel(ContactModelKind kind,
                                                   const ContactModelOptions& options)
 {
     if (ResidentHeights<std::int16_t>::canRead(*surface.terrain())) {
-        return makeHeldOverMap<TypedTiledSurface<std::int16_t>>(kind, surface, options);
+        return makeMapModel<TypedTiledSurface<std::int16_t>>(kind, surface, options);
     }
     if (ResidentHeights<float>::canRead(*surface.terrain())) {
-        return makeHeldOverMap<TypedTiledSurface<float>>(kind, surface, options);
+        return makeMapModel<TypedTiledSurface<float>>(kind, surface, options);
     }
-    return makeHeldOverMap<TiledHeightfieldSurface>(kind, surface, options);
+    return makeMapModel<TiledHeightfieldSurface>(kind, surface, options);
 }
 
 } // namespace marsview
