@@ -62,18 +62,19 @@ macro(marsview_compile_together)
   endif()
 endmacro()
 
-# marsview_compile_by_folder(TARGET [ONLY FOLDER...]): compiles the files of each folder, or of each
-# folder named, together: a new file changes one group, and local names need to differ within a
-# folder only. Files with compiler options of their own stay alone.
+# marsview_compile_by_folder(TARGET [ONLY FOLDER...] [EXCEPT FILE...]): compiles the files of each
+# folder, or of each folder named, together: a new file changes one group, and local names need to
+# differ within a folder only. Files with compiler options of their own stay alone.
 function(marsview_compile_by_folder target)
-  cmake_parse_arguments(ARG "" "" "ONLY" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "ONLY;EXCEPT" ${ARGN})
   if(NOT MARSVIEW_COMPILE_TOGETHER)
     return()
   endif()
   get_target_property(sources ${target} SOURCES)
   foreach(source IN LISTS sources)
     get_filename_component(folder "${source}" DIRECTORY)
-    if(NOT source MATCHES "\\.cpp$" OR folder STREQUAL "" OR (ARG_ONLY AND NOT folder IN_LIST ARG_ONLY))
+    if(NOT source MATCHES "\\.cpp$" OR folder STREQUAL "" OR (ARG_ONLY AND NOT folder IN_LIST ARG_ONLY)
+        OR source IN_LIST ARG_EXCEPT)
       continue()
     endif()
     string(REPLACE "/" "_" group "${folder}")
