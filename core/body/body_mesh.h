@@ -78,6 +78,7 @@ public:
     std::size_t vertexCount() const noexcept { return std::size_t{columns_} * rows_; }
     std::size_t faceCount() const noexcept { return face_count_; }
     const BodyPositions& positions() const noexcept { return positions_; }
+    const Ellipsoid& ellipsoid() const noexcept { return positions_.ellipsoid(); }
     double exaggeration() const noexcept { return exaggeration_; }
 
     ScenePoint vertex(std::uint32_t index) const noexcept
@@ -185,6 +186,16 @@ public:
                           is_right != is_below ? kThird
                           : is_right           ? kFar
                                                : kFirst);
+    }
+
+    bool hasVoids() const noexcept { return heights_->heightfield().samples().hasVoids(); }
+    /// Whether a sample of the face is void.
+    bool isFilled(std::uint32_t face) const noexcept
+    {
+        const std::array<BodySample, 3> at = samplesOf(face);
+        return std::any_of(at.begin(), at.end(), [this](const BodySample& sample) {
+            return heights_->isVoid(sample.column, sample.row + positions_.firstRow());
+        });
     }
 
     static std::uint32_t faceOf(std::uint32_t corner) noexcept { return corner / 3; }

@@ -1,13 +1,6 @@
 #include "core/contact/body_surface.h"
 
-#include "core/contact/body_below.h"
-#include "core/contact/mesh_surface_definitions.h"
-#include "core/mesh/mesh_cast_definitions.h"
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <limits>
+#include "core/contact/body_below_definitions.h"
 
 namespace marsview {
 
@@ -15,56 +8,12 @@ template class BasicMeshSurface<BodyMesh>;
 
 double clearanceOver(const BodySurface& surface, const ScenePoint& point) noexcept
 {
-    const BodyMesh& mesh = *surface.mesh();
-    const Ellipsoid& body = mesh.positions().ellipsoid();
-    const BodyVertical vertical = verticalAt(body, point);
-    // Below all terrain, and not beyond the middle of the body, from where the far side is above.
-    constexpr double kDepthShare = 0.9;
-    const double depth_m = kDepthShare * std::min(body.equatorial_m, body.polar_m);
-    const auto from = surface.goal(mesh.highAbove(point));
-    const auto to = surface.goal(point - vertical.up * (vertical.height_m + depth_m));
-    if (!from || !to) {
-        return std::numeric_limits<double>::quiet_NaN();
-    }
-    const BodySurface::Cast cast = surface.castFree(*from, *to);
-    return cast.contact ? dot(point - surface.point(*cast.contact), vertical.up)
-                        : std::numeric_limits<double>::quiet_NaN();
+    return body_below::clearanceOver(surface, point);
 }
 
 BodyBelow belowOn(const BodySurface& surface, const ScenePoint& point, double level_m) noexcept
 {
-    const BodyMesh& mesh = *surface.mesh();
-    const Ellipsoid& body = mesh.positions().ellipsoid();
-    const double clearance_m = clearanceOver(surface, point);
-    const BodyVertical vertical = verticalAt(body, point);
-    if (std::isfinite(clearance_m) || !surface.goal(point)) {
-        return {
-            .over = point, .clearance_m = clearance_m, .level_m = vertical.height_m - clearance_m};
-    }
-    // The place of the border that is nearest at its own height. From far above or below the search
-    // would take long.
-    ScenePoint at = point + vertical.up * (level_m - vertical.height_m);
-    ScenePoint border;
-    constexpr int kRounds = 2;
-    for (int i = 0; i < kRounds; ++i) {
-        const MeshPlace place = nearestPlace(mesh, at);
-        const auto corners = mesh.points(place.face);
-        // A little inside, where a cast finds the surface.
-        constexpr double kInside = 1e-6;
-        border = {};
-        for (std::size_t k = 0; k < corners.size(); ++k) {
-            border = border + corners[k] * ((1.0 - kInside) * place.weights[k] + kInside / 3.0);
-        }
-        at = point - vertical.up * dot(point - border, vertical.up);
-    }
-    const BodyVertical there = verticalAt(body, border);
-    const double rise_m = vertical.height_m - there.height_m;
-    const ScenePoint over = border + there.up * rise_m;
-    const double found_m = clearanceOver(surface, over);
-    return {.over = over,
-            .clearance_m = std::isfinite(found_m) ? found_m : rise_m,
-            .level_m = there.height_m,
-            .is_beside = true};
+    return body_below::belowOn(surface, point, level_m);
 }
 
 } // namespace marsview

@@ -5,5 +5,7 @@ namespace marsview {
 
 template std::unique_ptr<ContactModel>
 makeComparedModel(ContactModelKind, const BodySurface&, const ContactModelOptions&);
+template std::unique_ptr<ContactModel>
+makeComparedModel(ContactModelKind, const LayeredSurface&, const ContactModelOptions&);
 
 } // namespace marsview

@@ -4,6 +4,7 @@
 #include "core/contact/body_surface.h"
 #include "core/contact/contact.h"
 #include "core/contact/heightfield_surface.h"
+#include "core/contact/layered_surface.h"
 #include "core/contact/mesh_surface.h"
 #include "core/contact/resident_heights.h"
 
@@ -93,6 +94,9 @@ std::unique_ptr<ContactModel> makeContactModel(ContactModelKind kind,
                                                const ContactModelOptions& options = {});
 std::unique_ptr<ContactModel> makeContactModel(ContactModelKind kind,
                                                const BodySurface& surface,
+                                               const ContactModelOptions& options = {});
+std::unique_ptr<ContactModel> makeContactModel(ContactModelKind kind,
+                                               const LayeredSurface& surface,
                                                const ContactModelOptions& options = {});
 std::unique_ptr<MapContactModel> makeContactModel(ContactModelKind kind,
                                                   const HeightfieldSurface& surface,
