@@ -25,9 +25,9 @@ struct NestedMap {
 struct NestedMaps {
     std::string name;
     std::vector<NestedMap> maps;
-    friend std::ostream& operator<<(std::ostream& out, const NestedMaps& maps)
+    friend std::ostream& operator<<(std::ostream& out, const NestedMaps& nested)
     {
-        return out << maps.name;
+        return out << nested.name;
     }
 };
 

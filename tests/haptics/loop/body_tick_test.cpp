@@ -1,6 +1,7 @@
 #include "core/body/body_mesh.h"
 #include "core/contact/body_goal_frame.h"
 #include "core/contact/body_surface.h"
+#include "core/contact/layered_surface.h"
 #include "core/globe/body_camera.h"
 #include "haptics/interaction/body_frame.h"
 #include "haptics/loop/camera_link.h"
@@ -8,7 +9,9 @@
 #include "haptics/loop/rt_scope.h"
 #include "tests/core/contact/body_maps.h"
 #include "tests/core/contact/contact_terrain.h"
+#include "tests/core/contact/nested_maps.h"
 #include "tests/haptics/loop/tick_fixture.h"
+#include "tests/support/random.h"
 
 #include <gtest/gtest.h>
 
@@ -505,6 +508,33 @@ TEST(BodyTick, ACoveredMapIsNotFelt)
     rig.to({0.01, 0.0, -0.004}, 20);
     expectPressedBack(rig, rig.at({0.01, 0.0, -0.004}), {0.01, 0.0, -0.004});
     EXPECT_EQ(rig.allocations, 0U);
+}
+
+// Over the border of a map, whose faces are stored, and over those that are not.
+TEST(LayeredSurface, UpdatesAllocateNothing)
+{
+    JobMonitor monitor;
+    for (const NestedMaps& nested : nestedMaps({"FineWithVoids"})) {
+        const auto maps = meshesOf(nested);
+        const auto mesh = LayeredMesh::build(maps, monitor);
+        ASSERT_TRUE(mesh) << mesh.error().message;
+        Random random(5);
+        for (const ContactModelKind kind : kContactModelKinds) {
+            const auto model = makeContactModel(kind, LayeredSurface(*mesh), {.radius_m = 100.0});
+            std::uint64_t allocations = 0;
+            int contacts = 0;
+            for (int i = 0; i < 50; ++i) {
+                const ScenePoint place = placeNear(*maps.front(), random);
+                const ScenePoint goal = place * random.uniform(0.995, 1.0);
+                const std::uint64_t before = RtScope::allocationCount();
+                const RtScope scope;
+                contacts += model->update(goal).is_in_contact ? 1 : 0;
+                allocations += RtScope::allocationCount() - before;
+            }
+            EXPECT_EQ(allocations, 0U) << contactModelName(kind);
+            EXPECT_GT(contacts, 10) << contactModelName(kind);
+        }
+    }
 }
 
 } // namespace
