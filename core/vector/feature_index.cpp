@@ -226,7 +226,7 @@ private:
     void addItem(std::uint32_t part)
     {
         const PlaneFeatures::Part& of = index_.features_.parts[part];
-        piece_ = {.feature = of.feature, .shape = of.shape, .begin = 0, .end = 0};
+        piece_ = {.feature = of.feature, .shape = of.shape, .begin = 0, .end = 0, .part = part};
         if (of.shape == PlaneShape::Dot) {
             selection_.points.push_back(index_.features_.points[of.begin]);
             piece_.begin = selection_.points.size() - 1;
@@ -288,18 +288,34 @@ private:
     std::size_t last_vertex_ = 0;
 };
 
+// The finest of the steps that fits. One feature remains at the coarsest.
 FeatureIndex::Selection FeatureIndex::select(const Resolution& resolution,
-                                             std::size_t points_max) const
+                                             std::size_t points_max,
+                                             double likely_coarsening) const
 {
-    // Coarser until it fits; one feature remains in the end.
-    constexpr double kCoarsestOfAll = 1e12;
-    for (double coarsening = 1.0; coarsening < kCoarsestOfAll; coarsening *= 1.5) {
-        Selector selector(*this, resolution, points_max, coarsening);
-        if (selector.run()) {
-            return selector.take();
+    constexpr double kStep = 1.5;
+    constexpr int kSteps = 69; // to 1e12
+    const auto selected = [&](int step) -> std::optional<Selection> {
+        Selector selector(*this, resolution, points_max, std::pow(kStep, step));
+        return selector.run() ? std::optional(selector.take()) : std::nullopt;
+    };
+    int step = std::clamp(
+        static_cast<int>(std::lround(std::log(likely_coarsening) / std::log(kStep))), 0, kSteps);
+    std::optional<Selection> best = selected(step);
+    while (!best && step < kSteps) {
+        best = selected(++step);
+        if (best) {
+            return std::move(*best); // a finer one did not fit
         }
     }
-    return {};
+    for (; best && step > 0; --step) {
+        std::optional<Selection> finer = selected(step - 1);
+        if (!finer) {
+            break;
+        }
+        best = std::move(finer);
+    }
+    return best ? std::move(*best) : Selection{};
 }
 
 class FeatureIndex::Finder {

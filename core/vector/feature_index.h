@@ -66,6 +66,7 @@ public:
             PlaneShape shape = PlaneShape::Dot;
             std::size_t begin = 0; // of `points`
             std::size_t end = 0;
+            std::uint32_t part = 0; // of the features, below partCount()
         };
         std::vector<PlanePoint> points;
         std::vector<Piece> pieces;
@@ -77,7 +78,11 @@ public:
     /// farther from the result than the resolution. Where several features lie in a box whose sides
     /// are not longer than the resolution, one of them represents all; those that are selected at
     /// some resolution are also selected at finer ones.
-    Selection select(const Resolution& resolution, std::size_t points_max) const;
+    /// `likely_coarsening`, that of a picture of a moment ago for example, saves time and changes
+    /// nothing.
+    Selection select(const Resolution& resolution,
+                     std::size_t points_max,
+                     double likely_coarsening = 1.0) const;
 
     /// The feature at a place: the nearest dot within `reach`, or else the nearest line or border
     /// within it, or else the smallest polygon around the place, by the even-odd rule over all

@@ -1,6 +1,7 @@
 // How long a frame takes with many features over the map, and with none. For figures, on an idle
-// machine:
-//     MARSVIEW_FRAME_FEATURES=1000000 xvfb-run -a build/release/tests/ui/marsview_ui_test
+// machine, medians of five alternating runs; another map with MARSVIEW_FRAME_MAP=FILE:
+//     MARSVIEW_FRAME_FEATURES=1000000 MARSVIEW_FRAME_ROUNDS=5 xvfb-run -a
+//     build/release/tests/ui/marsview_ui_test
 //         --gtest_filter='FeatureFrames*'
 #include "core/annotations/annotation.h"
 #include "tests/support/random.h"
@@ -20,12 +21,15 @@
 #include <QFileInfo>
 #include <QSignalSpy>
 #include <QTimer>
+#include <QUndoStack>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -59,12 +63,45 @@ private:
     double longest_ms_ = 0.0;
 };
 
+// Of a frame, in milliseconds.
+struct FrameCostMs {
+    double wall = 0.0;
+    double processor = 0.0; // of all threads: other programs change it less
+};
+
+class FrameClock {
+public:
+    void start()
+    {
+        timer_.start();
+        processor_ = std::clock();
+    }
+    FrameCostMs perFrame(int frames) const
+    {
+        return {.wall = static_cast<double>(timer_.nsecsElapsed()) * 1e-6 / frames,
+                .processor =
+                    static_cast<double>(std::clock() - processor_) * 1e3 / CLOCKS_PER_SEC / frames};
+    }
+
+private:
+    QElapsedTimer timer_;
+    std::clock_t processor_ = 0;
+};
+
 class FeatureFramesTest : public MapWindowTest {
 protected:
     void SetUp() override
     {
-        makeWindow(kWithPanels);
-        ASSERT_TRUE(openAndWait(*window_, QString::fromStdString(test::bundledMars())));
+        makeWindow(windowSize());
+        const QString map = qEnvironmentVariable("MARSVIEW_FRAME_MAP");
+        ASSERT_TRUE(openAndWait(*window_,
+                                map.isEmpty() ? QString::fromStdString(test::bundledMars()) : map));
+    }
+    // In a benchmark, so large that the view is.
+    static QSize windowSize()
+    {
+        return qEnvironmentVariableIsSet("MARSVIEW_FRAME_FEATURES") ? QSize(1600, 1000)
+                                                                    : kWithPanels;
     }
     // A few thousand in a test, as many as the environment says in a benchmark.
     static int count()
@@ -74,36 +111,117 @@ protected:
         return is_set ? count : 5000;
     }
     VectorOverlays& overlays() { return window_->commands().vector_files.overlays(); }
-    // Milliseconds a frame while the camera goes round.
-    double frameMs()
+    // Runs with features and without, in turn; the median counts.
+    static int rounds()
+    {
+        bool is_set = false;
+        const int rounds = qEnvironmentVariableIntValue("MARSVIEW_FRAME_ROUNDS", &is_set);
+        return is_set ? rounds : 1;
+    }
+    void waitForRest()
     {
         EXPECT_TRUE(waitFor([this] { return !overlays().isBusy() && view().isPictureComplete(); }));
+    }
+    void waitForFrame(const QSignalSpy& swapped)
+    {
+        while (swapped.isEmpty()) {
+            QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
+        }
+    }
+    // While the camera goes round.
+    FrameCostMs moving()
+    {
+        waitForRest();
         const OrbitCamera home = view().camera();
         constexpr int kFrames = 60;
         constexpr int kWarmUp = 10; // the governor learns what a frame costs
-        QElapsedTimer timer;
+        FrameClock clock;
         for (int i = 0; i < kWarmUp + kFrames; ++i) {
             if (i == kWarmUp) {
-                timer.start();
+                clock.start();
             }
             OrbitCamera camera = home;
             camera.distance_m *= 0.4;
             camera.azimuth = home.azimuth + Angle::degrees(0.5 * i);
-            QSignalSpy swapped(&view(), &QOpenGLWidget::frameSwapped);
+            const QSignalSpy swapped(&view(), &QOpenGLWidget::frameSwapped);
             view().setCamera(camera);
-            while (swapped.isEmpty()) {
-                QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
-            }
+            waitForFrame(swapped);
         }
-        const double ms = static_cast<double>(timer.nsecsElapsed()) * 1e-6 / kFrames;
+        const FrameCostMs cost = clock.perFrame(kFrames);
         view().setCamera(home);
-        return ms;
+        return cost;
+    }
+    // The view and all that lies over it are painted again.
+    FrameCostMs resting()
+    {
+        waitForRest();
+        constexpr int kFrames = 20;
+        constexpr int kWarmUp = 3;
+        FrameClock clock;
+        for (int i = 0; i < kWarmUp + kFrames; ++i) {
+            if (i == kWarmUp) {
+                clock.start();
+            }
+            const QSignalSpy swapped(&view(), &QOpenGLWidget::frameSwapped);
+            for (QWidget* part : view().findChildren<QWidget*>()) {
+                part->update();
+            }
+            view().update();
+            waitForFrame(swapped);
+        }
+        return clock.perFrame(kFrames);
+    }
+    static double median(std::vector<double> values)
+    {
+        std::sort(values.begin(), values.end());
+        return values[values.size() / 2];
+    }
+    // Prints what features cost; `show` shows or hides them, which are shown now.
+    void compare(const std::string& features, const std::function<void(bool)>& show)
+    {
+        for (const bool is_moving : {true, false}) {
+            const auto measure = [&] { return is_moving ? moving() : resting(); };
+            std::vector<double> with_ms;
+            std::vector<double> without_ms;
+            std::vector<double> ratios;
+            std::vector<double> processor_ratios;
+            for (int i = 0; i < rounds(); ++i) {
+                const FrameCostMs with = measure();
+                show(false);
+                const FrameCostMs without = measure();
+                show(true);
+                with_ms.push_back(with.wall);
+                without_ms.push_back(without.wall);
+                ratios.push_back(with.wall / without.wall);
+                processor_ratios.push_back(with.processor / without.processor);
+            }
+            std::sort(ratios.begin(), ratios.end());
+            std::printf(
+                "%s, %s, view of %d x %d: %.1f ms a frame, without %.1f ms, ratio %.2f "
+                "(%.2f to %.2f), of processor time %.2f\n",
+                features.c_str(), is_moving ? "moving" : "at rest", view().width(), view().height(),
+                median(with_ms), median(without_ms), median(ratios), ratios.front(), ratios.back(),
+                median(processor_ratios));
+        }
+    }
+    // Anywhere on the map.
+    GeographicPoint anywhere(test::Random& random)
+    {
+        const Georeference& map = view().map()->georeference();
+        const Heightfield& field = view().map()->heightfield();
+        const auto place =
+            map.toGeographic({random.uniform(0.0, static_cast<double>(field.columns() - 1)),
+                              random.uniform(0.0, static_cast<double>(field.rows() - 1))});
+        EXPECT_TRUE(place);
+        return *place;
     }
     void openVector(const QString& file)
     {
         QElapsedTimer timer;
         timer.start();
-        overlays().open(file, QString::fromStdString(view().map()->georeference().crs()->wkt()));
+        const Crs geographic = Crs::geographic(*view().map()->info().body,
+                                               *view().map()->georeference().crs()->ellipsoid());
+        overlays().open(file, QString::fromStdString(geographic.wkt()));
         constexpr int kLongMs = 300'000;
         ASSERT_TRUE(QTest::qWaitFor([this] { return !overlays().isBusy(); }, kLongMs));
         std::printf("%s: %.1f MB opened in %.1f s\n", qPrintable(QFileInfo(file).fileName()),
@@ -119,8 +237,9 @@ protected:
         test::Random random(1);
         file.write("lon,lat,name\n");
         for (int i = 0; i < number; ++i) {
-            file.write(QByteArray::number(random.uniform(0.0, 360.0), 'f', 5) + ',' +
-                       QByteArray::number(random.uniform(-85.0, 85.0), 'f', 5) + ",p" +
+            const GeographicPoint place = anywhere(random);
+            file.write(QByteArray::number(place.longitude.degrees(), 'f', 5) + ',' +
+                       QByteArray::number(place.latitude.degrees(), 'f', 5) + ",p" +
                        QByteArray::number(i) + '\n');
         }
         return path;
@@ -134,9 +253,7 @@ protected:
         const int number = count(); // a file may have a hundred thousand, a project has many files
         for (int i = 0; i < number; ++i) {
             annotation.name = "p" + std::to_string(i);
-            annotation.vertices = {
-                DrawnVertex(GeographicPoint{Angle::degrees(random.uniform(0.0, 360.0)),
-                                            Angle::degrees(random.uniform(-85.0, 85.0))})};
+            annotation.vertices = {DrawnVertex(anywhere(random))};
             annotations.push_back(annotation);
         }
         QElapsedTimer timer;
@@ -185,31 +302,32 @@ protected:
 
 TEST_F(FeatureFramesTest, PointsOfAVectorFile)
 {
-    const double without_ms = frameMs();
     ASSERT_NO_FATAL_FAILURE(openVector(points(count())));
-    const double with_ms = frameMs();
-    std::printf("%d points of a file: %.1f ms a frame, without %.1f ms, ratio %.2f\n", count(),
-                with_ms, without_ms, with_ms / without_ms);
+    compare(std::to_string(count()) + " points of a file", [this](bool is_shown) {
+        Session session = window_->session();
+        session.overlays.front().is_visible = is_shown;
+        overlays().setSession(session);
+    });
 }
 
 TEST_F(FeatureFramesTest, LinesOfAVectorFile)
 {
-    const double without_ms = frameMs();
     const int vertices = count() * 5 / 2;
     ASSERT_NO_FATAL_FAILURE(openVector(coastline(vertices)));
-    const double with_ms = frameMs();
-    std::printf("lines of %d vertices: %.1f ms a frame, without %.1f ms, ratio %.2f\n", vertices,
-                with_ms, without_ms, with_ms / without_ms);
+    compare("lines of " + std::to_string(vertices) + " vertices", [this](bool is_shown) {
+        Session session = window_->session();
+        session.overlays.front().is_visible = is_shown;
+        overlays().setSession(session);
+    });
 }
 
 TEST_F(FeatureFramesTest, Annotations)
 {
-    const double without_ms = frameMs();
     ASSERT_NO_FATAL_FAILURE(addAnnotations());
+    QUndoStack& undo_stack = window_->controller().undoStack();
+    compare(std::to_string(count()) + " annotations",
+            [&](bool is_shown) { is_shown ? undo_stack.redo() : undo_stack.undo(); });
     AnnotationController& annotating = *window_->annotating();
-    const double with_ms = frameMs();
-    std::printf("%d annotations: %.1f ms a frame, without %.1f ms, ratio %.2f\n", count(), with_ms,
-                without_ms, with_ms / without_ms);
     QElapsedTimer timer;
     timer.start();
     annotating.rename(annotating.state().items.front().id, QStringLiteral("first"));

@@ -60,12 +60,12 @@ std::optional<Error> TerrainCanvas::initialize()
     if (!cursor) {
         return cursor.error();
     }
-    auto lines = LineRenderer::create();
+    auto lines = LinePainter::create();
     if (!lines) {
         return lines.error();
     }
     renderer_ = std::move(renderer).value();
-    line_renderer_ = std::move(lines).value();
+    line_painter_ = std::move(lines).value();
     cursor_ = std::move(cursor).value();
     picture_ = std::make_unique<GovernedPicture>(*renderer_);
     picture_->setTarget(frame_target_);
@@ -79,7 +79,7 @@ void TerrainCanvas::release()
     if (renderer_) {
         parts_.view.makeCurrent();
         picture_.reset();
-        line_renderer_.reset();
+        line_painter_.reset();
         cursor_.reset();
         renderer_.reset();
         parts_.view.doneCurrent();
@@ -131,6 +131,13 @@ void TerrainCanvas::setLines(std::vector<DrapedLine> lines, LineSet set)
     }
 }
 
+void TerrainCanvas::setDots(DotSet dots, LineSet set)
+{
+    if (lines_.setDots(std::move(dots), set)) {
+        parts_.view.update();
+    }
+}
+
 QImage TerrainCanvas::terrainPicture()
 {
     is_cursor_shown_ = false;
@@ -158,12 +165,13 @@ Result<bool> TerrainCanvas::drawPart(const OrbitCamera& camera,
                          .width = part.width(),
                          .height = part.height()};
     const auto draw_lines = [&] {
-        lines_.draw(*line_renderer_, {.camera = camera,
-                                      .viewport = viewport,
-                                      .clip = renderer_->clip(camera, style.exaggeration),
-                                      .pixels_per_point = static_cast<double>(viewport.height) /
-                                                          parts_.view.height(),
-                                      .part = area});
+        lines_.draw(
+            line_painter_->lines(),
+            {.camera = camera,
+             .viewport = viewport,
+             .clip = renderer_->clip(camera, style.exaggeration),
+             .pixels_per_point = static_cast<double>(viewport.height) / parts_.view.height(),
+             .part = area});
     };
     const auto drawn = marsview::drawPart(
         *renderer_,
@@ -198,12 +206,11 @@ void TerrainCanvas::paint()
     if (!renderer_) {
         return;
     }
-    if (!is_terrain_current_) {
+    const bool is_new = !is_terrain_current_;
+    if (is_new) {
         paintTerrain();
-    } else {
-        renderer_->present(parts_.view.defaultFramebufferObject());
     }
-    paintLines();
+    paintLines(is_new ? TerrainPicture::New : TerrainPicture::Same);
     paintCursor();
 }
 
@@ -249,15 +256,15 @@ void TerrainCanvas::report(const DrawReport& report)
     }
 }
 
-void TerrainCanvas::paintLines()
+void TerrainCanvas::paintLines(TerrainPicture terrain)
 {
     const OrbitCamera& camera = parts_.camera.camera();
-    lines_.paint(*renderer_, *line_renderer_,
-                 {.camera = camera,
-                  .viewport = viewportOf(parts_.view),
-                  .clip = renderer_->clip(camera, parts_.scene.style.exaggeration),
-                  .pixels_per_point = parts_.projection.pixelsPerPoint()},
-                 parts_.view.defaultFramebufferObject());
+    line_painter_->paint(lines_, *renderer_, terrain,
+                         {.camera = camera,
+                          .viewport = viewportOf(parts_.view),
+                          .clip = renderer_->clip(camera, parts_.scene.style.exaggeration),
+                          .pixels_per_point = parts_.projection.pixelsPerPoint()},
+                         parts_.view.defaultFramebufferObject());
 }
 
 void TerrainCanvas::paintCursor()

@@ -5,6 +5,7 @@
 #include "core/base/result.h"
 #include "haptics/interaction/stylus.h"
 #include "ui/canvas/camera_controller.h"
+#include "ui/canvas/line_painter.h"
 #include "ui/canvas/line_sets.h"
 #include "ui/canvas/shown_scene.h"
 #include "ui/canvas/touch_tool.h"
@@ -66,6 +67,7 @@ public:
     void setFrameTarget(std::chrono::milliseconds target);
     /// Lines on the terrain, drawn over every picture, the sets in their order.
     void setLines(std::vector<DrapedLine> lines, LineSet set);
+    void setDots(DotSet dots, LineSet set);
 
     /// The picture shows all there is, as well as can be.
     bool isComplete() const noexcept { return is_completion_reported_ && is_terrain_current_; }
@@ -95,7 +97,7 @@ Q_SIGNALS:
 private:
     void sendLayers();
     void paintTerrain();
-    void paintLines();
+    void paintLines(TerrainPicture terrain);
     void paintCursor();
     void report(const DrawReport& report);
     void redrawWithNews();
@@ -107,7 +109,7 @@ private:
     std::unique_ptr<TerrainRenderer> renderer_;
     std::unique_ptr<GovernedPicture> picture_;
     std::unique_ptr<CursorRenderer> cursor_;
-    std::unique_ptr<LineRenderer> line_renderer_;
+    std::unique_ptr<LinePainter> line_painter_;
     LineSets lines_;
     std::chrono::milliseconds frame_target_{33};
     bool has_antialiasing_ = true;

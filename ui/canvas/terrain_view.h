@@ -87,6 +87,7 @@ public:
     {
         canvas_.setLines(std::move(lines), set);
     }
+    void setDots(DotSet dots, LineSet set) { canvas_.setDots(std::move(dots), set); }
 
     void step(NavigationStep step);
     /// Moves as a cap is pushed, for the time since it was asked last: once a frame while the cap

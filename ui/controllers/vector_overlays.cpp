@@ -63,6 +63,9 @@ void VectorOverlays::joinScene()
     connect(scene_, &DrawingScene::exaggerationChanged, this, [this] { draw_soon_.request(); });
     connect(scene_, &DrawingScene::pictureCompleted, this, [this] { // finer ground has come
         is_hasty_ = false;
+        if (const auto map = scene_->map(); map && map->heightfield().isTiled()) {
+            forgetDotPlaces();
+        }
         draw_soon_.request();
     });
     connect(scene_, &DrawingScene::mapsChanged, this, &VectorOverlays::placeAll);
@@ -74,14 +77,23 @@ void VectorOverlays::drawOn(DrawingScene* scene)
     if (next != scene_) {
         scene_->disconnect(this);
         scene_->setLines({}, LineSet::Overlays);
+        scene_->setDots({}, LineSet::Overlays);
         scene_ = next;
         joinScene();
         placeAll();
     }
 }
 
+void VectorOverlays::forgetDotPlaces()
+{
+    for (auto& [path, entry] : entries_) {
+        entry.dot_places.clear();
+    }
+}
+
 void VectorOverlays::placeAll()
 {
+    forgetDotPlaces();
     for (const VectorOverlay& overlay : overlays_) {
         place({.path = overlay.path, .crs = overlay.crs});
     }
@@ -198,6 +210,8 @@ void VectorOverlays::take(const Request& request,
     if (outcome.file) {
         entry.file = outcome.file;
         entry.placed = std::move(outcome.placed);
+        entry.dot_places.clear();
+        entry.coarsening = 1.0;
         entry.has_failed = false;
     } else {
         entry.has_failed = true;
@@ -274,24 +288,29 @@ void VectorOverlays::drawLines()
     if (shown.empty() && !is_drawn_) {
         return;
     }
-    std::vector<DrapedLine> lines;
+    Drawn drawn;
     for (const VectorOverlay* overlay : shown) {
-        addLines(*overlay, *entries_.at(overlay->path).placed, points_max / shown.size(), lines);
+        addLines(*overlay, entries_.at(overlay->path), points_max / shown.size(), drawn);
     }
-    is_drawn_ = !lines.empty();
-    scene_->setLines(std::move(lines), LineSet::Overlays);
+    is_drawn_ = !drawn.lines.empty() || !drawn.dots.empty();
+    scene_->setLines(std::move(drawn.lines), LineSet::Overlays);
+    scene_->setDots({.dots = std::move(drawn.dots), .width_points = kDotWidth, .stamps = nullptr},
+                    LineSet::Overlays);
     hasty_drawing_ns_ = is_hasty_ ? drawn_at_.nsecsElapsed() : 0;
     drawn_at_.start();
 }
 
 void VectorOverlays::addLines(const VectorOverlay& overlay,
-                              const Placed& placed,
+                              Entry& entry,
                               std::size_t points_max,
-                              std::vector<DrapedLine>& lines) const
+                              Drawn& drawn) const
 {
+    std::vector<DrapedLine>& lines = drawn.lines;
     // Details of a point of the screen.
     const auto resolution = scene_->planResolution();
-    const FeatureIndex::Selection selection = placed.index.select(resolution, points_max);
+    const FeatureIndex::Selection selection =
+        entry.placed->index.select(resolution, points_max, entry.coarsening);
+    entry.coarsening = selection.coarsening;
     for (const auto& piece : selection.pieces) {
         DrapedLine line{.points = {}, .color = overlay.color, .width_points = kLineWidth};
         const auto end_run = [&] { // no terrain there, or not on this side of the body
@@ -309,15 +328,14 @@ void VectorOverlays::addLines(const VectorOverlay& overlay,
             }
         };
         const PlanePoint& first = selection.points[piece.begin];
-        add(first.x, first.y);
         if (piece.shape == PlaneShape::Dot) {
-            if (!line.points.empty()) {
-                line.points.push_back(line.points.front());
-                line.width_points = kDotWidth;
-                lines.push_back(std::move(line));
+            const auto place = placeOfDot(entry, piece.part, first);
+            if (place && !scene_->isBehindHorizon(*place)) {
+                drawn.dots.push_back({.place = *place, .color = overlay.color});
             }
             continue;
         }
+        add(first.x, first.y);
         for (std::size_t i = piece.begin + 1; i < piece.end; ++i) {
             const PlanePoint& a = selection.points[i - 1];
             const PlanePoint& b = selection.points[i];
@@ -337,6 +355,25 @@ void VectorOverlays::addLines(const VectorOverlay& overlay,
         }
         end_run();
     }
+}
+
+// Finding heights takes longer than drawing: they are kept until the maps change.
+std::optional<ScenePoint>
+VectorOverlays::placeOfDot(Entry& entry, std::uint32_t part, const PlanePoint& point) const
+{
+    constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+    constexpr double kNowhere = std::numeric_limits<double>::infinity();
+    if (entry.dot_places.empty()) {
+        entry.dot_places.assign(entry.placed->index.partCount(), {0.0, 0.0, kUnknown});
+    }
+    ScenePoint& known = entry.dot_places[part];
+    const double exaggeration = scene_->dotExaggeration();
+    if (std::isnan(known.z)) {
+        known = scene_->onTerrain(point).value_or(ScenePoint{0.0, 0.0, kNowhere});
+        known.z /= exaggeration;
+    }
+    return known.z < kNowhere ? std::optional(ScenePoint{known.x, known.y, known.z * exaggeration})
+                              : std::nullopt;
 }
 
 std::vector<VectorOverlays::Hit> VectorOverlays::featuresAt(const DrawnVertex& place,

@@ -84,6 +84,8 @@ private:
         std::weak_ptr<const ScenePlan> plan;    // that it is, or is being, placed on
         std::shared_ptr<const Placed> placed;   // null if it is of another body
         bool has_failed = false;
+        double coarsening = 1.0;            // of the last selection, likely that of the next one
+        std::vector<ScenePoint> dot_places; // by part of the index, as far as they were needed
     };
     struct Outcome {
         std::shared_ptr<const VectorFile> file;
@@ -109,10 +111,17 @@ private:
     static std::shared_ptr<const Placed>
     placedOn(const ScenePlan& plan, const VectorFile& file, JobMonitor& monitor);
     void drawLines();
+    struct Drawn {
+        std::vector<DrapedLine> lines;
+        std::vector<TerrainDot> dots;
+    };
     void addLines(const VectorOverlay& overlay,
-                  const Placed& placed,
+                  Entry& entry,
                   std::size_t points_max,
-                  std::vector<DrapedLine>& lines) const;
+                  Drawn& drawn) const;
+    std::optional<ScenePoint>
+    placeOfDot(Entry& entry, std::uint32_t part, const PlanePoint& point) const;
+    void forgetDotPlaces();
 
     FlatScene flat_;
     DrawingScene* scene_ = &flat_;

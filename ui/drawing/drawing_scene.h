@@ -77,6 +77,7 @@ public:
 
     virtual void setPlaceTool(Tool tool, PlaceTool* place_tool) = 0;
     virtual void setLines(std::vector<DrapedLine> lines, LineSet set) = 0;
+    virtual void setDots(DotSet dots, LineSet set) = 0;
     /// Flies to where all of these can be seen, at least one.
     virtual void flyToAll(const std::vector<ScenePoint>& places) = 0;
 

@@ -111,6 +111,11 @@ void FlatScene::setLines(std::vector<DrapedLine> lines, LineSet set)
     view_.setLines(std::move(lines), set);
 }
 
+void FlatScene::setDots(DotSet dots, LineSet set)
+{
+    view_.setDots(std::move(dots), set);
+}
+
 void FlatScene::flyToAll(const std::vector<ScenePoint>& places)
 {
     ScenePoint low = places.front();

@@ -33,6 +33,7 @@ public:
     bool isReadByStylus() const override;
     void setPlaceTool(Tool tool, PlaceTool* place_tool) override;
     void setLines(std::vector<DrapedLine> lines, LineSet set) override;
+    void setDots(DotSet dots, LineSet set) override;
     void flyToAll(const std::vector<ScenePoint>& places) override;
     std::shared_ptr<const ScenePlan> plan() const override;
     std::optional<ScenePoint> onTerrain(const PlanePoint& point) const override;

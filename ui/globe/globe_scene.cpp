@@ -169,6 +169,11 @@ void GlobeScene::setLines(std::vector<DrapedLine> lines, LineSet set)
     globe_.setLines(std::move(lines), set);
 }
 
+void GlobeScene::setDots(DotSet dots, LineSet set)
+{
+    globe_.setDots(std::move(dots), set);
+}
+
 void GlobeScene::flyToAll(const std::vector<ScenePoint>& places)
 {
     Vec3 sum{};

@@ -679,8 +679,8 @@ void GlobeView::initializeGL()
         return;
     }
     renderer_ = std::move(renderer).value();
-    if (auto lines = LineRenderer::create()) {
-        line_renderer_ = std::move(lines).value();
+    if (auto lines = LinePainter::create()) {
+        line_painter_ = std::move(lines).value();
     }
     if (auto solids = CursorSolids::create()) {
         cursor_solids_ = std::move(solids).value();
@@ -695,7 +695,7 @@ void GlobeView::releaseGraphics()
     if (renderer_) {
         makeCurrent();
         picture_.reset();
-        line_renderer_.reset();
+        line_painter_.reset();
         cursor_solids_.reset();
         renderer_.reset();
         doneCurrent();
@@ -726,8 +726,7 @@ void GlobeView::paintGL()
         return;
     }
     if (is_current_) {
-        renderer_->present(defaultFramebufferObject());
-        paintOver();
+        paintOver(TerrainPicture::Same);
         return;
     }
     sendLayers();
@@ -739,7 +738,7 @@ void GlobeView::paintGL()
     }
     const DrawReport report = picture_->paint(request, style_, defaultFramebufferObject());
     is_current_ = true;
-    paintOver();
+    paintOver(TerrainPicture::New);
     Q_EMIT detailChanged(report.error_px);
     const bool is_loading = stage_ != PictureStage::Moving && !report.is_complete;
     if (is_loading != std::exchange(is_loading_, is_loading)) {
@@ -805,24 +804,35 @@ void GlobeView::setLines(std::vector<DrapedLine> lines, LineSet set)
     }
 }
 
-void GlobeView::paintOver()
+void GlobeView::setDots(DotSet dots, LineSet set)
 {
-    if (!scene_.isEmpty()) {
-        paintLines();
-        paintCursor();
+    if (lines_.setDots(std::move(dots), set)) {
+        update();
     }
 }
 
-void GlobeView::paintLines()
+void GlobeView::paintOver(TerrainPicture terrain)
+{
+    if (!scene_.isEmpty()) {
+        paintLines(terrain);
+        paintCursor();
+    } else if (terrain == TerrainPicture::Same) {
+        renderer_->present(defaultFramebufferObject());
+    }
+}
+
+void GlobeView::paintLines(TerrainPicture terrain)
 {
     const CameraPose pose = poseOf(motion_.camera(), scene_.ellipsoid());
-    if (line_renderer_) {
-        lines_.paint(*renderer_, *line_renderer_,
-                     {.camera = pose,
-                      .viewport = viewport(),
-                      .clip = renderer_->clip(pose, style_.exaggeration),
-                      .pixels_per_point = devicePixelRatioF()},
-                     defaultFramebufferObject());
+    if (line_painter_) {
+        line_painter_->paint(lines_, *renderer_, terrain,
+                             {.camera = pose,
+                              .viewport = viewport(),
+                              .clip = renderer_->clip(pose, style_.exaggeration),
+                              .pixels_per_point = devicePixelRatioF()},
+                             defaultFramebufferObject());
+    } else if (terrain == TerrainPicture::Same) {
+        renderer_->present(defaultFramebufferObject());
     }
 }
 

@@ -9,6 +9,7 @@
 #include "ui/canvas/camera_controller.h"
 #include "ui/canvas/gestures.h"
 #include "ui/canvas/grab_key.h"
+#include "ui/canvas/line_painter.h"
 #include "ui/canvas/line_sets.h"
 #include "ui/canvas/map_cursor.h"
 #include "ui/canvas/place_reader.h"
@@ -71,6 +72,7 @@ public:
     void setPlaceTool(Tool tool, PlaceTool* place_tool) { place_tools_[tool] = place_tool; }
     /// Lines on the terrain in the body-fixed frame, drawn over every picture.
     void setLines(std::vector<DrapedLine> lines, LineSet set);
+    void setDots(DotSet dots, LineSet set);
     /// What moves the stylus' proxy.
     void setContactModel(ContactModelKind model) { touch_.setModel(model); }
     /// The stylus of the mouse, in the body-fixed frame; nothing while it is lifted or another tool
@@ -212,8 +214,8 @@ private:
     void notePointer(QPointF position);
     bool isStylusRead() const { return device_ && !lead_timer_.isActive(); }
     void showCursor();
-    void paintOver();
-    void paintLines();
+    void paintOver(TerrainPicture terrain);
+    void paintLines(TerrainPicture terrain);
     void paintCursor();
     std::vector<ScenePoint> shadowAt(const StylusPose& pose, double radius_m) const;
 
@@ -249,7 +251,7 @@ private:
     MapCursor cursor_ = MapCursor::Arrow;
     std::unique_ptr<TerrainRenderer> renderer_;
     std::unique_ptr<GovernedPicture> picture_;
-    std::unique_ptr<LineRenderer> line_renderer_;
+    std::unique_ptr<LinePainter> line_painter_;
     std::unique_ptr<CursorSolids> cursor_solids_;
     std::chrono::milliseconds frame_target_{33};
     bool has_antialiasing_ = true;

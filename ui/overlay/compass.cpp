@@ -1,6 +1,6 @@
 #include "ui/overlay/compass.h"
 
-#include "ui/overlay/overlay_text.h"
+#include "ui/text/overlay_text.h"
 #include "ui/widgets/plate.h"
 
 #include <QFontMetrics>

@@ -1,7 +1,7 @@
 #include "ui/overlay/force_meter.h"
 
-#include "ui/overlay/overlay_text.h"
 #include "ui/text/haptics_text.h"
+#include "ui/text/overlay_text.h"
 #include "ui/widgets/plate.h"
 
 #include <QFontMetrics>

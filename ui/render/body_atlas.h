@@ -6,7 +6,7 @@
 #include "core/geo/scene_frame.h"
 #include "core/terrain/drawn_surface.h"
 #include "ui/render/gl_objects.h"
-#include "ui/render/node_slots.h"
+#include "ui/render/lru_slots.h"
 
 #include <array>
 #include <cstddef>

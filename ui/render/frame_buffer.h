@@ -17,6 +17,8 @@ public:
     GLuint id() const noexcept { return frame_.id(); }
     const Viewport& size() const noexcept { return size_; }
     int samples() const noexcept { return samples_; }
+    /// The depths; with one sample a pixel only.
+    GLuint depthTexture() const noexcept { return depth_texture_.id(); }
     /// False where the driver cannot draw into one like this. Leaves it bound.
     bool isComplete() const;
 
@@ -25,7 +27,8 @@ private:
     int samples_ = 1;
     GlFramebuffer frame_;
     GlRenderbuffer color_;
-    GlRenderbuffer depth_;
+    GlRenderbuffer depth_; // with several samples a pixel; otherwise the texture
+    GlTexture depth_texture_;
 };
 
 } // namespace marsview

@@ -65,4 +65,10 @@ void FrameTarget::presentDepth(GLuint target, const Viewport& target_size, const
     glBindFramebuffer(GL_FRAMEBUFFER, target);
 }
 
+const FrameBuffer& FrameTarget::drawn() const
+{
+    MARSVIEW_CHECK(drawn_.has_value() && drawn_->samples() <= 1);
+    return *drawn_;
+}
+
 } // namespace marsview

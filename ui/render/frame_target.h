@@ -23,6 +23,9 @@ public:
     /// stencil.
     void presentDepth(GLuint target, const Viewport& target_size, const PixelArea& area);
 
+    /// What was drawn, one sample a pixel. Call after end().
+    const FrameBuffer& drawn() const;
+
 private:
     std::optional<FrameBuffer> drawn_;
 };

@@ -3,7 +3,7 @@
 
 #include "core/terrain/node_heights.h"
 #include "ui/render/gl_objects.h"
-#include "ui/render/node_slots.h"
+#include "ui/render/lru_slots.h"
 
 #include <array>
 #include <cstddef>

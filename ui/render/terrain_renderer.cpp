@@ -962,6 +962,11 @@ void TerrainRenderer::presentDepth(unsigned target, const PixelArea& area)
     impl_->frame_target.presentDepth(target, impl_->kept_size, area);
 }
 
+KeptDepths TerrainRenderer::keptDepths() const
+{
+    return {.texture = impl_->frame_target.drawn().depthTexture()};
+}
+
 std::size_t TerrainRenderer::countTriangles(const DrawRequest& request, double exaggeration)
 {
     std::size_t count = 0;

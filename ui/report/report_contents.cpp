@@ -5,7 +5,6 @@
 #include "ui/canvas/terrain_view.h"
 #include "ui/controllers/annotation_controller.h"
 #include "ui/controllers/measure_controller.h"
-#include "ui/overlay/overlay_text.h"
 #include "ui/plots/hypsometry_plot.h"
 #include "ui/plots/profile_plot.h"
 #include "ui/plots/stereonet_plot.h"
@@ -13,6 +12,7 @@
 #include "ui/text/body_text.h"
 #include "ui/text/coordinate_text.h"
 #include "ui/text/measure_text.h"
+#include "ui/text/overlay_text.h"
 
 #include <QCoreApplication>
 #include <QDateTime>

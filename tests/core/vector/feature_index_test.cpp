@@ -167,6 +167,22 @@ TEST(FeatureIndex, ALineIsSelectedOnlyWhereItIsVisible)
     }
 }
 
+// Of a selection that is looked for from the coarsening of a moment ago.
+TEST(FeatureIndex, ALikelyCoarseningChangesNothing)
+{
+    std::mt19937 random(6);
+    const FeatureIndex index(randomDots(random, 5000));
+    for (const double resolution : {0.01, 5.0, 1e6}) {
+        const auto visible = within({0.0, 0.0, 1000.0, 1000.0}, resolution);
+        const auto expected = index.select(visible, 300);
+        for (const double likely : {1.0, 1.5, 30.0, 2000.0, 1e15}) {
+            const auto selection = index.select(visible, 300, likely);
+            EXPECT_EQ(selection.coarsening, expected.coarsening);
+            EXPECT_EQ(selection.points, expected.points);
+        }
+    }
+}
+
 TEST(FeatureIndex, ALimitOnPointsMakesTheSelectionCoarserInsteadOfIncomplete)
 {
     std::mt19937 random(4);

@@ -7,8 +7,8 @@
 #include "ui/overlay/legend.h"
 #include "ui/overlay/minimap.h"
 #include "ui/overlay/overlay_layout.h"
-#include "ui/overlay/overlay_text.h"
 #include "ui/overlay/scale_bar_view.h"
+#include "ui/text/overlay_text.h"
 
 #include <QAccessible>
 #include <QApplication>

@@ -1,4 +1,4 @@
-#include "ui/overlay/overlay_text.h"
+#include "ui/text/overlay_text.h"
 
 #include "core/base/round_numbers.h"
 #include "ui/text/number_text.h"
