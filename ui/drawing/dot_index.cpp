@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace marsview {
@@ -61,23 +60,32 @@ std::optional<QPointF> DotSight::projected(const ScenePoint& raised) const
 
 std::optional<QRectF> DotSight::enclosing(const ScenePoint& low, const ScenePoint& high) const
 {
-    double left = std::numeric_limits<double>::infinity();
-    double top = left;
-    double right = -left;
-    double bottom = -left;
-    for (const ScenePoint& corner : cornersOf(low, high)) {
-        const auto place = projected(raised(corner));
-        if (!place) {
-            return std::nullopt;
-        }
-        left = std::min(left, place->x());
-        right = std::max(right, place->x());
-        top = std::min(top, place->y());
-        bottom = std::max(bottom, place->y());
+    // Bounds of the box along each axis of the camera; those of the quotients follow.
+    const ScenePoint a = raised(low);
+    const ScenePoint b = raised(high);
+    const Vec3 middle = (a - eye_) * 0.5 + (b - eye_) * 0.5;
+    const Vec3 half = (b - a) * 0.5;
+    const auto reach = [&half](const Vec3& axis) {
+        return std::abs(half.x * axis.x) + std::abs(half.y * axis.y) + std::abs(half.z * axis.z);
+    };
+    const double depth = dot(middle, axes_.forward);
+    const double depth_reach = reach(axes_.forward);
+    if (!(depth - depth_reach > 0.0)) {
+        return std::nullopt;
     }
+    const double nearest = 1.0 / (depth - depth_reach);
+    const double farthest = 1.0 / (depth + depth_reach);
+    const auto lowest = [&](double at) { return at * (at < 0.0 ? nearest : farthest); };
+    const auto highest = [&](double at) { return at * (at > 0.0 ? nearest : farthest); };
+    const double right = dot(middle, axes_.right);
+    const double right_reach = reach(axes_.right);
+    const double up = dot(middle, axes_.up);
+    const double up_reach = reach(axes_.up);
     constexpr double kRounding = 1e-3; // points
-    return QRectF(QPointF(left, top), QPointF(right, bottom))
-        .adjusted(-kRounding, -kRounding, kRounding, kRounding);
+    return QRectF(QPointF(center_.x() + lowest(right - right_reach) - kRounding,
+                          center_.y() - highest(up + up_reach) - kRounding),
+                  QPointF(center_.x() + highest(right + right_reach) + kRounding,
+                          center_.y() - lowest(up - up_reach) + kRounding));
 }
 
 bool DotSight::isBehind(const ScenePoint& low, const ScenePoint& high) const

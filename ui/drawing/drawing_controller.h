@@ -66,6 +66,7 @@ public:
         scene_->disconnect(this);
         scene_->setPlaceTool(tool_, nullptr);
         scene_->setLines({}, line_set_);
+        scene_->setDots({}, line_set_);
         scene_ = next;
         geometry_.setScene(*next);
         joinScene();
@@ -268,11 +269,19 @@ public:
                             .content = content_};
         if (!(handles_of_ == now)) {
             handles_of_ = now;
-            handles_ = listHandles();
+            listHandles();
             ++handles_revision_;
         }
         return handles_;
     }
+    /// Where they are in the scene.
+    const std::vector<ScenePoint>& handlePlaces() const
+    {
+        handles();
+        return handle_places_;
+    }
+    /// Draws dots on the terrain in the picture of the scene.
+    void showDots(DotSet dots) { scene_->setDots(std::move(dots), line_set_); }
     std::uint64_t handlesRevision() const override
     {
         handles();
@@ -564,6 +573,10 @@ private:
     // Converting positions takes longer than drawing: they are kept until items or maps change.
     void placeDots() const
     {
+        if (dots_of_ == content_) {
+            return;
+        }
+        dots_of_ = content_;
         dots_.follow(state_.items, [this](const Item& item) {
             return isShown(item) && hasHandles(item) ? geometry_.dotPoint(item.vertices.front())
                                                      : std::nullopt;
@@ -574,26 +587,30 @@ private:
         dots_.forgetPlaces();
         ++content_;
     }
-    std::vector<DrawnHandle> listHandles() const
+    void listHandles() const
     {
         // Beyond, a picture shows no single one; while it moves, what was hidden stays so.
         constexpr std::size_t kHiddenTestsMax = 2000;
-        std::vector<DrawnHandle> handles;
-        std::vector<ScenePoint> points;
+        std::vector<DrawnHandle>& handles = handles_;
+        std::vector<ScenePoint>& points = handle_places_;
+        handles.clear();
+        points.clear();
         const QRectF sight = sightRect();
         HandleGrid grid(sight, is_moving_ ? kMovingGap : kRestGap);
-        const auto add = [&](const ScenePoint& point, std::uint32_t item, std::size_t index) {
+        const auto add = [&](const ScenePoint& point, std::uint32_t item, std::size_t index,
+                             bool is_dot) {
             const auto place = scene_->positionOf(point);
             if (place && sight.contains(*place)) {
                 grid.take(*place);
-                handles.push_back({.place = *place, .item = item, .index = index});
+                handles.push_back(
+                    {.place = *place, .item = item, .index = index, .is_dot = is_dot});
                 points.push_back(point);
             }
         };
         const auto add_item = [&](const Item& item) {
             for (std::size_t i = 0; i < item.vertices.size(); ++i) {
                 if (const auto point = geometry_.scenePoint(item.vertices[i])) {
-                    add(*point, item.id, i);
+                    add(*point, item.id, i, item.isSingle());
                 }
             }
         };
@@ -602,7 +619,7 @@ private:
             add_item(*selected); // grabbed first and drawn last
         }
         placeDots();
-        addDots(sight, grid, handles, points);
+        addDots(sight, grid);
         for (const std::uint32_t id : dots_.others()) {
             const Item& item = *itemOf(id);
             if (id != state_.current && isShown(item) && hasHandles(item)) {
@@ -623,16 +640,28 @@ private:
                 }
             }
         }
-        return handles;
     }
     // Those that are single points, as far as there is room.
-    void addDots(const QRectF& area,
-                 HandleGrid& grid,
-                 std::vector<DrawnHandle>& handles,
-                 std::vector<ScenePoint>& points) const
+    void addDots(const QRectF& area, HandleGrid& grid) const
     {
-        std::vector<std::pair<DotIndex::Dot, QPointF>> found;
-        dots_.thinned(scene_->dotSight(area), grid, [&](const DotIndex::Dot& dot, QPointF place) {
+        std::vector<std::pair<DotIndex::Dot, QPointF>>& found = found_dots_;
+        const DotSight sight = scene_->dotSight(area);
+        // Dots stay as long as they have room, so that none flickers while the camera moves.
+        if (found_of_ == content_) {
+            std::erase_if(found, [&](std::pair<DotIndex::Dot, QPointF>& dot) {
+                const auto place = sight.at(dot.first.place);
+                if (!place || dot.first.id == state_.current || !area.contains(*place) ||
+                    !grid.take(*place)) {
+                    return true;
+                }
+                dot.second = *place;
+                return false;
+            });
+        } else {
+            found.clear();
+        }
+        found_of_ = content_;
+        dots_.thinned(sight, grid, [&](const DotIndex::Dot& dot, QPointF place) {
             if (dot.id != state_.current) {
                 found.emplace_back(dot, place);
             }
@@ -640,8 +669,9 @@ private:
         std::sort(found.begin(), found.end(),
                   [](const auto& a, const auto& b) { return a.first.id < b.first.id; });
         for (const auto& [dot, place] : found) {
-            handles.push_back({.place = place, .item = dot.id, .index = 0});
-            points.push_back({dot.place.x, dot.place.y, dot.place.z * scene_->dotExaggeration()});
+            handles_.push_back({.place = place, .item = dot.id, .index = 0, .is_dot = true});
+            handle_places_.push_back(
+                {dot.place.x, dot.place.y, dot.place.z * scene_->dotExaggeration()});
         }
     }
     // Within reach of a position of the view.
@@ -1052,8 +1082,12 @@ private:
     std::optional<Grabbed> grabbed_;
     bool is_stylus_holding_ = false; // what is grabbed
     mutable DrawnDots<Item> dots_;
+    mutable std::optional<std::uint64_t> dots_of_;                   // content_
     mutable std::set<std::pair<std::uint32_t, std::size_t>> hidden_; // in the last picture
     mutable std::vector<DrawnHandle> handles_;
+    mutable std::vector<ScenePoint> handle_places_;
+    mutable std::vector<std::pair<DotIndex::Dot, QPointF>> found_dots_; // in the last picture
+    mutable std::uint64_t found_of_ = 0;                                // content_
     mutable std::optional<HandlesOf> handles_of_;
     mutable std::uint64_t handles_revision_ = 0;
     std::uint64_t content_ = 0; // grows when items or maps change

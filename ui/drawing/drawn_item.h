@@ -59,6 +59,7 @@ struct DrawnHandle {
     std::uint32_t item = 0;
     std::size_t index = 0;
     bool is_hidden = false; // by terrain in front of it
+    bool is_dot = false;    // of an item that is a single point
 };
 
 /// Of items that have no color.

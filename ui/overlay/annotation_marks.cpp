@@ -3,7 +3,9 @@
 #include "ui/controllers/annotation_controller.h"
 #include "ui/widgets/plate.h"
 
+#include <QImage>
 #include <QPainter>
+#include <QPen>
 #include <QPolygonF>
 
 #include <algorithm>
@@ -33,6 +35,54 @@ QPainterPath starPath(QPointF place, double radius, int count, double inner)
     path.addPolygon(corners);
     path.closeSubpath();
     return path;
+}
+
+QPen rimPen()
+{
+    return {QColor(0, 0, 0, 200), kSymbolRim};
+}
+
+// From its place to the edges of a symbol's box.
+double reachOf(double radius)
+{
+    return 1.25 * radius + kSymbolRim + 1.0;
+}
+
+// In the order of MarkSymbol.
+std::shared_ptr<const DotStamps> stampsFor(double scale)
+{
+    auto stamps = std::make_shared<DotStamps>();
+    stamps->side_px = static_cast<int>(std::lround(2.0 * reachOf(kSymbolRadius) * scale));
+    stamps->count = static_cast<int>(kMarkSymbols.size());
+    const QSize size(stamps->side_px, stamps->side_px);
+    const double middle = 0.5 * stamps->side_px / scale;
+    for (const MarkSymbol symbol : kMarkSymbols) {
+        const QPainterPath path = symbolPath(symbol, {middle, middle}, kSymbolRadius);
+        const auto drawn = [&](const auto& draw) {
+            QImage image(size, QImage::Format_ARGB32_Premultiplied);
+            image.fill(Qt::transparent);
+            QPainter painter(&image);
+            painter.setRenderHint(QPainter::Antialiasing);
+            painter.scale(scale, scale);
+            draw(painter);
+            painter.end();
+            return image;
+        };
+        const QImage inside = drawn([&](QPainter& painter) { painter.fillPath(path, Qt::white); });
+        const QImage rim = drawn([&](QPainter& painter) { painter.strokePath(path, rimPen()); });
+        int edge = stamps->side_px / 2; // around it, empty
+        for (int y = 0; y < size.height(); ++y) {
+            for (int x = 0; x < size.width(); ++x) {
+                if (qAlpha(inside.pixel(x, y)) > 0 || qAlpha(rim.pixel(x, y)) > 0) {
+                    edge = std::min({edge, x, y, size.width() - 1 - x, size.height() - 1 - y});
+                }
+                stamps->coverage.push_back({static_cast<std::uint8_t>(qAlpha(inside.pixel(x, y))),
+                                            static_cast<std::uint8_t>(qAlpha(rim.pixel(x, y)))});
+            }
+        }
+        stamps->filled_sides_px.push_back(stamps->side_px - 2 * edge);
+    }
+    return stamps;
 }
 
 } // namespace
@@ -81,57 +131,65 @@ AnnotationMarks::AnnotationMarks(AnnotationController& controller, QWidget* view
     setAccessibleName(tr("Annotations on the map"));
 }
 
+// The view draws points that are not selected, of which there may be many.
+bool AnnotationMarks::isOnTerrain(const DrawnHandle& handle) const
+{
+    return handle.is_dot && handle.item != controller_.state().current;
+}
+
+void AnnotationMarks::showOnTerrain()
+{
+    const double scale = devicePixelRatioF();
+    if (!stamps_ || scale != stamps_scale_) {
+        stamps_ = stampsFor(scale);
+        stamps_scale_ = scale;
+    }
+    DotSet set;
+    set.stamps = stamps_;
+    const std::vector<DrawnHandle>& all = handles();
+    const std::vector<ScenePoint>& places = controller_.handlePlaces();
+    set.dots.reserve(all.size());
+    for (std::size_t i = all.size(); i-- > 0;) {
+        if (isOnTerrain(all[i])) {
+            const AnnotationItem& item = *controller_.itemOf(all[i].item);
+            set.dots.push_back({.place = places[i],
+                                .color = controller_.colorOf(item),
+                                .symbol = static_cast<std::uint8_t>(item.symbol)});
+        }
+    }
+    controller_.showDots(std::move(set));
+}
+
 DrawnMarks::Mark AnnotationMarks::symbolMark(const AnnotationItem& item,
                                              const DrawnHandle& handle) const
 {
     const bool is_current = item.id == controller_.state().current;
     const double radius = is_current ? kSymbolRadius + 1.5 : kSymbolRadius;
     const double opacity = handle.is_hidden ? kHiddenSymbolOpacity : 1.0;
-    const QRectF box = boxAround(handle.place, 1.25 * radius + kSymbolRim + 1.0);
-    const auto draw = [symbol = item.symbol, radius, opacity, is_current,
-                       color = colorOf(controller_.colorOf(item))](QPainter& painter,
-                                                                   QPointF place) {
-        const QPainterPath path = symbolPath(symbol, place, radius);
-        painter.setOpacity(opacity);
-        if (is_current) {
-            drawContrasting(painter, path, colorOf(kCurrentDrawnColor), 2.0);
-        }
-        painter.fillPath(path, color);
-        painter.setPen(QPen(QColor(0, 0, 0, 200), kSymbolRim));
-        painter.drawPath(path);
-        painter.setOpacity(1.0);
-    };
-    if (is_current) {
-        return {box, false,
-                [draw, place = handle.place](QPainter& painter) { draw(painter, place); }};
-    }
-    // Of many that look the same, the picture is made once.
-    const auto key =
-        std::tuple(item.symbol, colorOf(controller_.colorOf(item)).rgb(), handle.is_hidden);
-    return {box, false, [this, draw, box, key](QPainter& painter) {
-                const double scale = painter.device()->devicePixelRatioF();
-                if (painter.transform().type() > QTransform::TxTranslate) {
-                    draw(painter, box.center()); // into a picture of another size
-                    return;
+    return {boxAround(handle.place, reachOf(radius)), false,
+            [symbol = item.symbol, radius, opacity, is_current, place = handle.place,
+             color = colorOf(controller_.colorOf(item))](QPainter& painter) {
+                const QPainterPath path = symbolPath(symbol, place, radius);
+                painter.setOpacity(opacity);
+                if (is_current) {
+                    drawContrasting(painter, path, colorOf(kCurrentDrawnColor), 2.0);
                 }
-                if (scale != stamp_scale_) {
-                    stamps_.clear();
-                    stamp_scale_ = scale;
-                }
-                QPixmap& stamp = stamps_[key];
-                if (stamp.isNull()) {
-                    stamp = QPixmap((box.size() * scale).toSize());
-                    stamp.setDevicePixelRatio(scale);
-                    stamp.fill(Qt::transparent);
-                    QPainter stamping(&stamp);
-                    stamping.setRenderHint(QPainter::Antialiasing);
-                    draw(stamping, QRectF(QPointF(), box.size()).center());
-                }
-                // On whole pixels, so that it stays sharp.
-                const QPointF corner = box.topLeft() * scale;
-                painter.drawPixmap(QPointF(std::round(corner.x()), std::round(corner.y())) / scale,
-                                   stamp);
+                painter.fillPath(path, color);
+                painter.setPen(rimPen());
+                painter.drawPath(path);
+                painter.setOpacity(1.0);
             }};
+}
+
+std::vector<DrawnMarks::Mark> AnnotationMarks::marksOnTerrain() const
+{
+    std::vector<Mark> marks;
+    for (auto handle = handles().rbegin(); handle != handles().rend(); ++handle) {
+        if (isOnTerrain(*handle)) {
+            marks.push_back(symbolMark(*controller_.itemOf(handle->item), *handle));
+        }
+    }
+    return marks;
 }
 
 std::vector<DrawnMarks::Mark> AnnotationMarks::marks() const
@@ -147,11 +205,19 @@ std::vector<DrawnMarks::Mark> AnnotationMarks::marks() const
         std::optional<QPointF> place;
     };
     std::vector<Named> named;
+    std::vector<QRectF> boxes;
     for (auto handle = handles().rbegin(); handle != handles().rend(); ++handle) {
-        const AnnotationItem& item = *controller_.itemOf(handle->item);
-        marks.push_back(item.isSingle() ? symbolMark(item, *handle) : handleMark(*handle, true));
-        if (item.isSingle() && item.id != state.current && !handle->is_hidden) {
-            named.push_back({.id = item.id, .place = handle->place});
+        const bool is_on_terrain = isOnTerrain(*handle);
+        if (!is_on_terrain) {
+            marks.push_back(handle->is_dot ? symbolMark(*controller_.itemOf(handle->item), *handle)
+                                           : handleMark(*handle, true));
+        }
+        if (boxes.size() < kMarksMax) {
+            boxes.push_back(is_on_terrain ? boxAround(handle->place, reachOf(kSymbolRadius))
+                                          : marks.back().box);
+        }
+        if (is_on_terrain && !handle->is_hidden) {
+            named.push_back({.id = handle->item, .place = handle->place});
         }
     }
     for (const std::uint32_t id : controller_.lineItems()) {
@@ -168,7 +234,7 @@ std::vector<DrawnMarks::Mark> AnnotationMarks::marks() const
     if (named.size() > kLabelTriesMax) {
         named.resize(kLabelTriesMax);
     }
-    LabelRoom room = roomBeside(marks);
+    LabelRoom room = roomBeside(boxes);
     std::size_t labels = 0;
     for (const Named& each : named) {
         if (labels == kLabelsMax) {
@@ -179,9 +245,7 @@ std::vector<DrawnMarks::Mark> AnnotationMarks::marks() const
         if (!place || item->name.isEmpty()) {
             continue;
         }
-        const QColor color =
-            item->id == state.current ? colorOf(kCurrentDrawnColor) : overlayTextColor();
-        if (auto label = labelMark(*place, item->name, color, room)) {
+        if (auto label = labelMark(*place, item->name, room)) {
             ++labels;
             marks.push_back(std::move(*label));
         }

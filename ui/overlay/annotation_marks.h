@@ -5,16 +5,14 @@
 #include "ui/overlay/drawn_marks.h"
 
 #include <QPainterPath>
-#include <QPixmap>
-#include <QRgb>
 
-#include <map>
-#include <tuple>
+#include <memory>
 
 namespace marsview {
 
 class AnnotationController;
 struct AnnotationItem;
+struct DotStamps;
 
 /// Names that would lie over others are left out. Points that the terrain hides are faint.
 class AnnotationMarks final : public DrawnMarks {
@@ -25,12 +23,14 @@ public:
 
 private:
     std::vector<Mark> marks() const override;
+    std::vector<Mark> marksOnTerrain() const override;
+    void showOnTerrain() override;
+    bool isOnTerrain(const DrawnHandle& handle) const;
     Mark symbolMark(const AnnotationItem& item, const DrawnHandle& handle) const;
 
     AnnotationController& controller_;
-    using Look = std::tuple<MarkSymbol, QRgb, bool>; // color, whether it is hidden
-    mutable std::map<Look, QPixmap> stamps_;
-    mutable double stamp_scale_ = 1.0;
+    std::shared_ptr<const DotStamps> stamps_; // for the screen
+    double stamps_scale_ = 0.0;
 };
 
 /// Around a place, of that radius.

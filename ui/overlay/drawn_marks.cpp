@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 namespace marsview {
@@ -61,12 +62,21 @@ void DrawnMarks::noteChange()
     Q_EMIT marksChanged();
 }
 
+void DrawnMarks::showNew()
+{
+    const std::uint64_t revision = drawing_ ? drawing_->handlesRevision() : 0;
+    if (std::exchange(shown_of_, revision) != revision) {
+        showOnTerrain();
+    }
+}
+
 // Who places something beside the marks has asked for them when the camera moved.
 void DrawnMarks::noteMove()
 {
     if (parentWidget()->isHidden()) {
         return; // the other scene is shown
     }
+    showNew();
     const std::uint64_t revision = drawing_ ? drawing_->handlesRevision() : 0;
     if (painted_of_ != revision) {
         update();
@@ -98,6 +108,8 @@ bool DrawnMarks::eventFilter(QObject* watched, QEvent* event)
         if (event->type() == QEvent::Resize) {
             setGeometry(parentWidget()->rect());
             forget();
+        } else if (event->type() == QEvent::Show) {
+            showNew();
         }
     } else if (event->type() == QEvent::Show || event->type() == QEvent::Hide ||
                event->type() == QEvent::Move || event->type() == QEvent::Resize) {
@@ -113,6 +125,7 @@ void DrawnMarks::changeEvent(QEvent* event)
 {
     if (event->type() == QEvent::FontChange || event->type() == QEvent::StyleChange) {
         marks_.reset();
+        label_stamps_.clear();
     }
     QWidget::changeEvent(event);
 }
@@ -142,45 +155,88 @@ DrawnMarks::Mark DrawnMarks::handleMark(const DrawnHandle& handle, bool is_curre
             }};
 }
 
-DrawnMarks::LabelRoom DrawnMarks::roomBeside(const std::vector<Mark>& marks) const
+DrawnMarks::LabelRoom DrawnMarks::roomBeside(const std::vector<QRectF>& marks) const
 {
-    constexpr std::size_t kMarksMax = 500; // beyond, no room is left anyway
-    LabelRoom room;
+    LabelRoom room{.labels = BoxGrid(rect()), .marks = BoxGrid(rect())};
     for (std::size_t i = 0; i < std::min(marks.size(), kMarksMax); ++i) {
-        room.marks.push_back(marks[i].box);
+        room.marks.add(marks[i]);
     }
     if (neighbor_ != nullptr) {
         if (gives_way_) {
-            room.labels = neighbor_->labelBoxes();
+            for (const QRectF& box : neighbor_->labelBoxes()) {
+                room.labels.add(box);
+            }
         }
         const std::vector<DrawnHandle>& others = neighbor_->handles();
         for (std::size_t i = 0; i < std::min(others.size(), kMarksMax); ++i) {
-            room.marks.push_back(boxAround(others[i].place, kNeighborRadius));
+            room.marks.add(boxAround(others[i].place, kNeighborRadius));
         }
     }
     return room;
 }
 
-std::optional<DrawnMarks::Mark> DrawnMarks::labelMark(QPointF place,
-                                                      const QString& text,
-                                                      const QColor& color,
-                                                      LabelRoom& room) const
+std::optional<DrawnMarks::Mark>
+DrawnMarks::labelMark(QPointF place, const QString& text, LabelRoom& room) const
 {
     const QFontMetricsF metrics(font(), this); // as this screen draws it
-    const QSizeF size(metrics.horizontalAdvance(text) + 2.0 * kLabelPadding,
-                      metrics.height() + kLabelPadding);
+    const QSizeF size(widthOf(text) + 2.0 * kLabelPadding, metrics.height() + kLabelPadding);
     const auto plate = labelBox(place, size, room);
     if (!plate) {
         return std::nullopt;
     }
-    room.labels.push_back(*plate);
-    return Mark{*plate, true, [plate = *plate, text, color](QPainter& painter) {
-                    drawPlate(painter, plate);
-                    painter.setPen(color);
-                    // Fractions of a pixel that letters are wider at 150 % cut nothing off.
-                    const QRectF wide = plate.adjusted(-kLabelPadding, 0.0, kLabelPadding, 0.0);
-                    drawText(painter, wide, Qt::AlignCenter, text);
+    room.labels.add(*plate);
+    return Mark{*plate, true, [this, plate = *plate, text](QPainter& painter) {
+                    paintLabel(painter, plate, text);
                 }};
+}
+
+double DrawnMarks::widthOf(const QString& text) const
+{
+    constexpr qsizetype kStampsMax = 1000;
+    const auto known = label_stamps_.constFind(text);
+    if (known != label_stamps_.constEnd()) {
+        return known->width;
+    }
+    if (label_stamps_.size() >= kStampsMax) {
+        label_stamps_.clear();
+    }
+    const double width = QFontMetricsF(font(), this).horizontalAdvance(text);
+    label_stamps_.insert(text, {.width = width, .picture = {}});
+    return width;
+}
+
+void DrawnMarks::paintLabel(QPainter& painter, const QRectF& plate, const QString& text) const
+{
+    const auto draw = [&text](QPainter& on, const QRectF& at) {
+        drawPlate(on, at);
+        // Fractions of a pixel that letters are wider at 150 % cut nothing off.
+        const QRectF wide = at.adjusted(-kLabelPadding, 0.0, kLabelPadding, 0.0);
+        drawText(on, wide, Qt::AlignCenter, text);
+    };
+    if (painter.device() != this) { // a picture of another size
+        draw(painter, plate);
+        return;
+    }
+    const double scale = devicePixelRatioF();
+    if (scale != label_scale_) {
+        label_stamps_.clear();
+        label_scale_ = scale;
+    }
+    LabelStamp& stamp = label_stamps_[text];
+    if (stamp.picture.isNull()) {
+        stamp.width = plate.width() - 2.0 * kLabelPadding;
+        stamp.picture = QPixmap((plate.size() * scale).toSize() + QSize(1, 1));
+        stamp.picture.setDevicePixelRatio(scale);
+        stamp.picture.fill(Qt::transparent);
+        QPainter stamping(&stamp.picture);
+        stamping.setRenderHint(QPainter::Antialiasing);
+        stamping.setFont(painter.font());
+        draw(stamping, QRectF(QPointF(), plate.size()));
+    }
+    // On whole pixels, so that it stays sharp.
+    const QPointF corner = plate.topLeft() * scale;
+    painter.drawPixmap(QPointF(std::round(corner.x()), std::round(corner.y())) / scale,
+                       stamp.picture);
 }
 
 // Not all of them are children of the view.
@@ -201,21 +257,20 @@ DrawnMarks::labelBox(QPointF place, const QSizeF& size, const LabelRoom& room) c
                                          place + QPointF(x, -y),
                                          place + QPointF(-x - size.width(), -y)};
     const QRectF inside = QRectF(rect()).adjusted(2.0, 2.0, -2.0, -2.0);
-    const auto is_clear_of = [](const std::vector<QRectF>& boxes, const QRectF& box) {
-        return std::none_of(boxes.begin(), boxes.end(),
-                            [&box](const QRectF& other) { return box.intersects(other); });
-    };
     std::optional<QRectF> over_marks; // if there is nothing better
     for (const QPointF& corner : corners) {
         const QRectF box(corner, size);
+        if (!inside.contains(box) || !room.labels.isClear(box)) {
+            continue;
+        }
         const bool is_clear = std::none_of(
             obstacles_.begin(), obstacles_.end(), [this, &box](const QWidget* obstacle) {
                 return obstacle->isVisible() && box.intersects(placeOf(*obstacle));
             });
-        if (!is_clear || !inside.contains(box) || !is_clear_of(room.labels, box)) {
+        if (!is_clear) {
             continue;
         }
-        if (is_clear_of(room.marks, box)) {
+        if (room.marks.isClear(box)) {
             return box;
         }
         over_marks = over_marks.value_or(box);
@@ -266,7 +321,7 @@ std::vector<PicturePart> DrawnMarks::partsFor(const QSize& picture) const
     const double scale = static_cast<double>(picture.height()) / height();
     const QPointF corner(0.5 * (width() - picture.width() / scale), 0.0);
     std::vector<PicturePart> parts;
-    for (const Mark& mark : knownMarks()) {
+    const auto add = [&](const Mark& mark) {
         const QRectF box = mark.box.adjusted(-1.0, -1.0, 1.0, 1.0);
         QImage image((box.size() * scale).toSize(), QImage::Format_ARGB32_Premultiplied);
         image.fill(Qt::transparent);
@@ -279,6 +334,12 @@ std::vector<PicturePart> DrawnMarks::partsFor(const QSize& picture) const
         painter.end();
         parts.push_back(
             {.image = std::move(image), .at = ((box.topLeft() - corner) * scale).toPoint()});
+    };
+    for (const Mark& mark : marksOnTerrain()) {
+        add(mark);
+    }
+    for (const Mark& mark : knownMarks()) {
+        add(mark);
     }
     return parts;
 }

@@ -3,12 +3,16 @@
 
 #include "core/view/color_ramp.h"
 #include "ui/drawing/drawn_item.h"
+#include "ui/overlay/box_grid.h"
 #include "ui/overlay/picture_part.h"
 
 #include <QColor>
+#include <QHash>
 #include <QList>
+#include <QPixmap>
 #include <QPointer>
 #include <QRectF>
+#include <QString>
 #include <QWidget>
 
 #include <cstdint>
@@ -56,6 +60,10 @@ protected:
     };
     /// In the order in which they are drawn.
     virtual std::vector<Mark> marks() const = 0;
+    /// Below marks(), in pictures of the view: what the view itself draws.
+    virtual std::vector<Mark> marksOnTerrain() const { return {}; }
+    /// Lets the view draw what it draws itself.
+    virtual void showOnTerrain() {}
 
     static QColor colorOf(const Rgb8& color);
     static QRectF boxAround(QPointF place, double radius);
@@ -64,17 +72,18 @@ protected:
     /// Room for labels: those placed before, which none overlaps, and marks that labels do not
     /// cover where there is other room.
     struct LabelRoom {
-        std::vector<QRectF> labels;
-        std::vector<QRectF> marks;
+        BoxGrid labels;
+        BoxGrid marks;
     };
     /// The handles of the items as they are now.
     const std::vector<DrawnHandle>& handles() const;
+    /// Of more marks, no room is left anyway.
+    static constexpr std::size_t kMarksMax = 500;
     /// With the labels and handles of the neighbor, and these marks.
-    LabelRoom roomBeside(const std::vector<Mark>& marks) const;
+    LabelRoom roomBeside(const std::vector<QRectF>& marks) const;
     /// Next to a place, within the view and clear of obstacles and other labels, and adds it to
     /// `room`. Empty if it does not fit.
-    std::optional<Mark>
-    labelMark(QPointF place, const QString& text, const QColor& color, LabelRoom& room) const;
+    std::optional<Mark> labelMark(QPointF place, const QString& text, LabelRoom& room) const;
     void noteChange();
 
     void changeEvent(QEvent* event) override;
@@ -82,11 +91,20 @@ protected:
     bool eventFilter(QObject* watched, QEvent* event) override;
 
 private:
+    // A text as it looks on the screen; the same ones are drawn in most frames.
+    struct LabelStamp {
+        double width = 0.0; // of the text, in points
+        QPixmap picture;    // null before it is painted first
+    };
+
+    double widthOf(const QString& text) const;
+    void paintLabel(QPainter& painter, const QRectF& plate, const QString& text) const;
     std::optional<QRectF> labelBox(QPointF place, const QSizeF& size, const LabelRoom& room) const;
     QRectF placeOf(const QWidget& obstacle) const;
     const std::vector<Mark>& knownMarks() const;
     void forget();
     void noteMove();
+    void showNew();
 
     QPointer<const DrawingBase> drawing_; // null once the window is being closed
     QList<QWidget*> obstacles_;
@@ -94,7 +112,10 @@ private:
     bool gives_way_ = false;
     mutable std::optional<std::vector<Mark>> marks_; // since the last change
     mutable std::uint64_t marks_of_ = 0;             // DrawingBase::handlesRevision()
+    mutable QHash<QString, LabelStamp> label_stamps_;
+    mutable double label_scale_ = 1.0; // pixels a point, of the stamps
     std::uint64_t painted_of_ = 0;
+    std::uint64_t shown_of_ = 0; // by showOnTerrain()
 };
 
 } // namespace marsview

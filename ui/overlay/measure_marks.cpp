@@ -46,7 +46,11 @@ std::vector<DrawnMarks::Mark> MeasureMarks::marks() const
     for (auto item = state.items.rbegin(); item != state.items.rend(); ++item) {
         named.insert(item->id == state.current ? named.begin() : named.end(), &*item);
     }
-    LabelRoom room = roomBeside(marks);
+    std::vector<QRectF> boxes;
+    for (const Mark& mark : marks) {
+        boxes.push_back(mark.box);
+    }
+    LabelRoom room = roomBeside(boxes);
     for (const MeasureItem* each : named) {
         const MeasureItem& item = *each;
         const MeasureOutcome& outcome = controller_.outcome(item.id);
@@ -56,9 +60,7 @@ std::vector<DrawnMarks::Mark> MeasureMarks::marks() const
         if (!place || text.isEmpty() || !QRectF(rect()).contains(*place)) {
             continue;
         }
-        const QColor color =
-            item.id == state.current ? colorOf(kCurrentDrawnColor) : overlayTextColor();
-        if (auto label = labelMark(*place, text, color, room)) {
+        if (auto label = labelMark(*place, text, room)) {
             marks.push_back(std::move(*label));
         }
     }
