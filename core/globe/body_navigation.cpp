@@ -1,5 +1,6 @@
 #include "core/globe/body_navigation.h"
 
+#include "core/base/check.h"
 #include "core/view/clear_tilt.h"
 #include "core/view/navigation.h"
 
@@ -20,6 +21,15 @@ constexpr double kEdgeRad = 1e-12;
 
 // An area of at least this reach is looked at as a ball.
 constexpr Angle kBallReach = Angle::degrees(50.0);
+
+// Samples of a map that are looked at, evenly spread along either side.
+constexpr std::size_t kMeasured = 17;
+
+ScenePoint placeOver(const BodyGrid& grid, std::size_t i, std::size_t j, double height_m)
+{
+    return grid.at(i * (grid.columns() - 1) / (kMeasured - 1),
+                   j * (grid.rows() - 1) / (kMeasured - 1), height_m);
+}
 
 Angle shortTurn(Angle angle)
 {
@@ -108,11 +118,7 @@ BodyCamera cleared(BodyCamera camera, const BodyLimits& limits, const BodyGround
 
 BodyArea areaOf(const BodyGrid& grid)
 {
-    constexpr std::size_t kMeasured = 17;
-    const auto at = [&](std::size_t i, std::size_t j) {
-        return grid.at(i * (grid.columns() - 1) / (kMeasured - 1),
-                       j * (grid.rows() - 1) / (kMeasured - 1), 0.0);
-    };
+    const auto at = [&](std::size_t i, std::size_t j) { return placeOver(grid, i, j, 0.0); };
     BodyArea area{.middle = placeOf(at(kMeasured / 2, kMeasured / 2), grid.ellipsoid()).foot,
                   .reach = {}};
     const Vec3 middle = directionOf(area.middle);
@@ -139,8 +145,7 @@ BodyLimits bodyLimits(const BodyGrid& grid, double lowest_m, double highest_m)
             .lowest_m = lowest_m,
             .highest_m = highest_m,
             .distance_min_m = std::max(kCellsNearest * grid.stepMaxM(), kNearestShare * radius_m),
-            .distance_max_m =
-                area.reach >= kBallReach ? kRadiiFarthest * radius_m : kSizesFarthest * size_m};
+            .distance_max_m = isBall(area) ? kRadiiFarthest * radius_m : kSizesFarthest * size_m};
 }
 
 BodyCamera constrained(BodyCamera camera, const BodyLimits& limits, const BodyGround& ground)
@@ -181,6 +186,45 @@ BodyCamera withGroundAhead(BodyCamera camera, const Ellipsoid& ellipsoid)
     return camera;
 }
 
+std::vector<ScenePoint> placesOver(const BodyGrid& grid, double lowest_m, double highest_m)
+{
+    std::vector<ScenePoint> places;
+    for (std::size_t j = 0; j < kMeasured; ++j) {
+        for (std::size_t i = 0; i < kMeasured; ++i) {
+            places.push_back(placeOver(grid, i, j, lowest_m));
+            places.push_back(placeOver(grid, i, j, highest_m));
+        }
+    }
+    return places;
+}
+
+// A place is in the picture from where its distance to the axis is a share of its depth.
+BodyCamera framed(BodyCamera camera,
+                  std::span<const ScenePoint> places,
+                  const Viewport& viewport,
+                  const Ellipsoid& ellipsoid)
+{
+    MARSVIEW_CHECK(!places.empty());
+    const double up_slope = std::tan(camera.field_of_view.radians() / 2.0) / kHomeMargin;
+    const double right_slope = up_slope * viewport.aspect();
+    const ScenePoint target = targetOf(camera, ellipsoid);
+    const CameraAxes axes = poseOf(camera, ellipsoid).axes;
+    double distance_m = 0.0;
+    for (const ScenePoint& place : places) {
+        const Vec3 from_target = place - target;
+        const double needed_m = std::max(std::abs(dot(from_target, axes.right)) / right_slope,
+                                         std::abs(dot(from_target, axes.up)) / up_slope);
+        distance_m = std::max(distance_m, needed_m - dot(from_target, axes.forward));
+    }
+    camera.distance_m = distance_m;
+    return camera;
+}
+
+bool isBall(const BodyArea& area)
+{
+    return area.reach >= kBallReach;
+}
+
 BodyCamera homeCamera(const BodyLimits& limits, const Viewport& viewport, Angle field_of_view)
 {
     BodyCamera camera{.target = limits.area.middle,
@@ -189,7 +233,7 @@ BodyCamera homeCamera(const BodyLimits& limits, const Viewport& viewport, Angle 
     const double radius_m = largestRadius(limits.ellipsoid);
     const double slope =
         std::tan(field_of_view.radians() / 2.0) * std::min(1.0, viewport.aspect()) / kHomeMargin;
-    if (limits.area.reach >= kBallReach) {
+    if (isBall(limits.area)) {
         const double outer_m = radius_m + std::max(limits.highest_m, 0.0);
         camera.distance_m =
             outer_m / std::sin(std::atan(slope)) - length(targetOf(camera, limits.ellipsoid));
@@ -200,6 +244,13 @@ BodyCamera homeCamera(const BodyLimits& limits, const Viewport& viewport, Angle 
     camera.tilt = kHomeTilt;
     camera.distance_m = half_m * (1.0 / slope + std::sin(kHomeTilt.radians()));
     return camera;
+}
+
+BodyCamera
+homeCamera(const BodyLimits& limits, std::span<const ScenePoint> places, const Viewport& viewport)
+{
+    const BodyCamera around = homeCamera(limits, viewport);
+    return isBall(limits.area) ? around : framed(around, places, viewport, limits.ellipsoid);
 }
 
 namespace {

@@ -7,6 +7,8 @@
 #include "core/globe/body_camera.h"
 
 #include <functional>
+#include <span>
+#include <vector>
 
 namespace marsview {
 
@@ -51,10 +53,26 @@ BodyCamera constrained(BodyCamera camera, const BodyLimits& limits, const BodyGr
 /// ground up to the upper edge of the picture. On the sphere through the target.
 BodyCamera withGroundAhead(BodyCamera camera, const Ellipsoid& ellipsoid);
 
+/// Places all over a map, its corners included, at the lowest and the highest exaggerated height.
+std::vector<ScenePoint> placesOver(const BodyGrid& grid, double lowest_m, double highest_m);
+
+/// From the side of `camera`, at the least distance from its target from where all of `places` are
+/// in the picture with some margin. `places` must not be empty.
+BodyCamera framed(BodyCamera camera,
+                  std::span<const ScenePoint> places,
+                  const Viewport& viewport,
+                  const Ellipsoid& ellipsoid);
+
+/// Whether an area is looked at as a ball, from straight above.
+bool isBall(const BodyArea& area);
+
 /// Shows the whole area: from straight above if it is most of the body, otherwise from the south
 /// at a tilt of 40°.
 BodyCamera homeCamera(const BodyLimits& limits,
                       const Viewport& viewport,
                       Angle field_of_view = Angle::degrees(40));
+/// The same as near as `places`, which are in the area, allow.
+BodyCamera
+homeCamera(const BodyLimits& limits, std::span<const ScenePoint> places, const Viewport& viewport);
 
 } // namespace marsview

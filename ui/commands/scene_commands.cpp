@@ -20,11 +20,23 @@
 #include <QMenu>
 #include <QWidget>
 
+#include <algorithm>
 #include <utility>
 #include <variant>
 
 namespace marsview {
 namespace {
+
+// Whether the layers are seen as a ball rather than as a landscape: a side of them is longer than
+// the body's radius, and some.
+bool isWide(const TerrainView& view)
+{
+    constexpr double kRadii = 1.2;
+    const auto ellipsoid = view.map()->info().crs->ellipsoid();
+    const SceneBox box = view.ground().box(view.exaggeration());
+    const double side_m = std::max(box.maximum.x - box.minimum.x, box.maximum.y - box.minimum.y);
+    return ellipsoid && side_m > kRadii * ellipsoid->equatorial_m;
+}
 
 // Whether the picture will show all of the map.
 bool isWhole(const TerrainView& view)
@@ -52,7 +64,7 @@ SceneCommands::SceneCommands(const Parts& parts)
     , globe_hand_(new GlobeHandScene(parts.globe, &parts.globe))
 {
     const WindowActions& actions = parts_.actions;
-    parts_.flat_actions += {actions.save_picture, actions.stretch_to_view, actions.layer.go_to};
+    parts_.flat_actions.append(actions.save_picture);
     parts_.globe.addActions(parts_.view.actions()); // their keys
     connectParts();
     showChoices();
@@ -280,6 +292,7 @@ void SceneCommands::setGlobeShown(bool is_shown)
         follow();
         drawOn(globe_scene_);
         parts_.haptics.touchOn(globe_hand_);
+        parts_.session.showOn(sceneForSession());
         view.hide();
         view.setFocusProxy(&globe); // what begins there begins on the globe
         globe.show();
@@ -288,6 +301,7 @@ void SceneCommands::setGlobeShown(bool is_shown)
         globe.setTool(Tool::Pan); // lifts the stylus
         drawOn(nullptr);
         parts_.haptics.touchOn(nullptr);
+        parts_.session.showOn(std::nullopt);
         view.setFocusProxy(nullptr);
         globe.hide();
         globe.setLayers({});
@@ -307,6 +321,13 @@ void SceneCommands::setGlobeShown(bool is_shown)
         view.readAgain();
     }
     Q_EMIT shownChanged(is_shown);
+}
+
+OtherScene SceneCommands::sceneForSession() const
+{
+    GlobeView* globe = &parts_.globe;
+    return {.fly_to = [globe](const auto& map) { return globe->flyToLayer(map); },
+            .range_in_picture = [globe](const auto& map) { return globe->rangeInPicture(map); }};
 }
 
 void SceneCommands::drawOn(DrawingScene* scene)
@@ -349,7 +370,7 @@ void SceneCommands::handToGlobe()
         parts_.globe.setCamera(handed_->globe); // nothing moved since
         return;
     }
-    if (isWhole(view)) {
+    if (isWide(view) && isWhole(view)) {
         parts_.globe.setHomeCamera();
         is_handing_ = true;
         return;

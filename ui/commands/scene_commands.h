@@ -29,6 +29,7 @@ class HapticsController;
 class LayerModel;
 class MainToolBar;
 class MeasureController;
+struct OtherScene;
 class SessionController;
 class StatusReadout;
 class TerrainView;
@@ -89,6 +90,7 @@ private:
     void handToMap();
     std::optional<BodyCamera> bodyCamera(const ViewCamera& camera) const;
     void readOnGlobe();
+    OtherScene sceneForSession() const;
     void drawOn(DrawingScene* scene);
     void withhold(QAction& action);
     void release(QAction& action);

@@ -601,22 +601,29 @@ SlopeRange SessionController::slopeRangeOf(const Layer& layer) const
 void SessionController::stretchToView(LayerId id)
 {
     const Layer* layer = layerOf(session_, id);
-    if (layer == nullptr) {
-        return;
+    const auto range = layer != nullptr ? rangeInPicture(layer->map) : std::nullopt;
+    if (range && isStretchRange(range->minimum_m, range->maximum_m)) {
+        //: Continues "Undo …"; %1 is a layer
+        change(tr("Stretch of %1 to Current View").arg(nameOf(*layer)),
+               withStretch(session_, id, fixedStretch(range->minimum_m, range->maximum_m)));
     }
-    const SceneSurface& ground = view_.ground();
+}
+
+std::optional<HeightRange>
+SessionController::rangeInPicture(const std::shared_ptr<const Map>& map) const
+{
+    if (other_scene_) {
+        return other_scene_->range_in_picture(map);
+    }
+    const std::vector<SceneMap>& maps = view_.ground().maps();
     const auto ranges =
-        rangesInPicture(ground, view_.camera(), view_.viewport(), view_.exaggeration());
+        rangesInPicture(view_.ground(), view_.camera(), view_.viewport(), view_.exaggeration());
     for (std::size_t i = 0; i < ranges.size(); ++i) {
-        if (ground.maps()[i].map.get() == layer->map.get() && ranges[i] &&
-            isStretchRange(ranges[i]->minimum_m, ranges[i]->maximum_m)) {
-            //: Continues "Undo …"; %1 is a layer
-            change(tr("Stretch of %1 to Current View").arg(nameOf(*layer)),
-                   withStretch(session_, id,
-                               fixedStretch(ranges[i]->minimum_m, ranges[i]->maximum_m)));
-            return;
+        if (maps[i].map == map) {
+            return ranges[i];
         }
     }
+    return std::nullopt;
 }
 
 HeightRange SessionController::stretchedRangeOf(const Layer& layer) const
@@ -737,23 +744,42 @@ void SessionController::revealWhatCame()
 
 void SessionController::goTo(LayerId id)
 {
+    const auto fly_elsewhere = [&](const Layer* layer) {
+        return layer != nullptr && other_scene_ && other_scene_->fly_to(layer->map);
+    };
+    if (fly_elsewhere(layerOf(session_, id))) {
+        return;
+    }
     const auto is_shown = [&] {
         const auto shown = shownLayers(session_);
         return std::find(shown.begin(), shown.end(), layerOf(session_, id)) != shown.end();
     };
     if (const Layer* hidden = layerOf(session_, id); hidden != nullptr && !is_shown()) {
         //: Continues "Undo …"; %1 is a layer
-        change(tr("Show %1").arg(nameOf(*hidden)), withLayerShown(session_, id));
+        change(tr("Show %1").arg(nameOf(*hidden)), withLayerInScene(*hidden));
     }
     const Layer* layer = layerOf(session_, id);
-    const Map* scene = view_.map().get();
-    if (layer == nullptr || scene == nullptr || !is_shown()) {
-        return;
+    if (layer != nullptr && !fly_elsewhere(layer) && is_shown()) {
+        flyOnFlatMapTo(*layer->map);
     }
-    const Map& map = *layer->map;
-    const GridPoint center =
-        scene->georeference().toGrid(placeOn(map, 0.5, 0.5), map.georeference());
-    view_.flyTo(center, distanceToSee(map));
+}
+
+// The flat map has one CRS, another scene all layers of a body.
+Session SessionController::withLayerInScene(const Layer& layer) const
+{
+    const bool is_of_body = other_scene_ && view_.map() && layer.map->info().body != nullptr &&
+                            layer.map->info().body == view_.map()->info().body;
+    return is_of_body ? withVisibility(session_, layer.id, true)
+                      : withLayerShown(session_, layer.id);
+}
+
+void SessionController::flyOnFlatMapTo(const Map& map)
+{
+    if (const Map* scene = view_.map().get()) {
+        const GridPoint center =
+            scene->georeference().toGrid(placeOn(map, 0.5, 0.5), map.georeference());
+        view_.flyTo(center, distanceToSee(map));
+    }
 }
 
 } // namespace marsview

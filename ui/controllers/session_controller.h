@@ -13,8 +13,11 @@
 #include <QUndoStack>
 
 #include <deque>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace marsview {
@@ -47,6 +50,14 @@ struct Preparation {
 /// Whether a change is a step of undo by itself, or one of many of a drag.
 enum class ChangeKind { Single, OfDrag };
 
+/// What is shown in place of the flat map, such as a globe.
+struct OtherScene {
+    /// Flies to where all of a layer is in sight; false if the layer is not in the scene.
+    std::function<bool(const std::shared_ptr<const Map>&)> fly_to;
+    /// The elevations of a layer in the picture; empty if the picture shows none of it.
+    std::function<std::optional<HeightRange>(const std::shared_ptr<const Map>&)> range_in_picture;
+};
+
 /// Holds the session and changes it on request; every change is undoable, except which layer is
 /// active. Files are loaded first, one at a time in the order of the requests, and become a change
 /// when they are loaded. Lives in the GUI thread; must not outlive the view.
@@ -61,6 +72,8 @@ public:
     explicit SessionController(TerrainView& view, QObject* parent = nullptr);
     ~SessionController() override;
 
+    /// What the camera and the picture are of, from now on; empty for the flat map.
+    void showOn(std::optional<OtherScene> scene) { other_scene_ = std::move(scene); }
     /// For files that are opened from now on.
     void setOpener(const MapOpener& opener);
 
@@ -239,7 +252,12 @@ private:
     void show();
     void revealWhatCame();
 
+    std::optional<HeightRange> rangeInPicture(const std::shared_ptr<const Map>& map) const;
+    Session withLayerInScene(const Layer& layer) const;
+    void flyOnFlatMapTo(const Map& map);
+
     TerrainView& view_;
+    std::optional<OtherScene> other_scene_;
     LoadController* loader_ = nullptr;
     MapPreparer* preparer_ = nullptr;
     std::vector<Successor> successors_;

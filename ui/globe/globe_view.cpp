@@ -1,6 +1,7 @@
 #include "ui/globe/globe_view.h"
 
 #include "core/globe/horizon.h"
+#include "core/session/range_in_picture.h"
 #include "ui/canvas/view_projection.h"
 
 #include <QLabel>
@@ -31,6 +32,12 @@ constexpr int kShadowSides = 24;
 
 // The interval at which samples that were requested are looked for.
 constexpr milliseconds kSampleInterval{40};
+
+std::vector<ScenePoint> placesOf(const BodyTerrain& map, double exaggeration)
+{
+    const HeightRange range = map.map()->heightfield().range().value_or(HeightRange{});
+    return placesOver(*map.grid(), range.minimum_m * exaggeration, range.maximum_m * exaggeration);
+}
 
 QLabel* overText(QWidget& view, Qt::Alignment alignment)
 {
@@ -231,8 +238,9 @@ void GlobeView::showPlaced()
     are_layers_sent_ = false;
     if (!scene_.isEmpty()) {
         wait_->hide();
-        const BodyCamera next = was_empty ? homeCamera(limits(), viewport()) : motion_.goal();
+        const BodyCamera next = was_empty ? homeView() : motion_.goal();
         motion_.jumpTo(std::exchange(first_camera_, std::nullopt).value_or(next));
+        flyToAwaited();
     }
     redraw();
     report();
@@ -310,7 +318,7 @@ void GlobeView::setHomeCamera()
 {
     first_camera_.reset();
     if (!scene_.isEmpty()) {
-        motion_.jumpTo(homeCamera(limits(), viewport()));
+        motion_.jumpTo(homeView());
     }
 }
 
@@ -319,16 +327,47 @@ Viewport GlobeView::viewport() const
     return viewportOf(*this);
 }
 
-BodyLimits GlobeView::limits() const
+BodyLimits GlobeView::limitsOf(const BodyTerrain& map) const
 {
     const HeightRange range = scene_.range();
+    return bodyLimits(*map.grid(), range.minimum_m * style_.exaggeration,
+                      range.maximum_m * style_.exaggeration);
+}
+
+BodyLimits GlobeView::limits() const
+{
     std::optional<BodyLimits> all;
     for (const BodyTerrain& map : scene_.maps()) {
-        const BodyLimits limits = bodyLimits(*map.grid(), range.minimum_m * style_.exaggeration,
-                                             range.maximum_m * style_.exaggeration);
+        const BodyLimits limits = limitsOf(map);
         all = all ? united(*all, limits) : limits;
     }
     return *all;
+}
+
+// All layers.
+BodyCamera GlobeView::homeView() const
+{
+    std::vector<ScenePoint> places;
+    for (const BodyTerrain& map : scene_.maps()) {
+        const std::vector<ScenePoint> more = placesOf(map, style_.exaggeration);
+        places.insert(places.end(), more.begin(), more.end());
+    }
+    return homeCamera(limits(), places, viewport());
+}
+
+// From the side that the camera has, unless that is seen as a ball.
+BodyCamera GlobeView::viewOf(const BodyTerrain& map) const
+{
+    const BodyLimits bounds = limitsOf(map);
+    const std::vector<ScenePoint> places = placesOf(map, style_.exaggeration);
+    BodyCamera camera = homeCamera(bounds, places, viewport());
+    if (isBall(bounds.area)) {
+        return camera;
+    }
+    const BodyCamera now = onGround(motion_.goal());
+    camera.azimuth = now.azimuth;
+    camera.tilt = now.tilt;
+    return withGroundAhead(framed(camera, places, viewport(), bounds.ellipsoid), bounds.ellipsoid);
 }
 
 BodyCamera GlobeView::bounded(const BodyCamera& camera) const
@@ -423,7 +462,7 @@ void GlobeView::step(NavigationStep step)
 void GlobeView::goHome()
 {
     if (!scene_.isEmpty()) {
-        fly(homeCamera(limits(), viewport()), kFlyDuration);
+        fly(homeView(), kFlyDuration);
     }
 }
 
@@ -449,6 +488,30 @@ void GlobeView::flyTo(const GeographicPoint& place, double distance_m)
         camera.distance_m = distance_m;
     }
     fly(camera, kFlyDuration);
+}
+
+bool GlobeView::flyToLayer(const std::shared_ptr<const Map>& map)
+{
+    awaited_.reset();
+    if (std::none_of(wanted_.begin(), wanted_.end(),
+                     [&](const ShownLayer& layer) { return layer.map == map; })) {
+        return false;
+    }
+    awaited_ = map;
+    flyToAwaited();
+    return true;
+}
+
+void GlobeView::flyToAwaited()
+{
+    const auto map = awaited_.lock();
+    const auto placed =
+        std::find_if(scene_.maps().begin(), scene_.maps().end(),
+                     [&](const BodyTerrain& terrain) { return terrain.map() == map; });
+    if (map && placed != scene_.maps().end()) {
+        awaited_.reset();
+        fly(viewOf(*placed), kFlyDuration);
+    }
 }
 
 void GlobeView::flyTo(const BodyCamera& camera)
@@ -509,6 +572,21 @@ std::optional<BodyScenePoint> GlobeView::groundBelow(const ScenePoint& place) co
                           .hit = {.grid = *grid,
                                   .height_m = scene_.maps()[*index].heightOnGrid(*grid),
                                   .distance_m = length(place - eye)}};
+}
+
+std::optional<HeightRange> GlobeView::rangeInPicture(const std::shared_ptr<const Map>& map) const
+{
+    if (scene_.isEmpty()) {
+        return std::nullopt;
+    }
+    const auto ranges = rangesInPicture(scene_, poseOf(motion_.camera(), scene_.ellipsoid()),
+                                        viewport(), style_.exaggeration);
+    for (std::size_t i = 0; i < ranges.size(); ++i) {
+        if (scene_.maps()[i].map() == map) {
+            return ranges[i];
+        }
+    }
+    return std::nullopt;
 }
 
 bool GlobeView::isInPicture(const ScenePoint& place) const

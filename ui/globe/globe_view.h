@@ -111,6 +111,9 @@ public:
     void flyTo(const BodyCamera& camera);
     /// Flies there, and much nearer.
     void flyNearer(const GeographicPoint& place);
+    /// Flies to where all of a layer is in sight, or does so when it is placed. False if the layer
+    /// is not among those to show.
+    bool flyToLayer(const std::shared_ptr<const Map>& map);
     /// Looks at a place at once, from the same side and distance.
     void lookAt(const GeographicPoint& place);
 
@@ -119,6 +122,8 @@ public:
     std::optional<BodyHit> hitAt(QPointF position) const;
     /// The terrain straight below or above a place of the body-fixed frame.
     std::optional<BodyScenePoint> groundBelow(const ScenePoint& place) const;
+    /// The elevations of a layer in the picture; empty if the picture shows none of it.
+    std::optional<HeightRange> rangeInPicture(const std::shared_ptr<const Map>& map) const;
     /// Whether nothing but terrain before it can hide a place.
     bool isInPicture(const ScenePoint& place) const;
     /// Under the stylus of a device, unless the pointer has just moved; otherwise under the
@@ -204,6 +209,10 @@ private:
     BodyCamera onGround(const BodyCamera& camera) const;
     HeldPoint heldAtPosition(QPointF position) const;
     PixelPoint pixelAt(QPointF position) const;
+    BodyLimits limitsOf(const BodyTerrain& map) const;
+    BodyCamera homeView() const;
+    BodyCamera viewOf(const BodyTerrain& map) const;
+    void flyToAwaited();
     void fly(const BodyCamera& goal, std::chrono::milliseconds duration);
     void zoom(double factor, QPointF position, std::chrono::milliseconds duration);
     PlaceTool* placeTool() const;
@@ -227,6 +236,7 @@ private:
     DetachedJobs jobs_;
     DrawStyle style_;
     std::optional<BodyCamera> first_camera_; // when a layer is placed
+    std::weak_ptr<const Map> awaited_;       // to fly to when it is placed
     GlobeMotion motion_;
     Tool tool_ = Tool::Pan;
     std::map<Tool, PlaceTool*> place_tools_;

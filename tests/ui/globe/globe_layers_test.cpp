@@ -97,6 +97,79 @@ TEST_F(GlobeLayersTest, TheElevationReadIsThatOfTheLayerInThePicture)
     }
 }
 
+TEST_F(GlobeLayersTest, GoToLayerFliesToWhereAllOfItIsInThePicture)
+{
+    ASSERT_TRUE(openNested());
+    const LayerId mars = window_->session().layers.back().id;
+    const LayerId polar = window_->session().layers.front().id;
+    ASSERT_TRUE(showGlobe());
+    globe().setCamera({.target = {.longitude = Angle::degrees(100.0), .latitude = {}},
+                       .distance_m = 3e6,
+                       .azimuth = Angle::degrees(20.0),
+                       .tilt = Angle::degrees(30.0)});
+    window_->controller().activate(polar);
+    window_->actionSet().layer.go_to->trigger();
+    ASSERT_TRUE(waitFor([this] { return globe().scene().maps().size() == 2; }));
+    ASSERT_TRUE(rests());
+    const BodyGrid& grid = *globe().terrain()->grid();
+    const CameraPose pose = poseOf(globe().camera(), body());
+    double farthest = 0.0; // from the middle of the picture, 1 at its edge
+    for (std::size_t row = 0; row < grid.rows(); ++row) {
+        for (std::size_t column = 0; column < grid.columns(); ++column) {
+            const double height_m = 20.0 * static_cast<double>(column) - 300.0;
+            const auto pixel = project(pose, globe().viewport(),
+                                       grid.at(column, row, height_m * globe().exaggeration()));
+            ASSERT_TRUE(pixel);
+            farthest =
+                std::max({farthest, std::abs(2.0 * pixel->x / globe().viewport().width - 1.0),
+                          std::abs(2.0 * pixel->y / globe().viewport().height - 1.0)});
+        }
+    }
+    EXPECT_LE(farthest, 1.0);
+    EXPECT_GE(farthest, 0.8);
+    EXPECT_NEAR(globe().camera().tilt.degrees(), 30.0, 1e-6) << "from the same side";
+    // A hidden layer is shown; the other one keeps its place.
+    window_->controller().setVisible(mars, false);
+    ASSERT_TRUE(waitFor([this] { return globe().scene().maps().size() == 1; }));
+    window_->controller().activate(mars);
+    window_->actionSet().layer.go_to->trigger();
+    ASSERT_TRUE(waitFor([this] { return globe().scene().maps().size() == 2; }));
+    ASSERT_TRUE(rests());
+    EXPECT_EQ(window_->session().layers.front().id, polar);
+    EXPECT_GT(globe().camera().distance_m, body().equatorial_m);
+}
+
+TEST_F(GlobeLayersTest, StretchToViewTakesTheElevationsOfTheLayerInThePicture)
+{
+    ASSERT_TRUE(showBoth());
+    window_->controller().activate(window_->session().layers.front().id);
+    // Columns of the slope 20 m apart; the picture has the middle of it, and Mars beside it.
+    globe().setCamera({.target = {.longitude = {}, .latitude = Angle::degrees(80.0)},
+                       .distance_m = 1e6,
+                       .azimuth = Angle::degrees(90.0)});
+    HeightRange seen{.minimum_m = 1e9, .maximum_m = -1e9};
+    for (double y = 0.0; y <= globe().height(); y += 7.0) {
+        for (double x = 0.0; x <= globe().width(); x += 7.0) {
+            const auto ground = globe().groundAt({x, y});
+            if (ground && ground->index == 0) {
+                seen.minimum_m = std::min(seen.minimum_m, ground->hit.height_m);
+                seen.maximum_m = std::max(seen.maximum_m, ground->hit.height_m);
+            }
+        }
+    }
+    window_->actionSet().stretch_to_view->trigger();
+    const ColorStretch taken = window_->session().layers.front().stretch;
+    const double tolerance_m = 0.03 * (seen.maximum_m - seen.minimum_m);
+    EXPECT_EQ(taken.kind, StretchKind::Fixed);
+    EXPECT_NEAR(taken.low, seen.minimum_m, tolerance_m);
+    EXPECT_NEAR(taken.high, seen.maximum_m, tolerance_m);
+    EXPECT_EQ(colorRangeOf(globe().layers().front()).minimum_m, taken.low);
+    // Where the picture shows none of a layer, its colors stay.
+    globe().setCamera({.target = {.longitude = {}, .latitude = {}}, .distance_m = 1e6});
+    window_->actionSet().stretch_to_view->trigger();
+    EXPECT_EQ(window_->session().layers.front().stretch, taken);
+}
+
 TEST_F(GlobeLayersTest, LayersOfAnotherBodyAndHiddenOnesAreLeftOut)
 {
     ASSERT_TRUE(openAndWait(*window_, maps_.moon()));

@@ -181,8 +181,10 @@ TEST_F(GlobeTest, ReadsTheFullResolutionElevationOfTheMapUnderThePointer)
 TEST_F(GlobeTest, DisablesWithAReasonWhatItLacksAndGivesItBack)
 {
     const WindowActions& actions = window_->actionSet();
-    const QList<QAction*> lacking{actions.save_picture, actions.stretch_to_view};
-    const QList<QAction*> shared{actions.measure_kinds->actions().front(),
+    const QList<QAction*> lacking{actions.save_picture};
+    const QList<QAction*> shared{actions.layer.go_to,
+                                 actions.stretch_to_view,
+                                 actions.measure_kinds->actions().front(),
                                  actions.annotation_shapes->actions().front(),
                                  actions.open_vector,
                                  actions.haptic_devices,
