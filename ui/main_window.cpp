@@ -21,6 +21,8 @@
 #include "ui/panels/haptics_panel.h"
 #include "ui/panels/layers_panel.h"
 #include "ui/panels/measure_panel.h"
+#include "ui/pictures/flat_pictures.h"
+#include "ui/pictures/globe_pictures.h"
 #include "ui/text/number_text.h"
 #include "ui/views/saved_views_panel.h"
 #include "ui/widgets/icons.h"
@@ -119,11 +121,6 @@ MainWindow::MainWindow(const WindowOptions& options, QWidget* parent)
     , readout_(new StatusReadout(this))
     , load_status_(new LoadStatus(this))
     , light_popup_(new LightPopup(this))
-    , picture_saver_(new PictureSaver(*view_,
-                                      *overlays_,
-                                      options_.isRemembered() ? PictureSaver::Memory::Settings
-                                                              : PictureSaver::Memory::WindowOnly,
-                                      this))
     , stretch_(new StretchControl(*controller_, *actions_, *view_, this))
 {
     setAcceptDrops(true);
@@ -131,6 +128,7 @@ MainWindow::MainWindow(const WindowOptions& options, QWidget* parent)
     resize(kDefaultSize);
     addToolBar(tool_bar_);
     makeCenter();
+    makePictures();
     makeStatusBar();
     fillViewMenus();
     explainControls({.view = view_,
@@ -187,6 +185,16 @@ void MainWindow::makeCenter()
     setCentralWidget(center);
 }
 
+void MainWindow::makePictures()
+{
+    flat_pictures_ = new FlatPictures(*view_, *overlays_);
+    globe_pictures_ = new GlobePictures(*globe_, *globe_overlays_);
+    picture_saver_ = new PictureSaver(
+        {.flat = *flat_pictures_, .globe = *globe_pictures_, .globe_view = *globe_},
+        options_.isRemembered() ? PictureSaver::Memory::Settings : PictureSaver::Memory::WindowOnly,
+        this);
+}
+
 void MainWindow::makeStatusBar()
 {
     statusBar()->addWidget(readout_, 1);
@@ -218,32 +226,34 @@ void MainWindow::fillViewMenus()
 
 void MainWindow::makeCommands()
 {
-    const WindowParts parts{.window = *this,
-                            .actions = *actions_,
-                            .messages = messages_,
-                            .notices = *notice_center_,
-                            .session = *controller_,
-                            .view = *view_,
-                            .globe = *globe_,
-                            .overlays = *overlays_,
-                            .haptics = *haptics_,
-                            .measuring = *measure_,
-                            .annotating = *annotate_,
-                            .measure_marks = *measure_marks_,
-                            .annotation_marks = *annotation_marks_,
-                            .pictures = *picture_saver_,
-                            .stretch = *stretch_,
-                            .docks = *docks_,
-                            .layers = *datasets_,
-                            .georeferencing = *georeferencing_,
-                            .haptics_panel = *haptics_panel_,
-                            .measure_panel = *measure_panel_,
-                            .annotation_panel = *annotation_panel_,
-                            .views_panel = *views_panel_,
-                            .tool_bar = *tool_bar_,
-                            .light = *light_popup_,
-                            .readout = *readout_,
-                            .load_status = *load_status_};
+    const WindowParts parts{
+        .window = *this,
+        .actions = *actions_,
+        .messages = messages_,
+        .notices = *notice_center_,
+        .session = *controller_,
+        .view = *view_,
+        .globe = *globe_,
+        .overlays = *overlays_,
+        .haptics = *haptics_,
+        .measuring = *measure_,
+        .annotating = *annotate_,
+        .measure_marks = *measure_marks_,
+        .annotation_marks = *annotation_marks_,
+        .pictures = *picture_saver_,
+        .scenes = {.flat = *flat_pictures_, .globe = *globe_pictures_, .globe_view = *globe_},
+        .stretch = *stretch_,
+        .docks = *docks_,
+        .layers = *datasets_,
+        .georeferencing = *georeferencing_,
+        .haptics_panel = *haptics_panel_,
+        .measure_panel = *measure_panel_,
+        .annotation_panel = *annotation_panel_,
+        .views_panel = *views_panel_,
+        .tool_bar = *tool_bar_,
+        .light = *light_popup_,
+        .readout = *readout_,
+        .load_status = *load_status_};
     commands_ = std::make_unique<WindowCommands>(parts, options_);
     commands_->views.menu()->installEventFilter(this);
     connect(&commands_->progress, &WorkProgress::settled, this, &MainWindow::settled);
@@ -279,8 +289,8 @@ void MainWindow::placeMarks()
     overlays_->labels()->lower(); // names give way to measurements and annotations
     overlays_->labels()->keepClearOf(*measure_marks_);
     overlays_->labels()->keepClearOf(*annotation_marks_);
-    picture_saver_->addMarks(*annotation_marks_);
-    picture_saver_->addMarks(*measure_marks_);
+    flat_pictures_->addMarks(*annotation_marks_);
+    flat_pictures_->addMarks(*measure_marks_);
     globe_overlays_->addMarks(*new MeasureMarks(*measure_, globe_),
                               *new AnnotationMarks(*annotate_, globe_),
                               {notice_bar_, new NameField(*annotate_, *globe_)});

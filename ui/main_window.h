@@ -16,12 +16,14 @@ class AnnotationMarks;
 class AnnotationPanel;
 class GeoreferencingPanel;
 class GlobeOverlays;
+class GlobePictures;
 class GlobeView;
 class HapticsController;
 class HapticsPanel;
 class LayersPanel;
 class LightPopup;
 class LoadStatus;
+class FlatPictures;
 class MainToolBar;
 class MapOverlays;
 class MeasureController;
@@ -102,6 +104,7 @@ private:
     void makeCenter();
     void makeStatusBar();
     void fillViewMenus();
+    void makePictures();
     void makeCommands();
     void connectSession();
     void placeMarks();
@@ -139,6 +142,8 @@ private:
     StatusReadout* readout_ = nullptr;
     LoadStatus* load_status_ = nullptr;
     LightPopup* light_popup_ = nullptr;
+    FlatPictures* flat_pictures_ = nullptr;   // a child of the view
+    GlobePictures* globe_pictures_ = nullptr; // a child of the globe
     PictureSaver* picture_saver_ = nullptr;
     StretchControl* stretch_ = nullptr;
     std::unique_ptr<WindowCommands> commands_; // goes before the parts that it joins

@@ -5,6 +5,8 @@
 #include "core/geo/frames.h"
 #include "core/view/camera.h"
 
+#include <variant>
+
 namespace marsview {
 
 /// A camera at a distance from a target over or under the ellipsoid. North is up where it looks;
@@ -19,6 +21,9 @@ struct BodyCamera {
 
     bool operator==(const BodyCamera&) const = default;
 };
+
+/// The camera of a flat map or of a body.
+using SceneCamera = std::variant<OrbitCamera, BodyCamera>;
 
 /// Unit vectors at a place on an ellipsoid, in the body-fixed frame. At a pole, as for the place's
 /// longitude.

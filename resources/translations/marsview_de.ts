@@ -5007,6 +5007,10 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
         <source>There are no annotations yet</source>
         <translation>Es gibt noch keine Anmerkungen</translation>
     </message>
+    <message>
+        <source>The map is not ready yet; try again in a moment</source>
+        <translation>Die Karte ist noch nicht bereit. Versuchen Sie es gleich noch einmal</translation>
+    </message>
 </context>
 <context>
     <name>marsview::SavePictureDialog</name>
@@ -5250,11 +5254,6 @@ Bewegen Sie die Karte zu einer Ansicht, die Sie behalten wollen, und drücken Si
     <message>
         <source>Not available: the body of the topmost layer is not known. Set it with Layer › Set Body, CRS…</source>
         <translation>Nicht verfügbar: Der Himmelskörper des obersten Layers ist unbekannt. Legen Sie ihn mit Layer › Raumbezug festlegen … fest</translation>
-    </message>
-    <message>
-        <source>Not available on the globe yet. Choose View › Scene › Flat Map first</source>
-        <extracomment>Why an entry of the menu cannot be chosen</extracomment>
-        <translation>Auf dem Globus noch nicht verfügbar. Wählen Sie zuerst Ansicht › Szene › Ebene Karte</translation>
     </message>
     <message>
         <source>Show all layers of one body where they lie on it</source>

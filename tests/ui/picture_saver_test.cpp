@@ -1,8 +1,10 @@
 // Saving pictures: sizes, formats, contents, folders.
 #include "tests/ui/map_window.h"
-#include "ui/canvas/picture_drawing.h"
 #include "ui/canvas/picture_writer.h"
 #include "ui/commands/picture_saver.h"
+#include "ui/globe/globe_view.h"
+#include "ui/pictures/flat_pictures.h"
+#include "ui/pictures/picture_drawing.h"
 #include "ui/window/load_status.h"
 #include "ui/window/window_actions.h"
 
@@ -149,8 +151,9 @@ TEST_F(PictureSaverTest, DrawsATypedSizeWithAnotherAspect)
 
 TEST_F(PictureSaverTest, OmitsDisabledOverlays)
 {
-    PictureSaver saver(*window_->view(), *window_->overlays(), PictureSaver::Memory::WindowOnly,
-                       window_.get());
+    FlatPictures scene(view(), *window_->overlays());
+    PictureSaver saver({.flat = scene, .globe = scene, .globe_view = *window_->globe()},
+                       PictureSaver::Memory::WindowOnly, window_.get());
     const auto picture = [&](bool has_legend, bool has_scale) {
         const QString file = maps_.path(QStringLiteral("overlays.png"));
         saver.save(file, view().camera(),
@@ -184,7 +187,8 @@ TEST_F(PictureSaverTest, DrawsBlockByBlockWhatTheWindowShows)
     window_->resize(1290, 800); // blocks of 512 do not fit
     ASSERT_TRUE(waitFor([this] { return view().isPictureComplete(); }));
     ASSERT_GT(viewSize().width(), 700);
-    PictureDrawing drawing(view(), view().camera(), viewSize());
+    FlatPictures pictures(view(), *window_->overlays());
+    PictureDrawing drawing(pictures, view().camera(), viewSize());
     QImage drawn;
     QObject::connect(&drawing, &PictureDrawing::finished,
                      [&drawn](const QImage& picture) { drawn = picture; });
@@ -283,8 +287,9 @@ TEST_F(PictureSaverTest, RefusesSizesBeyondTheDriversLimit)
 
 TEST_F(PictureSaverTest, RemembersAFolderOfItsOwn)
 {
-    PictureSaver saver(*window_->view(), *window_->overlays(), PictureSaver::Memory::WindowOnly,
-                       window_.get());
+    FlatPictures scene(view(), *window_->overlays());
+    PictureSaver saver({.flat = scene, .globe = scene, .globe_view = *window_->globe()},
+                       PictureSaver::Memory::WindowOnly, window_.get());
     const QString pictures = QStandardPaths::writableLocation(QStandardPaths::PicturesLocation);
     EXPECT_EQ(saver.folder(), QFileInfo(pictures).isDir() ? pictures : QDir::homePath())
         << "not the folder of the data";

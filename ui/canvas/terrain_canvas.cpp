@@ -20,9 +20,6 @@ namespace {
 constexpr double kShadowPoints = 9.0;
 constexpr int kShadowSides = 24;
 
-// Of pictures for files, a pixel.
-constexpr int kSmoothSamples = 4;
-
 // Around the place below the stylus, on the terrain.
 std::vector<ScenePoint> shadowOf(const ScenePoint& place, double radius_m, const ShownScene& scene)
 {
@@ -159,35 +156,15 @@ Result<bool> TerrainCanvas::drawPart(const OrbitCamera& camera,
     }
     parts_.view.makeCurrent();
     sendLayers();
-    const Viewport viewport{.width = picture.width(), .height = picture.height()};
-    const PixelArea area{.left = part.left(),
-                         .bottom = picture.height() - part.bottom() - 1,
-                         .width = part.width(),
-                         .height = part.height()};
-    const auto draw_lines = [&] {
-        lines_.draw(
-            line_painter_->lines(),
-            {.camera = camera,
-             .viewport = viewport,
-             .clip = renderer_->clip(camera, style.exaggeration),
-             .pixels_per_point = static_cast<double>(viewport.height) / parts_.view.height(),
-             .part = area});
-    };
-    const auto drawn = marsview::drawPart(
-        *renderer_,
-        {.camera = camera,
-         .viewport = viewport,
-         .samples = has_antialiasing_ ? kSmoothSamples : 1,
-         .part = area},
-        style,
-        {.first = picture.scanLine(part.top()) + static_cast<qsizetype>(3) * part.left(),
-         .line_length = picture.bytesPerLine()},
-        lines == PictureLines::Drawn ? std::function<void()>(draw_lines) : nullptr);
+    Result<bool> drawn = marsview::drawPart(
+        {.terrain = *renderer_,
+         .line_renderer = lines == PictureLines::Drawn ? &line_painter_->lines() : nullptr,
+         .lines = lines_,
+         .view_height = static_cast<double>(parts_.view.height()),
+         .has_antialiasing = has_antialiasing_},
+        {.camera = camera, .viewport = {}}, style, part, picture);
     parts_.view.doneCurrent();
-    if (!drawn) {
-        return drawn.error();
-    }
-    return drawn->is_complete;
+    return drawn;
 }
 
 int TerrainCanvas::pictureSideMax()

@@ -7,6 +7,7 @@
 #include "ui/canvas/camera_controller.h"
 #include "ui/canvas/line_painter.h"
 #include "ui/canvas/line_sets.h"
+#include "ui/canvas/part_drawing.h"
 #include "ui/canvas/shown_scene.h"
 #include "ui/canvas/touch_tool.h"
 #include "ui/canvas/view_projection.h"
@@ -20,7 +21,6 @@
 #include <QTimer>
 
 #include <chrono>
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -29,9 +29,6 @@ class QOpenGLWidget;
 class QRect;
 
 namespace marsview {
-
-/// Whether a picture shows the lines on the terrain.
-enum class PictureLines : std::uint8_t { Omitted, Drawn };
 
 /// The parts of the view that are drawn. All outlive the canvas.
 struct CanvasParts {

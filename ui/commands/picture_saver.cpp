@@ -1,9 +1,7 @@
 #include "ui/commands/picture_saver.h"
 
-#include "ui/canvas/picture_drawing.h"
 #include "ui/canvas/picture_writer.h"
-#include "ui/canvas/terrain_view.h"
-#include "ui/overlay/drawn_marks.h"
+#include "ui/pictures/picture_drawing.h"
 
 #include <QDir>
 #include <QFileDialog>
@@ -14,7 +12,6 @@
 #include <QStandardPaths>
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 namespace marsview {
@@ -27,10 +24,9 @@ QString folderKeyOfPictures()
 
 } // namespace
 
-PictureSaver::PictureSaver(TerrainView& view, MapOverlays& overlays, Memory memory, QWidget* parent)
+PictureSaver::PictureSaver(const PictureScenes& scenes, Memory memory, QWidget* parent)
     : QObject(parent)
-    , view_(view)
-    , overlays_(overlays)
+    , scenes_(scenes)
     , memory_(memory)
     , window_(parent)
     , jobs_(*this)
@@ -56,11 +52,12 @@ QString PictureSaver::folder() const
 
 void PictureSaver::start(const QString& name)
 {
-    const Viewport size = view_.viewport();
+    PictureScene& scene = scenes_.shown();
+    const Viewport size = scene.viewport();
     PictureLimits limits;
-    limits.side_max = std::max(view_.pictureSideMax(), std::max(size.width, size.height));
+    limits.side_max = std::max(scene.sideMax(), std::max(size.width, size.height));
     // The current camera: a device may move the map while the dialog is open.
-    const OrbitCamera camera = view_.camera();
+    const SceneCamera camera = scene.camera();
     auto* dialog = new SavePictureDialog({size.width, size.height}, limits, window_);
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     connect(dialog, &SavePictureDialog::fileRequested, this,
@@ -71,7 +68,7 @@ void PictureSaver::start(const QString& name)
 // Over the dialog of sizes: who chooses no file is back there.
 void PictureSaver::chooseFile(SavePictureDialog& sizes,
                               const QString& name,
-                              const OrbitCamera& camera)
+                              const SceneCamera& camera)
 {
     auto* dialog = new QFileDialog(&sizes, tr("Save Picture"), folder());
     dialog->setAcceptMode(QFileDialog::AcceptSave);
@@ -97,21 +94,17 @@ void PictureSaver::chooseFile(SavePictureDialog& sizes,
     dialog->open();
 }
 
-void PictureSaver::save(const QString& file, const OrbitCamera& camera, const PictureChoice& choice)
+void PictureSaver::save(const QString& file, const SceneCamera& camera, const PictureChoice& choice)
 {
     file_ = file;
-    parts_ = overlays_.partsFor(camera, choice.size,
-                                {.has_legend = choice.has_legend,
-                                 .has_scale = choice.has_scale,
-                                 .has_labels = choice.has_labels});
-    for (const DrawnMarks* marks : marks_) {
-        if (choice.has_labels) {
-            std::vector<PicturePart> parts = marks->partsFor(choice.size);
-            std::move(parts.begin(), parts.end(), std::back_inserter(parts_));
-        }
-    }
+    PictureScene& scene = scenes_.of(camera);
+    parts_ = scene.partsFor(camera, choice.size,
+                            {.has_legend = choice.has_legend,
+                             .has_scale = choice.has_scale,
+                             .has_labels = choice.has_labels,
+                             .has_marks = choice.has_labels});
     monitor_ = std::make_shared<JobMonitor>();
-    drawing_ = std::make_unique<PictureDrawing>(view_, camera, choice.size,
+    drawing_ = std::make_unique<PictureDrawing>(scene, camera, choice.size,
                                                 choice.has_labels ? PictureLines::Drawn
                                                                   : PictureLines::Omitted);
     connect(drawing_.get(), &PictureDrawing::progressed, this,

@@ -2,10 +2,9 @@
 #pragma once
 
 #include "core/base/job_monitor.h"
-#include "core/view/camera.h"
 #include "ui/controllers/detached_jobs.h"
 #include "ui/dialogs/save_picture_dialog.h"
-#include "ui/overlay/map_overlays.h"
+#include "ui/pictures/picture_scenes.h"
 
 #include <QImage>
 #include <QObject>
@@ -17,28 +16,23 @@
 namespace marsview {
 
 class PictureDrawing;
-class DrawnMarks;
-class TerrainView;
 
-/// Asks for size and contents, then for a file, and writes the picture of the view at that
-/// time: drawn between the events of the GUI thread, written on another one. One picture at a
-/// time. Lives in the GUI thread; view, overlays and the parent outlive it.
+/// Asks for size and contents, then for a file, and writes the picture of the scene that was shown
+/// when it asked: drawn between the events of the GUI thread, written on another one. One picture
+/// at a time. Lives in the GUI thread; the scenes and the parent outlive it.
 class PictureSaver final : public QObject {
     Q_OBJECT
 
 public:
     enum class Memory { Settings, WindowOnly };
 
-    PictureSaver(TerrainView& view, MapOverlays& overlays, Memory memory, QWidget* parent);
+    PictureSaver(const PictureScenes& scenes, Memory memory, QWidget* parent);
     ~PictureSaver() override;
-
-    /// Points and labels that belong to the lines on the map; outlive this.
-    void addMarks(const DrawnMarks& marks) { marks_.push_back(&marks); }
 
     /// `name` is offered for the file, without ending. Not while isSaving().
     void start(const QString& name);
     /// Draws and writes one without asking. Not while isSaving().
-    void save(const QString& file, const OrbitCamera& camera, const PictureChoice& choice);
+    void save(const QString& file, const SceneCamera& camera, const PictureChoice& choice);
 
     bool isSaving() const noexcept { return monitor_ != nullptr; }
     /// No file is written, or replaced. canceled() follows.
@@ -56,13 +50,11 @@ Q_SIGNALS:
     void canceled();
 
 private:
-    void chooseFile(SavePictureDialog& sizes, const QString& name, const OrbitCamera& camera);
+    void chooseFile(SavePictureDialog& sizes, const QString& name, const SceneCamera& camera);
     void write(QImage picture);
     void end();
 
-    TerrainView& view_;
-    MapOverlays& overlays_;
-    std::vector<const DrawnMarks*> marks_;
+    PictureScenes scenes_;
     Memory memory_;
     QWidget* window_ = nullptr;
     QString folder_;

@@ -11,6 +11,7 @@
 #include "ui/globe/globe_scene.h"
 #include "ui/globe/globe_view.h"
 #include "ui/panels/layer_model.h"
+#include "ui/pictures/globe_pictures.h"
 #include "ui/window/status_readout.h"
 #include "ui/window/window_actions.h"
 #include "ui/window/window_messages.h"
@@ -63,8 +64,6 @@ SceneCommands::SceneCommands(const Parts& parts)
     , globe_scene_(new GlobeScene(parts.globe, &parts.globe))
     , globe_hand_(new GlobeHandScene(parts.globe, &parts.globe))
 {
-    const WindowActions& actions = parts_.actions;
-    parts_.flat_actions.append(actions.save_picture);
     parts_.globe.addActions(parts_.view.actions()); // their keys
     connectParts();
     showChoices();
@@ -103,16 +102,6 @@ void SceneCommands::connectParts()
         parts_.messages.report(tr("Cannot Show Globe"), reason);
     });
     readOnGlobe();
-    for (QAction* action : std::as_const(parts_.flat_actions)) {
-        connect(action, &QAction::enabledChanged, this, [this, action] {
-            if (!is_withholding_ && withheld_.contains(action)) {
-                withheld_[action].was_enabled = action->isEnabled();
-                const bool was_withholding = std::exchange(is_withholding_, true);
-                action->setEnabled(false);
-                is_withholding_ = was_withholding;
-            }
-        });
-    }
 }
 
 void SceneCommands::readOnGlobe()
@@ -207,23 +196,10 @@ std::optional<ViewCamera> SceneCommands::globeCamera() const
                       .field_of_view = camera.field_of_view};
 }
 
-std::optional<BodyCamera> SceneCommands::bodyCamera(const ViewCamera& camera) const
-{
-    const auto* target = std::get_if<GeographicPoint>(&camera.target);
-    return target != nullptr ? std::optional(BodyCamera{.target = *target,
-                                                        .height_m = camera.elevation_m *
-                                                                    parts_.view.exaggeration(),
-                                                        .distance_m = camera.distance_m,
-                                                        .azimuth = camera.azimuth,
-                                                        .tilt = camera.tilt,
-                                                        .field_of_view = camera.field_of_view})
-                             : std::nullopt;
-}
-
 void SceneCommands::showGlobeFrom(const ViewCamera& camera)
 {
     choose(SceneChoice::Globe);
-    const auto on_body = bodyCamera(camera);
+    const auto on_body = bodyCamera(camera, parts_.view.exaggeration());
     if (is_globe_shown_ && on_body) {
         is_handing_ = false; // the flat map has another one
         parts_.globe.setCamera(*on_body);
@@ -232,7 +208,7 @@ void SceneCommands::showGlobeFrom(const ViewCamera& camera)
 
 void SceneCommands::flyOnGlobeTo(const ViewCamera& camera)
 {
-    const auto on_body = bodyCamera(camera);
+    const auto on_body = bodyCamera(camera, parts_.view.exaggeration());
     if (!is_globe_shown_) {
         showGlobeFrom(camera);
     } else if (on_body) {
@@ -310,9 +286,6 @@ void SceneCommands::setGlobeShown(bool is_shown)
     if (has_focus) {
         (is_shown ? static_cast<QWidget&>(globe) : view).setFocus(Qt::OtherFocusReason);
     }
-    for (QAction* action : std::as_const(parts_.flat_actions)) {
-        is_shown ? withhold(*action) : release(*action);
-    }
     if (parts_.layer_list != nullptr) {
         parts_.layer_list->setSceneOfBody(is_shown);
     }
@@ -335,31 +308,6 @@ void SceneCommands::drawOn(DrawingScene* scene)
     parts_.measuring.drawOn(scene);
     parts_.annotating.drawOn(scene);
     parts_.vector_files.drawOn(scene);
-}
-
-void SceneCommands::withhold(QAction& action)
-{
-    withheld_[&action] = {.was_enabled = action.isEnabled(),
-                          .tool_tip = action.toolTip(),
-                          .status_tip = action.statusTip()};
-    //: Why an entry of the menu cannot be chosen
-    const QString why = tr("Not available on the globe yet. Choose View › Scene › Flat Map first");
-    const bool was_withholding = std::exchange(is_withholding_, true);
-    action.setEnabled(false);
-    is_withholding_ = was_withholding;
-    action.setToolTip(why);
-    action.setStatusTip(why);
-}
-
-void SceneCommands::release(QAction& action)
-{
-    if (!withheld_.contains(&action)) {
-        return;
-    }
-    const Tips tips = withheld_.take(&action);
-    action.setToolTip(tips.tool_tip);
-    action.setStatusTip(tips.status_tip);
-    action.setEnabled(tips.was_enabled);
 }
 
 // Seen whole, a flat map of a planet is much wider than the globe: that is seen whole, too.

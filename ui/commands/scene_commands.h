@@ -7,16 +7,12 @@
 #include "core/session/saved_view.h"
 #include "ui/canvas/shown_layer.h"
 
-#include <QHash>
-#include <QList>
 #include <QObject>
 #include <QString>
 
 #include <memory>
 #include <optional>
 #include <vector>
-
-class QAction;
 
 namespace marsview {
 
@@ -39,8 +35,7 @@ struct WindowActions;
 
 /// Shows the globe in place of the flat map, which stays as it is behind it. The globe has all
 /// visible layers of the topmost one's body, whatever their CRS; look and exaggeration are the flat
-/// map's, and the camera is handed over both ways. While the globe is shown, actions that it does
-/// not have yet are disabled and say why. GUI thread; must not outlive its parts.
+/// map's, and the camera is handed over both ways. GUI thread; must not outlive its parts.
 class SceneCommands final : public QObject {
     Q_OBJECT
 
@@ -56,8 +51,6 @@ public:
         MeasureController& measuring;
         AnnotationController& annotating;
         VectorOverlays& vector_files;
-        /// Further actions of the flat map alone.
-        QList<QAction*> flat_actions;
         /// Which layers are in the picture, as people see it; may be null.
         LayerModel* layer_list = nullptr;
     };
@@ -88,12 +81,9 @@ private:
     void handToGlobe();
     void rememberHanded();
     void handToMap();
-    std::optional<BodyCamera> bodyCamera(const ViewCamera& camera) const;
     void readOnGlobe();
     OtherScene sceneForSession() const;
     void drawOn(DrawingScene* scene);
-    void withhold(QAction& action);
-    void release(QAction& action);
     /// Why the globe cannot be shown; empty where it can.
     QString whyNoGlobe() const;
 
@@ -103,19 +93,11 @@ private:
         OrbitCamera flat;
         BodyCamera globe;
     };
-    struct Tips {
-        bool was_enabled = true;
-        QString tool_tip;
-        QString status_tip;
-    };
-
     Parts parts_;
     GlobeScene* globe_scene_;    // a child of the globe
     GlobeHandScene* globe_hand_; // the same
     SceneChoice choice_ = SceneChoice::Automatic;
     bool is_globe_shown_ = false;
-    bool is_withholding_ = false; // this changes an action, not its feature
-    QHash<QAction*, Tips> withheld_;
     std::optional<HandedCamera> handed_;
     bool is_handing_ = false;           // until the globe has a layer
     std::weak_ptr<const Map> read_map_; // that positions in the status bar are on

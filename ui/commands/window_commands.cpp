@@ -5,7 +5,6 @@
 #include "ui/controllers/annotation_controller.h"
 #include "ui/controllers/measure_controller.h"
 #include "ui/controllers/session_controller.h"
-#include "ui/overlay/annotation_marks.h"
 #include "ui/overlay/map_labels.h"
 #include "ui/overlay/map_overlays.h"
 #include "ui/overlay/measure_marks.h"
@@ -40,19 +39,6 @@ NoticeCommands noticeCommandsOf(const WindowParts& parts)
                 },
             .show_haptics = [&docks = parts.docks] { docks.reveal(*docks.haptics()); },
             .save_diagnostic_log = [&panel = parts.haptics_panel] { panel.chooseFlightRecord(); }};
-}
-
-QList<QAction*>
-flatActions(const MapOverlays& overlays, const SavedViews& views, const ReportExporter& reports)
-{
-    QList<QAction*> actions{views.actions().fly_through, reports.action()};
-    for (QAction* action : overlays.terrainActions()) {
-        if (action->objectName() != QStringLiteral("names") &&
-            action->objectName() != QStringLiteral("graticule")) {
-            actions.append(action);
-        }
-    }
-    return actions;
 }
 
 } // namespace
@@ -127,6 +113,7 @@ WindowCommands::WindowCommands(const WindowParts& parts, const WindowOptions& op
               .light = parts.light})
     , views({.session = parts.session,
              .view = parts.view,
+             .scenes = parts.scenes,
              .panel = parts.views_panel,
              .menu = *parts.actions.view_menu,
              .before = parts.actions.coordinate_format->menuAction(),
@@ -138,8 +125,7 @@ WindowCommands::WindowCommands(const WindowParts& parts, const WindowOptions& op
              .reveal_panel = [&docks = parts.docks] { docks.reveal(*docks.views()); }})
     , fly_through({.window = parts.window,
                    .session = parts.session,
-                   .view = parts.view,
-                   .overlays = parts.overlays,
+                   .scenes = parts.scenes,
                    .measuring = parts.measuring,
                    .open = *views.actions().fly_through})
     , reports(
@@ -147,8 +133,7 @@ WindowCommands::WindowCommands(const WindowParts& parts, const WindowOptions& op
            .menu = *parts.actions.file,
            .after = parts.actions.save_picture,
            .view = parts.view,
-           .overlays = parts.overlays,
-           .marks = {&parts.annotation_marks, &parts.measure_marks},
+           .scenes = parts.scenes,
            .measuring = parts.measuring,
            .annotating = parts.annotating,
            .project = [this] { return QFileInfo(project.file()).completeBaseName(); },
@@ -221,7 +206,6 @@ WindowCommands::WindowCommands(const WindowParts& parts, const WindowOptions& op
              .measuring = parts.measuring,
              .annotating = parts.annotating,
              .vector_files = vector_files.overlays(),
-             .flat_actions = flatActions(parts.overlays, views, reports),
              .layer_list = parts.layers.findChild<LayerModel*>()})
 {
     project.setScene({.choice = [this] { return scene.choice(); },

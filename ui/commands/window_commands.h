@@ -51,6 +51,7 @@ struct WindowParts {
     MeasureMarks& measure_marks;
     AnnotationMarks& annotation_marks;
     PictureSaver& pictures;
+    PictureScenes scenes;
     StretchControl& stretch;
     WindowDocks& docks;
     LayersPanel& layers;

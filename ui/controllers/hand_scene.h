@@ -3,7 +3,6 @@
 
 #include "core/globe/body_camera.h"
 #include "core/session/map.h"
-#include "core/view/camera.h"
 #include "haptics/interaction/stylus.h"
 #include "haptics/loop/camera_link.h"
 #include "haptics/terrain/servo_map.h"
@@ -14,13 +13,9 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
-#include <variant>
 #include <vector>
 
 namespace marsview {
-
-/// The camera of the flat map or of the globe.
-using SceneCamera = std::variant<OrbitCamera, BodyCamera>;
 
 /// The maps of a view as a hand touches them, and the camera that the hand moves. Places are those
 /// of the scene that the view draws: the body-fixed frame on the globe; elevations are exaggerated.

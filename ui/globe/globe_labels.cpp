@@ -92,36 +92,88 @@ void GlobeLabels::showSight()
     values_.clear();
     drawGraticule();
     if (!globe_.scene().isEmpty() && !globe_.isHidden()) {
-        const double scale = globe_.devicePixelRatioF();
-        const CameraPose pose = poseOf(globe_.camera(), globe_.scene().ellipsoid());
-        std::vector<LabelBox> taken = obstacleBoxes(scale);
+        const Sight now = sight();
+        std::vector<LabelBox> taken = obstacleBoxes(now.scale);
         for (const QRectF& box : taken_) {
-            taken.push_back(scaled(box, scale));
+            taken.push_back(scaled(box, now.scale));
         }
-        values_ = valuesIn(
-            graticule_.labels,
-            {.longitude_step = graticule_.longitude_step,
-             .latitude_step = graticule_.latitude_step,
-             .coordinates = format_,
-             .body = globe_.terrain()->map()->info().body},
-            globe_.viewport(), scale,
-            [&](const ScenePoint& place) {
-                return marsview::isVisible(globe_.scene(), pose, globe_.viewport(),
-                                           globe_.exaggeration(), place, scale);
-            },
-            taken);
+        values_ = valuesOf(graticule_, now, taken);
         if (names_) {
-            labels_ = namesIn(pose,
-                              {.viewport = globe_.viewport(),
-                               .pixels_per_point = scale,
-                               .exaggeration = globe_.exaggeration(),
-                               .obstacles = taken},
-                              *names_);
+            labels_ = namesOf(now, taken, *names_);
         }
     }
     if (had_labels || !labels_.empty() || !values_.empty()) {
         update();
     }
+}
+
+GlobeLabels::Sight GlobeLabels::sight() const
+{
+    return {.camera = globe_.camera(),
+            .viewport = globe_.viewport(),
+            .scale = globe_.devicePixelRatioF()};
+}
+
+std::vector<GlobeLabels::Label> GlobeLabels::valuesOf(const BodyGraticule& graticule,
+                                                      const Sight& sight,
+                                                      std::vector<LabelBox>& taken) const
+{
+    const CameraPose pose = poseOf(sight.camera, globe_.scene().ellipsoid());
+    return valuesIn(
+        graticule.labels,
+        {.longitude_step = graticule.longitude_step,
+         .latitude_step = graticule.latitude_step,
+         .coordinates = format_,
+         .body = globe_.terrain()->map()->info().body},
+        sight.viewport, sight.scale,
+        [&](const ScenePoint& place) {
+            return marsview::isVisible(globe_.scene(), pose, sight.viewport, globe_.exaggeration(),
+                                       place, sight.scale);
+        },
+        taken);
+}
+
+std::vector<GlobeLabels::Label> GlobeLabels::namesOf(const Sight& sight,
+                                                     const std::vector<LabelBox>& taken,
+                                                     NameLabels& names) const
+{
+    return namesIn(poseOf(sight.camera, globe_.scene().ellipsoid()),
+                   {.viewport = sight.viewport,
+                    .pixels_per_point = sight.scale,
+                    .exaggeration = globe_.exaggeration(),
+                    .obstacles = taken},
+                   names);
+}
+
+std::vector<PicturePart> GlobeLabels::partsFor(const BodyCamera& camera,
+                                               const QSize& size,
+                                               const std::vector<QRect>& obstacles)
+{
+    if (globe_.scene().isEmpty() || !isVisible()) {
+        return {};
+    }
+    const Sight sight{.camera = camera,
+                      .viewport = {.width = size.width(), .height = size.height()},
+                      .scale = static_cast<double>(size.height()) / height()};
+    std::vector<LabelBox> taken;
+    taken.reserve(obstacles.size());
+    for (const QRect& obstacle : obstacles) {
+        taken.push_back(scaled(obstacle, 1.0));
+    }
+    if (camera == globe_.camera()) { // measurements and annotations are drawn as in the window
+        const double left = 0.5 * (width() - size.width() / sight.scale);
+        for (const QRectF& box : taken_) {
+            taken.push_back(scaled(box.translated(-left, 0.0), sight.scale));
+        }
+    }
+    std::vector<Label> labels = valuesOf(graticuleIn(sight), sight, taken);
+    if (names_) {
+        // Of their own, because those of the window remember what they showed last.
+        NameLabels names(gazetteer_, globe_.scene());
+        const std::vector<Label> more = namesOf(sight, taken, names);
+        labels.insert(labels.end(), more.begin(), more.end());
+    }
+    return partsOf(labels, sight.scale);
 }
 
 void GlobeLabels::drawGraticule()
@@ -132,28 +184,31 @@ void GlobeLabels::drawGraticule()
         return;
     }
     pace_.begin();
-    graticule_ = {};
-    const BodyScene& scene = globe_.scene();
-    if (is_graticule_shown_ && !scene.isEmpty() && !globe_.isHidden()) {
-        const HeightRange range = scene.range();
-        const double exaggeration = globe_.exaggeration();
-        const BodyView view(poseOf(globe_.camera(), scene.ellipsoid()), globe_.viewport(),
-                            scene.ellipsoid(),
-                            {.lowest_m = range.minimum_m,
-                             .highest_m = range.maximum_m,
-                             .exaggeration = exaggeration});
-        graticule_ = bodyGraticule(
-            globe_.camera(), view,
-            [&](const GeographicPoint& place) { return scene.height(place) * exaggeration; },
-            {.pixels_per_point = globe_.devicePixelRatioF(),
-             .notation = format_.angles,
-             .latitudes = format_.latitudesOn(globe_.terrain()->map()->info().body)});
-    }
+    graticule_ = globe_.isHidden() ? BodyGraticule{} : graticuleIn(sight());
     if (!was_drawn && graticule_.lines.empty()) {
         return;
     }
     globe_.setLines(graticuleLines(graticule_.lines), LineSet::Graticule);
     pace_.end();
+}
+
+BodyGraticule GlobeLabels::graticuleIn(const Sight& sight) const
+{
+    const BodyScene& scene = globe_.scene();
+    if (!is_graticule_shown_ || scene.isEmpty()) {
+        return {};
+    }
+    const HeightRange range = scene.range();
+    const double exaggeration = globe_.exaggeration();
+    const BodyView view(
+        poseOf(sight.camera, scene.ellipsoid()), sight.viewport, scene.ellipsoid(),
+        {.lowest_m = range.minimum_m, .highest_m = range.maximum_m, .exaggeration = exaggeration});
+    return bodyGraticule(
+        sight.camera, view,
+        [&](const GeographicPoint& place) { return scene.height(place) * exaggeration; },
+        {.pixels_per_point = sight.scale,
+         .notation = format_.angles,
+         .latitudes = format_.latitudesOn(globe_.terrain()->map()->info().body)});
 }
 
 // Empty without a stylus.

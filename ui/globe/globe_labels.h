@@ -7,7 +7,9 @@
 #include "ui/canvas/drawing_pace.h"
 #include "ui/widgets/labels_overlay.h"
 
+#include <QRect>
 #include <QRectF>
+#include <QSize>
 
 #include <memory>
 #include <vector>
@@ -32,6 +34,11 @@ public:
     /// What labels keep clear of, next to overlays: boxes in points.
     void setTaken(std::vector<QRectF> boxes);
 
+    /// The labels of a picture of `size` pixels that `camera` has of what the globe shows, as large
+    /// as in the window where the picture is as high. They keep clear of `obstacles`, in pixels.
+    std::vector<PicturePart>
+    partsFor(const BodyCamera& camera, const QSize& size, const std::vector<QRect>& obstacles);
+
     using Label = PlacedName;
     const std::vector<Label>& labels() const noexcept { return labels_; }
     const std::vector<Label>& graticuleLabels() const noexcept { return values_; }
@@ -43,6 +50,19 @@ protected:
 private:
     void showScene();
     void drawGraticule();
+    // What labels are placed in.
+    struct Sight {
+        BodyCamera camera;
+        Viewport viewport;
+        double scale = 1.0; // pixels per point
+    };
+    Sight sight() const;
+    BodyGraticule graticuleIn(const Sight& sight) const;
+    std::vector<Label> valuesOf(const BodyGraticule& graticule,
+                                const Sight& sight,
+                                std::vector<LabelBox>& taken) const;
+    std::vector<Label>
+    namesOf(const Sight& sight, const std::vector<LabelBox>& taken, NameLabels& names) const;
     void paintLabels(const std::vector<Label>& labels, const QRectF& cursor, QPainter& painter);
     QRectF aroundStylus() const;
 

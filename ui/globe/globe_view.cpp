@@ -3,6 +3,7 @@
 #include "core/globe/horizon.h"
 #include "core/session/range_in_picture.h"
 #include "ui/canvas/view_projection.h"
+#include "ui/render/offscreen_picture.h"
 
 #include <QLabel>
 #include <QOpenGLContext>
@@ -796,6 +797,43 @@ void GlobeView::sendLayers()
         sent.push_back(std::move(layer));
     }
     renderer_->setLayers(sent);
+}
+
+Result<bool> GlobeView::drawPart(const BodyCamera& camera,
+                                 const DrawStyle& style,
+                                 const QRect& part,
+                                 PictureLines lines,
+                                 QImage& picture)
+{
+    if (!renderer_ || scene_.isEmpty()) {
+        return Error{ErrorCode::Unsupported,
+                     "cannot draw a picture: no graphics context; install the graphics driver"};
+    }
+    makeCurrent();
+    sendLayers();
+    DrawRequest request;
+    request.body_pose = poseOf(camera, scene_.ellipsoid());
+    Result<bool> drawn = marsview::drawPart(
+        {.terrain = *renderer_,
+         .line_renderer =
+             lines == PictureLines::Drawn && line_painter_ ? &line_painter_->lines() : nullptr,
+         .lines = lines_,
+         .view_height = static_cast<double>(height()),
+         .has_antialiasing = has_antialiasing_},
+        std::move(request), style, part, picture);
+    doneCurrent();
+    return drawn;
+}
+
+int GlobeView::pictureSideMax()
+{
+    if (!renderer_) {
+        return 0;
+    }
+    makeCurrent();
+    const int side_max = offscreenSideMax();
+    doneCurrent();
+    return side_max;
 }
 
 void GlobeView::paintGL()

@@ -12,6 +12,7 @@
 #include "ui/canvas/line_painter.h"
 #include "ui/canvas/line_sets.h"
 #include "ui/canvas/map_cursor.h"
+#include "ui/canvas/part_drawing.h"
 #include "ui/canvas/place_reader.h"
 #include "ui/canvas/place_tool.h"
 #include "ui/canvas/shown_layer.h"
@@ -141,6 +142,21 @@ public:
     /// the middle of it; without terrain there, for the camera's target. 0 before a layer is
     /// placed.
     double metersPerPointInMiddle() const;
+
+    /// There is a graphics context.
+    bool isReady() const noexcept { return renderer_ != nullptr; }
+    /// The exaggeration and look of now.
+    const DrawStyle& style() const noexcept { return style_; }
+    /// A part of the picture of any size that `camera` has, into `picture`, RGB888 of that size.
+    /// False, and nothing drawn, while pieces of it are missing: they are on their way. With
+    /// terrain only.
+    Result<bool> drawPart(const BodyCamera& camera,
+                          const DrawStyle& style,
+                          const QRect& part,
+                          PictureLines lines,
+                          QImage& picture);
+    /// Pixels a side that the graphics driver draws; 0 without a graphics context.
+    int pictureSideMax();
 
     /// True when the picture shows all there is, as well as can be, and nothing moves.
     bool isPictureComplete() const { return is_complete_ && !isMoving(); }

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/session/contour_labels.h"
-#include "ui/overlay/picture_part.h"
 #include "ui/text/number_text.h"
+#include "ui/widgets/picture_part.h"
 
 #include <QRect>
 #include <QTimer>

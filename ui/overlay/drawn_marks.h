@@ -4,7 +4,7 @@
 #include "core/view/color_ramp.h"
 #include "ui/drawing/drawn_item.h"
 #include "ui/overlay/box_grid.h"
-#include "ui/overlay/picture_part.h"
+#include "ui/widgets/picture_part.h"
 
 #include <QColor>
 #include <QHash>

@@ -163,6 +163,14 @@ void GlobeOverlays::addMarks(MeasureMarks& measurements,
     showSettings();
 }
 
+// Measurements over annotations.
+std::vector<const DrawnMarks*> GlobeOverlays::marks() const
+{
+    return annotation_marks_ != nullptr
+               ? std::vector<const DrawnMarks*>{annotation_marks_, measure_marks_}
+               : std::vector<const DrawnMarks*>{};
+}
+
 // What the flat map's overlays have been set to.
 void GlobeOverlays::showSettings()
 {

@@ -18,6 +18,7 @@ namespace marsview {
 class AnnotationMarks;
 class Compass;
 class Crosshair;
+class DrawnMarks;
 class FocusFrame;
 class ForceMeter;
 class GestureHint;
@@ -56,6 +57,9 @@ public:
     void addMarks(MeasureMarks& measurements,
                   AnnotationMarks& annotations,
                   const QList<QWidget*>& others);
+
+    /// Those that were added.
+    std::vector<const DrawnMarks*> marks() const;
 
 protected:
     bool eventFilter(QObject* watched, QEvent* event) override;

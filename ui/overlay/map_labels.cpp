@@ -192,25 +192,14 @@ std::vector<PicturePart> MapLabels::partsFor(const OrbitCamera& camera,
     if (names_) {
         names = std::make_unique<NameLabels>(gazetteer_, view_.ground());
     }
-    std::vector<PicturePart> parts;
+    std::vector<PlacedName> labels;
     for (const Mark& mark : marksOf(sight, names.get(), std::move(taken))) {
-        if (mark.point) {
-            const QPointF margin(kLabelDotRadius + kLabelRim, kLabelDotRadius + kLabelRim);
-            QImage dot((QSizeF(2.0 * margin.x(), 2.0 * margin.y()) * sight.scale).toSize(),
-                       QImage::Format_ARGB32_Premultiplied);
-            dot.fill(Qt::transparent);
-            QPainter painter(&dot);
-            painter.scale(sight.scale, sight.scale);
-            drawLabelDot(painter, margin);
-            painter.end();
-            parts.push_back(
-                {.image = std::move(dot), .at = ((*mark.point - margin) * sight.scale).toPoint()});
-        }
-        parts.push_back(
-            {.image = labelPicture(mark.label.text, labelFont(font(), mark.size), sight.scale),
-             .at = (mark.label.box.topLeft() * sight.scale).toPoint()});
+        labels.push_back({.text = mark.label.text,
+                          .box = mark.label.box,
+                          .size = mark.size,
+                          .point = mark.point});
     }
-    return parts;
+    return partsOf(labels, sight.scale);
 }
 
 std::vector<MapLabels::Mark>

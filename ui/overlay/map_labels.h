@@ -5,8 +5,8 @@
 #include "core/graticule/flat_graticule.h"
 #include "core/session/name_labels.h"
 #include "ui/canvas/drawing_pace.h"
-#include "ui/overlay/picture_part.h"
 #include "ui/widgets/labels_overlay.h"
+#include "ui/widgets/picture_part.h"
 
 #include <memory>
 #include <optional>

@@ -167,48 +167,6 @@ void MapOverlays::makeAction(const QString& text, const QString& name, const QLi
     actions_.append(action);
 }
 
-std::vector<PicturePart> MapOverlays::partsFor(const OrbitCamera& camera,
-                                               const QSize& picture,
-                                               const PictureParts& parts) const
-{
-    // The field of view is vertical: equal heights of the picture have equal meters per pixel.
-    const double scale = static_cast<double>(picture.height()) / view_.height();
-    const int more_width = qRound(picture.width() / scale) - view_.width();
-    std::vector<PicturePart> made;
-    const auto add = [&](QWidget* part, bool is_wanted) {
-        if (!is_wanted || !part->isVisible()) {
-            return;
-        }
-        QImage image((QSizeF(part->size()) * scale).toSize(), QImage::Format_ARGB32_Premultiplied);
-        image.setDevicePixelRatio(scale);
-        image.fill(Qt::transparent);
-        QPainter painter(&image);
-        part->render(&painter, {}, {}, QWidget::DrawChildren);
-        painter.end();
-        image.setDevicePixelRatio(1.0);
-        const bool is_at_right = part->geometry().center().x() > view_.width() / 2;
-        const QPointF at = part->pos() + QPoint(is_at_right ? more_width : 0, 0);
-        made.push_back({.image = std::move(image), .at = (at * scale).toPoint()});
-    };
-    add(legend_, parts.has_legend);
-    add(compass_, parts.has_scale);
-    add(scale_bar_, parts.has_scale);
-    if (parts.has_labels) {
-        std::vector<QRect> taken;
-        for (const PicturePart& part : made) {
-            taken.emplace_back(part.at, part.image.size());
-        }
-        for (PicturePart& label : labels_->partsFor(camera, picture, taken)) {
-            taken.emplace_back(label.at, label.image.size());
-            made.push_back(std::move(label));
-        }
-        for (PicturePart& label : contour_labels_->partsFor(camera, picture, taken)) {
-            made.push_back(std::move(label));
-        }
-    }
-    return made;
-}
-
 void MapOverlays::setCovered(int height)
 {
     covered_height_ = height;

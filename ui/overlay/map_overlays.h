@@ -3,12 +3,11 @@
 
 #include "core/geo/frames.h"
 #include "core/session/session.h"
-#include "core/view/camera.h"
-#include "ui/overlay/picture_part.h"
 #include "ui/text/number_text.h"
 
 #include <QList>
 #include <QObject>
+#include <QPoint>
 #include <QTimer>
 
 #include <cstddef>
@@ -70,18 +69,6 @@ public:
     bool isPlaceMarked() const noexcept { return marked_.has_value(); }
     void clearMark();
     PlaceMark* placeMark() const noexcept { return place_mark_; }
-
-    /// Which overlays a picture gets, as far as they are shown in the view.
-    struct PictureParts {
-        bool has_legend = true;
-        bool has_scale = true;  // compass and scale bar
-        bool has_labels = true; // names, values of the graticule, elevations of contours
-    };
-    /// The overlays for a picture of any size that `camera` takes of the same layers. Their size
-    /// grows with the height of the picture: they are as large as in the view if it is as high as
-    /// the view. They keep their distances from the corners.
-    std::vector<PicturePart>
-    partsFor(const OrbitCamera& camera, const QSize& picture, const PictureParts& parts) const;
 
     /// Names of layers, and which one is active. After the view shows them.
     void setSession(const Session& session);

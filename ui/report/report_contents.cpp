@@ -1,8 +1,6 @@
 #include "ui/report/report_contents.h"
 
-#include "core/session/saved_view.h"
 #include "core/view/scale_bar.h"
-#include "ui/canvas/terrain_view.h"
 #include "ui/controllers/annotation_controller.h"
 #include "ui/controllers/measure_controller.h"
 #include "ui/plots/hypsometry_plot.h"
@@ -180,29 +178,30 @@ QString bodyAndCrs(const Map& map)
     return parts.join(QStringLiteral(" · "));
 }
 
+// Of what the picture shows.
+QString bodyAndCrs(const PictureFacts& facts)
+{
+    const Map& map = *facts.maps.front();
+    return facts.is_on_body ? bodyName(*map.info().body) : bodyAndCrs(map);
+}
+
 ReportMap mapOf(const ReportSource& source, const QSize& picture)
 {
-    const TerrainView& view = source.view;
-    const Map& map = *view.map();
-    const OrbitCamera& camera = view.camera();
+    const PictureFacts& facts = source.map;
     ReportMap made;
-    made.legend = legendOf(source.legend);
-    const Viewport viewport{.width = picture.width(), .height = picture.height()};
-    if (const auto bar =
-            scaleBar(metersPerPixel(camera, viewport), kScaleShareMax * picture.width())) {
+    made.legend = legendOf(facts.legend);
+    if (const auto bar = scaleBar(facts.pixel_m, kScaleShareMax * picture.width())) {
         made.scale = ReportScale{.text = lengthText(bar->length_m),
                                  .share = bar->width_px / picture.width()};
     }
-    const auto place = viewCamera(map.georeference(), camera, view.exaggeration());
-    made.north_deg = -(place ? place->azimuth : camera.azimuth).degrees();
+    made.north_deg = -facts.heading.degrees();
     //: Below a map; %1 is the position in its middle, %2 a body and a CRS, %3 a factor
-    made.caption = reportTr(QT_TRANSLATE_NOOP("Report",
-                                              "The view in the window, with %1 in its middle. %2. "
-                                              "Vertical exaggeration ×%3"))
-                       .arg(positionText(source.format, map,
-                                         map.georeference().sceneFrame().toGrid(camera.target),
-                                         metersPerPixel(camera, viewport)),
-                            bodyAndCrs(map), shortNumberText(view.exaggeration(), 3));
+    made.caption =
+        reportTr(QT_TRANSLATE_NOOP("Report",
+                                   "The view in the window, with %1 in its middle. %2. "
+                                   "Vertical exaggeration ×%3"))
+            .arg(positionText(source.format, *facts.maps.front(), facts.middle, facts.pixel_m),
+                 bodyAndCrs(facts), shortNumberText(source.exaggeration, 3));
     return made;
 }
 
@@ -214,8 +213,12 @@ ReportSection layersSection(const ReportSource& source)
                                  reportTr(QT_TRANSLATE_NOOP("Report", "Samples")),
                                  reportTr(QT_TRANSLATE_NOOP("Report", "Pixel")),
                                  reportTr(QT_TRANSLATE_NOOP("Report", "Elevations"))}};
-    for (const Layer* layer : shownLayers(source.session)) {
-        const Map& map = *layer->map;
+    for (const Layer& layer : source.session.layers) {
+        if (std::find(source.map.maps.begin(), source.map.maps.end(), layer.map) ==
+            source.map.maps.end()) {
+            continue;
+        }
+        const Map& map = *layer.map;
         const RasterInfo& info = map.info();
         const Georeference georeference = georeferenceOf(info); // a preview's pixels are larger
         QString elevations;
@@ -226,7 +229,7 @@ ReportSection layersSection(const ReportSource& source)
             elevations += QStringLiteral(" (%1)").arg(datum);
         }
         table.rows.append(
-            {QString::fromStdString(layer->name), bodyAndCrs(map),
+            {QString::fromStdString(layer.name), bodyAndCrs(map),
              QStringLiteral("%1 × %2").arg(countText(info.columns), countText(info.rows)),
              QStringLiteral("%1 × %2 m")
                  .arg(shortNumberText(georeference.pixelWidthMeters(), 6),
@@ -336,7 +339,7 @@ std::optional<ReportSection> annotationsSection(const ReportSource& source)
         }
         if (++count; table.rows.size() < kRowsMax) {
             QString position =
-                positionText(source.format, *source.view.map(), item.vertices.front());
+                positionText(source.format, *source.map.maps.front(), item.vertices.front());
             if (!item.isSingle()) {
                 //: Of a line or border: %1 is the position of its first point
                 position = reportTr(QT_TRANSLATE_NOOP("Report", "from %1")).arg(position);
@@ -413,7 +416,7 @@ Report reportOf(const ReportSource& source, const ReportChoice& choice, const QS
 {
     const QDateTime now = QDateTime::currentDateTime();
     Report report{
-        .title = choice.title, .subtitle = bodyAndCrs(*source.view.map()), .credit = choice.credit};
+        .title = choice.title, .subtitle = bodyAndCrs(source.map), .credit = choice.credit};
     //: At the foot of a report; %1 is a version, %2 a date
     report.made_by = reportTr(QT_TRANSLATE_NOOP("Report", "Made with MarsView %1, %2"))
                          .arg(QCoreApplication::applicationVersion(),

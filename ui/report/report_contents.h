@@ -3,7 +3,7 @@
 
 #include "core/geo/coordinate_format.h"
 #include "core/session/session.h"
-#include "ui/overlay/legend.h"
+#include "ui/pictures/picture_scene.h"
 #include "ui/report/report.h"
 #include "ui/text/number_text.h"
 
@@ -14,7 +14,6 @@ namespace marsview {
 
 class AnnotationController;
 class MeasureController;
-class TerrainView;
 
 struct ReportChoice {
     QString title;
@@ -25,11 +24,11 @@ struct ReportChoice {
 };
 
 struct ReportSource {
-    const TerrainView& view; // with a map
+    PictureFacts map; // of the picture
+    double exaggeration = 1.0;
     const Session& session;
     const MeasureController& measuring;
     const AnnotationController& annotating;
-    LegendContent legend{};
     HeightUnit unit = HeightUnit::Meters;
     CoordinateFormat format{};
 };

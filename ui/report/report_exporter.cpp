@@ -1,11 +1,9 @@
 #include "ui/report/report_exporter.h"
 
-#include "ui/canvas/picture_drawing.h"
 #include "ui/canvas/terrain_view.h"
 #include "ui/controllers/annotation_controller.h"
 #include "ui/controllers/measure_controller.h"
-#include "ui/overlay/drawn_marks.h"
-#include "ui/overlay/map_overlays.h"
+#include "ui/pictures/picture_drawing.h"
 #include "ui/report/report_pdf.h"
 #include "ui/widgets/icons.h"
 
@@ -177,24 +175,23 @@ void ReportExporter::exportTo(const QString& file, const ReportChoice& choice)
     if (isExporting() || !parts_.view.map()) {
         return;
     }
+    PictureScene& scene = this->scene();
+    if (!scene.isReady()) {
+        Q_EMIT failed(tr("The map is not ready yet; try again in a moment"));
+        return;
+    }
     file_ = file;
-    const OrbitCamera camera = parts_.view.camera();
-    report_ = reportOf({.view = parts_.view,
+    const SceneCamera camera = scene.camera();
+    report_ = reportOf({.map = scene.facts(kReportPicture),
+                        .exaggeration = scene.style().exaggeration,
                         .session = parts_.session(),
                         .measuring = parts_.measuring,
                         .annotating = parts_.annotating,
-                        .legend = parts_.overlays.legend()->content(),
                         .unit = parts_.unit(),
                         .format = parts_.format()},
                        choice, kReportPicture);
-    labels_ = parts_.overlays.partsFor(
-        camera, kReportPicture, {.has_legend = false, .has_scale = false, .has_labels = true});
-    for (const DrawnMarks* marks : parts_.marks) {
-        for (PicturePart& part : marks->partsFor(kReportPicture)) {
-            labels_.push_back(std::move(part));
-        }
-    }
-    drawing_ = std::make_unique<PictureDrawing>(parts_.view, camera, kReportPicture);
+    labels_ = scene.partsFor(camera, kReportPicture, {.has_legend = false, .has_scale = false});
+    drawing_ = std::make_unique<PictureDrawing>(scene, camera, kReportPicture);
     connect(drawing_.get(), &PictureDrawing::progressed, this,
             [this](double share) { Q_EMIT progressed(file_, share); });
     // Queued: the drawing is deleted when it ends.

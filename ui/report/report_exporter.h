@@ -1,6 +1,7 @@
 // File › Export Report.
 #pragma once
 
+#include "ui/pictures/picture_scenes.h"
 #include "ui/report/report_contents.h"
 
 #include <QImage>
@@ -20,10 +21,8 @@ class QWidget;
 
 namespace marsview {
 
-class MapOverlays;
-class DrawnMarks;
 class PictureDrawing;
-struct PicturePart;
+class TerrainView;
 
 /// Asks for title, credit and contents, then for a file: HTML (.html) or PDF (.pdf), as its name
 /// ends. Draws the picture between the events of the GUI thread. One report at a time. Lives in the
@@ -37,8 +36,7 @@ public:
         QMenu& menu;              // the entry is inserted there,
         QAction* after = nullptr; // after this
         TerrainView& view;
-        MapOverlays& overlays;
-        std::vector<const DrawnMarks*> marks;
+        PictureScenes scenes;
         const MeasureController& measuring;
         const AnnotationController& annotating;
         std::function<QString()> project; // its name; empty if it was never saved
@@ -50,6 +48,8 @@ public:
     explicit ReportExporter(const Parts& parts, QObject* parent = nullptr);
     ~ReportExporter() override;
 
+    /// Whose picture a report has.
+    PictureScene& scene() const { return parts_.scenes.shown(); }
     /// The menu entry.
     QAction* action() const noexcept { return action_; }
     /// Opens the dialog. Not while isExporting().

@@ -1,7 +1,5 @@
 #include "ui/views/camera_flight.h"
 
-#include "ui/canvas/terrain_view.h"
-
 #include <QScopedValueRollback>
 
 #include <algorithm>
@@ -14,19 +12,30 @@ constexpr std::chrono::milliseconds kFlightFrame{16};
 
 } // namespace
 
-CameraFlight::CameraFlight(TerrainView& view, QObject* parent)
+CameraFlight::CameraFlight(const PictureScenes& scenes, QObject* parent)
     : QObject(parent)
-    , view_(view)
+    , scenes_(scenes)
 {
     timer_.setTimerType(Qt::PreciseTimer);
     timer_.setInterval(kFlightFrame);
     connect(&timer_, &QTimer::timeout, this, &CameraFlight::advance);
-    connect(&view_, &TerrainView::sightChanged, this, [this] {
-        // A change of the window's size changes what is in sight too, but not the camera.
-        if (isPlaying() && !is_moving_ && (view_.isMoving() || view_.camera() != set_)) {
-            interrupt();
-        }
-    });
+    for (PictureScene* scene : {&scenes_.flat, &scenes_.globe}) {
+        connect(scene, &PictureScene::sightChanged, this, [this, scene] { noteSight(*scene); });
+    }
+}
+
+PictureScene& CameraFlight::scene() const
+{
+    return scenes_.of(*path_);
+}
+
+// A change of the window's size changes what is in sight too, but not the camera.
+void CameraFlight::noteSight(const PictureScene& moved)
+{
+    if (isPlaying() && !is_moving_ && &moved == &scene() &&
+        (moved.isMoving() || moved.camera() != set_)) {
+        interrupt();
+    }
 }
 
 void CameraFlight::play(CameraPath path, std::chrono::milliseconds duration, double share)
@@ -52,7 +61,9 @@ void CameraFlight::interrupt()
 
 void CameraFlight::advance()
 {
-    if (view_.isMoving()) { // the next position of the path would end this motion unseen
+    if (scene().isMoving() ||
+        &scene() !=
+            &scenes_.shown()) { // the next position of the path would end this motion unseen
         interrupt();
         return;
     }
@@ -65,8 +76,8 @@ void CameraFlight::show(double share)
 {
     {
         const QScopedValueRollback moving(is_moving_, true);
-        view_.setCamera(path_->at(share));
-        set_ = view_.camera();
+        scene().setCamera(scene().cameraOn(*path_, share));
+        set_ = scene().camera();
     }
     Q_EMIT moved(share);
     if (share >= 1.0 && isPlaying()) {

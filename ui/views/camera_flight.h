@@ -1,7 +1,8 @@
-// Moving the view's camera along a path, until the path ends or the user takes the camera.
+// Moving the camera of a scene along a path, until the path ends or the user takes the camera.
 #pragma once
 
 #include "core/flight/camera_path.h"
+#include "ui/pictures/picture_scenes.h"
 
 #include <QElapsedTimer>
 #include <QObject>
@@ -12,15 +13,13 @@
 
 namespace marsview {
 
-class TerrainView;
-
 /// A motion by anything else, such as the mouse, a key or another layer on top, ends the flight.
-/// Its timer runs only while it plays. Lives in the GUI thread; the view outlives it.
+/// Its timer runs only while it plays. Lives in the GUI thread; the scenes outlive it.
 class CameraFlight final : public QObject {
     Q_OBJECT
 
 public:
-    explicit CameraFlight(TerrainView& view, QObject* parent = nullptr);
+    explicit CameraFlight(const PictureScenes& scenes, QObject* parent = nullptr);
 
     /// Plays from `share` of the path on; `duration` (> 0) is that of the whole path.
     void play(CameraPath path, std::chrono::milliseconds duration, double share = 0.0);
@@ -37,17 +36,19 @@ Q_SIGNALS:
     void interrupted();
 
 private:
+    PictureScene& scene() const;
+    void noteSight(const PictureScene& moved);
     void advance();
     void show(double share);
     void interrupt();
 
-    TerrainView& view_;
+    PictureScenes scenes_;
     std::optional<CameraPath> path_;
     std::chrono::milliseconds duration_{1};
     double begin_ = 0.0;
     QElapsedTimer clock_;
     QTimer timer_;
-    OrbitCamera set_;        // where the flight left the camera last
+    SceneCamera set_;        // where the flight left the camera last
     bool is_moving_ = false; // by this flight, at this moment
 };
 

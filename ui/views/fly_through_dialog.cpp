@@ -1,8 +1,6 @@
 #include "ui/views/fly_through_dialog.h"
 
-#include "ui/canvas/terrain_view.h"
 #include "ui/text/number_text.h"
-#include "ui/views/view_thumbnails.h"
 #include "ui/widgets/icons.h"
 
 #include <QCheckBox>
@@ -28,6 +26,7 @@
 #include <chrono>
 #include <cmath>
 #include <utility>
+#include <variant>
 
 namespace marsview {
 namespace {
@@ -53,7 +52,7 @@ QString clockText(double seconds)
 FlyThroughDialog::FlyThroughDialog(const Parts& parts, QWidget* parent)
     : QDialog(parent)
     , parts_(parts)
-    , flight_(parts.view)
+    , flight_(parts.scenes)
     , source_(new QComboBox(this))
     , pace_(new QComboBox(this))
     , distance_(new QDoubleSpinBox(this))
@@ -207,13 +206,12 @@ bool FlyThroughDialog::isLine() const
     return source_->currentIndex() > 0;
 }
 
-std::vector<OrbitCamera> FlyThroughDialog::viewCameras() const
+std::vector<SceneCamera> FlyThroughDialog::viewCameras() const
 {
-    std::vector<OrbitCamera> cameras;
+    std::vector<SceneCamera> cameras;
     const Session& session = parts_.session();
     for (const SavedView& view : session.views) {
-        if (const auto camera =
-                sceneCamera(parts_.view, session, view, parts_.view.exaggeration())) {
+        if (const auto camera = scene().cameraFor(session, view, scene().style().exaggeration)) {
             cameras.push_back(*camera);
         }
     }
@@ -238,9 +236,12 @@ void FlyThroughDialog::refresh()
                                  : viewCameras().size() < 2 && !lines_.empty() ? 1
                                                                                : 0);
         if (distance_->value() <= distance_->minimum()) {
-            const OrbitCamera& camera = parts_.view.camera();
-            distance_->setValue(camera.distance_m / 1000.0);
-            tilt_->setValue(std::clamp(qRound(camera.tilt.degrees()), 30, 75));
+            std::visit(
+                [this](const auto& camera) {
+                    distance_->setValue(camera.distance_m / 1000.0);
+                    tilt_->setValue(std::clamp(qRound(camera.tilt.degrees()), 30, 75));
+                },
+                scene().camera());
         }
     }
     planAgain();
@@ -250,20 +251,17 @@ void FlyThroughDialog::planAgain()
 {
     flight_.stop();
     path_.reset();
-    const TerrainView& view = parts_.view;
     if (isLine()) {
         const FlightLine& line = lines_[static_cast<std::size_t>(source_->currentIndex() - 1)];
-        path_ = CameraPath::alongLine(line.points, {.distance_m = distance_->value() * 1000.0,
-                                                    .tilt = Angle::degrees(tilt_->value()),
-                                                    .field_of_view = view.camera().field_of_view});
+        const Angle field_of_view =
+            std::visit([](const auto& camera) { return camera.field_of_view; }, scene().camera());
+        path_ = scene().pathAlong(line.points, {.distance_m = distance_->value() * 1000.0,
+                                                .tilt = Angle::degrees(tilt_->value()),
+                                                .field_of_view = field_of_view});
     } else if (const auto cameras = viewCameras(); cameras.size() >= 2) {
-        path_ = CameraPath::throughCameras(cameras,
-                                           static_cast<FlightPace>(pace_->currentData().toInt()));
+        path_ = scene().pathThrough(cameras, static_cast<FlightPace>(pace_->currentData().toInt()));
     }
     if (path_) {
-        path_ = path_->above([&view](double east_m, double north_m) {
-            return view.ground().height(east_m, north_m) * view.exaggeration();
-        });
         if (!is_duration_chosen_) {
             const QScopedValueRollback filling(is_filling_, true);
             duration_->setValue(std::clamp(std::round(kCalmSeconds * path_->length()), 4.0, 300.0));
@@ -339,7 +337,8 @@ void FlyThroughDialog::seek(int value)
         return;
     }
     flight_.stop();
-    parts_.view.setCamera(path_->at(static_cast<double>(value) / kSliderSteps));
+    PictureScene& flown = parts_.scenes.of(*path_);
+    flown.setCamera(flown.cameraOn(*path_, static_cast<double>(value) / kSliderSteps));
     showState();
 }
 

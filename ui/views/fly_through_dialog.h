@@ -3,6 +3,7 @@
 
 #include "core/flight/camera_path.h"
 #include "core/session/session.h"
+#include "ui/pictures/picture_scenes.h"
 #include "ui/views/camera_flight.h"
 #include "ui/views/fly_through_recorder.h"
 
@@ -25,22 +26,21 @@ class QToolButton;
 
 namespace marsview {
 
-class TerrainView;
-
 /// A line that can be flown along.
 struct FlightLine {
     QString name;
     std::vector<ScenePoint> points; // as they lie on the terrain; at least two
 };
 
-/// Plays in the view while it is open; what it asks to record is the path that it would play. Not
-/// modal: the map can be moved between two flights. GUI thread; outlived by what it is made of.
+/// Plays in the scene that is shown while it is open; what it asks to record is the path that it
+/// would play. Not modal: the map can be moved between two flights. GUI thread; outlived by what it
+/// is made of.
 class FlyThroughDialog final : public QDialog {
     Q_OBJECT
 
 public:
     struct Parts {
-        TerrainView& view;
+        PictureScenes scenes;
         std::function<const Session&()> session;
         std::function<std::vector<FlightLine>()> lines;
         std::function<QString()> folder; // where recordings go first
@@ -75,7 +75,8 @@ private:
     void makePathRows(QFormLayout& form);
     void makeRecordRows(QFormLayout& form);
     bool isLine() const;
-    std::vector<OrbitCamera> viewCameras() const;
+    PictureScene& scene() const { return parts_.scenes.shown(); }
+    std::vector<SceneCamera> viewCameras() const;
     void planAgain();
     void showState();
     void playOrPause();

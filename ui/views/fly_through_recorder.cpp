@@ -1,9 +1,7 @@
 #include "ui/views/fly_through_recorder.h"
 
-#include "ui/canvas/picture_drawing.h"
 #include "ui/canvas/picture_writer.h"
-#include "ui/canvas/terrain_view.h"
-#include "ui/overlay/map_overlays.h"
+#include "ui/pictures/picture_drawing.h"
 
 #include <QDir>
 #include <QFile>
@@ -12,26 +10,12 @@
 #include <QStandardPaths>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace marsview {
 namespace {
 
 constexpr int kErrorBytesMax = 4096;
-
-// The camera, raised if tiles that came since the path was planned are higher.
-OrbitCamera clearOfGround(OrbitCamera camera, const TerrainView& view)
-{
-    constexpr double kShare = 1.0 / 50.0; // as constrained()
-    const ScenePoint eye = eyeOf(camera);
-    const double ground_z = view.ground().height(eye.x, eye.y) * view.exaggeration();
-    const double missing = ground_z + kShare * camera.distance_m - eye.z;
-    if (missing > 0.0) {
-        camera.target.z += missing;
-    }
-    return camera;
-}
 
 // What ffmpeg gets for pictures of red, green and blue on its input.
 QStringList videoArguments(const RecordingOptions& options, const QString& file)
@@ -65,10 +49,9 @@ QStringList videoArguments(const RecordingOptions& options, const QString& file)
 
 } // namespace
 
-FlyThroughRecorder::FlyThroughRecorder(TerrainView& view, MapOverlays& overlays, QObject* parent)
+FlyThroughRecorder::FlyThroughRecorder(const PictureScenes& scenes, QObject* parent)
     : QObject(parent)
-    , view_(view)
-    , overlays_(overlays)
+    , scenes_(scenes)
     , jobs_(*this)
 {}
 
@@ -90,6 +73,11 @@ QString FlyThroughRecorder::frameFile(const QString& file, int number)
                                    .arg(number, 4, 10, QLatin1Char('0')));
 }
 
+PictureScene& FlyThroughRecorder::scene() const
+{
+    return scenes_.of(*path_);
+}
+
 bool FlyThroughRecorder::isVideo() const
 {
     return QFileInfo(file_).suffix().compare(QLatin1String("mp4"), Qt::CaseInsensitive) == 0;
@@ -102,8 +90,8 @@ void FlyThroughRecorder::start(CameraPath path,
     path_ = std::move(path);
     file_ = file;
     options_ = options;
-    style_ = view_.style();
-    map_ = view_.map().get();
+    style_ = scene().style();
+    map_ = scene().topmost();
     next_ = 0;
     written_.clear();
     monitor_ = std::make_shared<JobMonitor>();
@@ -168,13 +156,13 @@ void FlyThroughRecorder::startVideo()
 
 void FlyThroughRecorder::drawNext()
 {
-    if (view_.map().get() != map_) {
+    if (scene().topmost() != map_) {
         fail(tr("Recording stopped, because another layer is on top now"));
         return;
     }
     const double share = static_cast<double>(next_) / (options_.frame_count - 1);
     drawing_ = std::make_unique<PictureDrawing>(
-        view_, clearOfGround(path_->at(share), view_), options_.size,
+        scene(), scene().cameraOn(*path_, share), options_.size,
         options_.has_labels ? PictureLines::Drawn : PictureLines::Omitted);
     drawing_->setStyle(style_);
     // Queued: the drawing is deleted when it ends.
@@ -192,11 +180,11 @@ void FlyThroughRecorder::take(QImage picture)
     drawing_.reset();
     const double share = static_cast<double>(next_) / (options_.frame_count - 1);
     QPainter painter(&picture);
-    for (const PicturePart& part :
-         overlays_.partsFor(clearOfGround(path_->at(share), view_), options_.size,
-                            {.has_legend = options_.has_legend,
-                            .has_scale = false, // of the window's camera
-                             .has_labels = options_.has_labels})) {
+    for (const PicturePart& part : scene().partsFor(scene().cameraOn(*path_, share), options_.size,
+                                                    {.has_legend = options_.has_legend,
+                                                    .has_scale = false, // of the window's camera
+                                                     .has_labels = options_.has_labels,
+                                                    .has_marks = false})) {
         painter.drawImage(part.at, part.image);
     }
     painter.end();

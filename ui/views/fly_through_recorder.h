@@ -3,8 +3,8 @@
 
 #include "core/base/job_monitor.h"
 #include "core/flight/camera_path.h"
-#include "ui/canvas/terrain_canvas.h"
 #include "ui/controllers/detached_jobs.h"
+#include "ui/pictures/picture_scenes.h"
 #include "ui/render/terrain_renderer.h"
 
 #include <QObject>
@@ -18,9 +18,7 @@
 
 namespace marsview {
 
-class MapOverlays;
 class PictureDrawing;
-class TerrainView;
 
 struct RecordingOptions {
     QSize size{1920, 1080}; // pixels; even for videos
@@ -33,12 +31,12 @@ struct RecordingOptions {
 /// Draws frame after frame at full detail between the events of the GUI thread and encodes them on
 /// others: as FILE_0001.png and so on, or by the program ffmpeg for the extension .mp4. The look is
 /// that at the start. Nothing is left behind unless all is written. One recording at a time. Lives
-/// in the GUI thread; view and overlays outlive it.
+/// in the GUI thread; the scenes outlive it.
 class FlyThroughRecorder final : public QObject {
     Q_OBJECT
 
 public:
-    FlyThroughRecorder(TerrainView& view, MapOverlays& overlays, QObject* parent = nullptr);
+    explicit FlyThroughRecorder(const PictureScenes& scenes, QObject* parent = nullptr);
     ~FlyThroughRecorder() override;
 
     /// The path of ffmpeg; empty if it is not installed.
@@ -61,6 +59,7 @@ Q_SIGNALS:
     void canceled();
 
 private:
+    PictureScene& scene() const;
     bool isVideo() const;
     void startVideo();
     void drawNext();
@@ -71,13 +70,12 @@ private:
     void fail(const QString& problem);
     void end(bool is_complete);
 
-    TerrainView& view_;
-    MapOverlays& overlays_;
+    PictureScenes scenes_;
     std::optional<CameraPath> path_;
     QString file_;
     RecordingOptions options_;
     DrawStyle style_;
-    const void* map_ = nullptr;               // on top at the start
+    const Map* map_ = nullptr;                // on top at the start
     int next_ = 0;                            // frame
     QStringList written_;                     // files, to be removed unless all is written
     std::unique_ptr<PictureDrawing> drawing_; // null while a frame is encoded

@@ -1,9 +1,7 @@
 #include "ui/views/fly_through_tools.h"
 
-#include "ui/canvas/terrain_view.h"
 #include "ui/controllers/measure_controller.h"
 #include "ui/controllers/session_controller.h"
-#include "ui/overlay/map_overlays.h"
 
 #include <QAction>
 #include <QDir>
@@ -18,7 +16,7 @@ namespace marsview {
 FlyThroughTools::FlyThroughTools(const Parts& parts, QObject* parent)
     : QObject(parent)
     , parts_(parts)
-    , recorder_(parts.view, parts.overlays)
+    , recorder_(parts.scenes)
 {
     connect(&parts_.open, &QAction::triggered, this, &FlyThroughTools::open);
     refresh_timer_.setSingleShot(true);
@@ -31,7 +29,9 @@ FlyThroughTools::FlyThroughTools(const Parts& parts, QObject* parent)
     const auto refresh_soon = [this] { refresh_timer_.start(); };
     connect(&parts_.session, &SessionController::sessionChanged, this, refresh_soon);
     connect(&parts_.measuring, &MeasureController::changed, this, refresh_soon);
-    connect(&parts_.view, &TerrainView::layersChanged, this, refresh_soon);
+    for (const PictureScene* scene : {&parts_.scenes.flat, &parts_.scenes.globe}) {
+        connect(scene, &PictureScene::layersChanged, this, refresh_soon);
+    }
     connect(&recorder_, &FlyThroughRecorder::saved, this,
             [this](const QString& file) { folder_ = QFileInfo(file).absolutePath(); });
 }
@@ -45,7 +45,7 @@ void FlyThroughTools::open()
 {
     if (dialog_ == nullptr) {
         dialog_ = new FlyThroughDialog(
-            {.view = parts_.view,
+            {.scenes = parts_.scenes,
              .session = [this]() -> const Session& { return parts_.session.session(); },
              .lines = [this] { return lines(); },
              .folder = [this] { return folder(); }},

@@ -1,6 +1,7 @@
 // Fly-throughs in the window: the dialog, what there is to fly along, the recorder.
 #pragma once
 
+#include "ui/pictures/picture_scenes.h"
 #include "ui/views/fly_through_dialog.h"
 #include "ui/views/fly_through_recorder.h"
 
@@ -14,10 +15,8 @@ class QWidget;
 
 namespace marsview {
 
-class MapOverlays;
 class MeasureController;
 class SessionController;
-class TerrainView;
 
 /// GUI thread; must not outlive what it is made of.
 class FlyThroughTools final : public QObject {
@@ -27,8 +26,7 @@ public:
     struct Parts {
         QWidget& window;
         SessionController& session;
-        TerrainView& view;
-        MapOverlays& overlays;
+        PictureScenes scenes;
         MeasureController& measuring;
         QAction& open; // opens the dialog
     };

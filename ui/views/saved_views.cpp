@@ -3,6 +3,7 @@
 #include "core/flight/camera_path.h"
 #include "ui/canvas/terrain_view.h"
 #include "ui/controllers/session_controller.h"
+#include "ui/pictures/flat_pictures.h"
 #include "ui/text/coordinate_text.h"
 #include "ui/views/view_name.h"
 #include "ui/widgets/icons.h"
@@ -34,8 +35,8 @@ std::chrono::milliseconds flightTime(double length)
 SavedViews::SavedViews(const Parts& parts, QObject* parent)
     : QObject(parent)
     , parts_(parts)
-    , thumbnails_(parts.view)
-    , flight_(parts.view)
+    , thumbnails_(parts.scenes)
+    , flight_(parts.scenes)
 {
     makeActions();
     fillMenu();

@@ -31,6 +31,7 @@ public:
     struct Parts {
         SessionController& session;
         TerrainView& view;
+        PictureScenes scenes;
         SavedViewsPanel& panel;
         QMenu& menu;                            // the new one is inserted there,
         QAction* before = nullptr;              // before this

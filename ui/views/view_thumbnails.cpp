@@ -1,7 +1,6 @@
 #include "ui/views/view_thumbnails.h"
 
-#include "ui/canvas/picture_drawing.h"
-#include "ui/canvas/terrain_view.h"
+#include "ui/pictures/picture_drawing.h"
 
 #include <QImage>
 
@@ -17,35 +16,27 @@ constexpr std::chrono::milliseconds kThumbnailDelay{50};
 
 } // namespace
 
-std::optional<OrbitCamera> sceneCamera(const TerrainView& view,
-                                       const Session& session,
-                                       const SavedView& saved,
-                                       double exaggeration)
-{
-    const auto& map = view.map();
-    if (!map) {
-        return std::nullopt;
-    }
-    const Body* body = map->info().body;
-    const Layer* layer = layerOf(session, saved.layer);
-    const bool is_same_map = layer != nullptr && layer->map == map;
-    const bool is_same_body = body != nullptr && body->name == saved.body;
-    if (!is_same_map && !is_same_body) {
-        return std::nullopt;
-    }
-    return orbitCamera(map->georeference(), saved.camera, exaggeration);
-}
-
-ViewThumbnails::ViewThumbnails(TerrainView& view, QObject* parent)
+ViewThumbnails::ViewThumbnails(const PictureScenes& scenes, QObject* parent)
     : QObject(parent)
-    , view_(view)
+    , scenes_(scenes)
 {
     timer_.setSingleShot(true);
     timer_.setInterval(kThumbnailDelay);
     connect(&timer_, &QTimer::timeout, this, &ViewThumbnails::drawNext);
-    connect(&view_, &TerrainView::layersChanged, this, &ViewThumbnails::makeStale);
-    connect(&view_, &TerrainView::lookChanged, this, &ViewThumbnails::makeStale);
-    connect(&view_, &TerrainView::pictureCompleted, &timer_, qOverload<>(&QTimer::start));
+    connectTo(scenes_.flat);
+    connectTo(scenes_.globe);
+}
+
+void ViewThumbnails::connectTo(PictureScene& scene)
+{
+    const auto make_stale = [this, &scene] {
+        if (&scene == &scenes_.shown()) {
+            makeStale();
+        }
+    };
+    connect(&scene, &PictureScene::layersChanged, this, make_stale);
+    connect(&scene, &PictureScene::lookChanged, this, make_stale);
+    connect(&scene, &PictureScene::pictureCompleted, &timer_, qOverload<>(&QTimer::start));
 }
 
 ViewThumbnails::~ViewThumbnails() = default;
@@ -98,9 +89,16 @@ void ViewThumbnails::makeStale()
     }
 }
 
-std::optional<OrbitCamera> ViewThumbnails::cameraOf(const SavedView& view) const
+std::optional<SceneCamera> ViewThumbnails::cameraOf(const SavedView& view) const
 {
-    return sceneCamera(view_, session_, view, view.exaggeration);
+    return scenes_.shown().cameraFor(session_, view, view.exaggeration);
+}
+
+// A picture of the scene that a view was saved in replaces one of the other scene.
+bool ViewThumbnails::isCurrent(const Entry& entry, const SavedView& view) const
+{
+    const bool is_own_shown = view.is_on_globe == (&scenes_.shown() == &scenes_.globe);
+    return entry.is_current && (entry.is_of_globe == view.is_on_globe || !is_own_shown);
 }
 
 const SavedView* ViewThumbnails::next() const
@@ -108,14 +106,15 @@ const SavedView* ViewThumbnails::next() const
     const auto found =
         std::find_if(session_.views.begin(), session_.views.end(), [this](const SavedView& view) {
             const auto entry = entries_.find(view.id);
-            return entry != entries_.end() && !entry->second.is_current && cameraOf(view);
+            return entry != entries_.end() && !isCurrent(entry->second, view) && cameraOf(view);
         });
     return found != session_.views.end() ? &*found : nullptr;
 }
 
 void ViewThumbnails::drawNext()
 {
-    if (!is_wanted_ || drawing_ || !view_.isReady() || !view_.isPictureComplete()) {
+    PictureScene& scene = scenes_.shown();
+    if (!is_wanted_ || drawing_ || !scene.isReady() || !scene.isComplete()) {
         return; // pictureCompleted() follows
     }
     const SavedView* view = next();
@@ -125,18 +124,22 @@ void ViewThumbnails::drawNext()
     drawing_id_ = view->id;
     Entry& entry = entries_[drawing_id_];
     entry.is_current = true; // unless something changes while it is drawn
-    const double ratio = view_.devicePixelRatioF();
+    entry.is_of_globe = &scene == &scenes_.globe;
+    const double ratio = scene.devicePixelRatio();
     drawing_ = std::make_unique<PictureDrawing>(
-        view_, *cameraOf(*view), (QSizeF(kSize) * ratio).toSize(), PictureLines::Omitted);
-    DrawStyle style = view_.style();
+        scene, *cameraOf(*view), (QSizeF(kSize) * ratio).toSize(), PictureLines::Omitted);
+    DrawStyle style = scene.style();
     style.exaggeration = view->exaggeration;
     drawing_->setStyle(style);
-    const auto end = [this](const QImage& picture) {
+    const auto end = [this, ratio, &scene](const QImage& picture) {
         drawing_.reset();
         const ViewId id = std::exchange(drawing_id_, ViewId::None);
+        if (picture.isNull() && &scene != &scenes_.shown()) {
+            entries_[id].is_current = false; // the other scene came in between
+        }
         if (!picture.isNull() && viewOf(session_, id) != nullptr) {
             QPixmap pixmap = QPixmap::fromImage(picture);
-            pixmap.setDevicePixelRatio(view_.devicePixelRatioF());
+            pixmap.setDevicePixelRatio(ratio);
             entries_[id].picture = pixmap;
             Q_EMIT drawn(id);
         }

@@ -3,6 +3,7 @@
 
 #include "core/session/saved_view.h"
 #include "core/session/session.h"
+#include "ui/pictures/picture_scenes.h"
 
 #include <QObject>
 #include <QPixmap>
@@ -16,17 +17,16 @@
 namespace marsview {
 
 class PictureDrawing;
-class TerrainView;
 
-/// Draws one picture after the other in the GUI thread while the view is at rest. A view whose
-/// layer is not in the picture keeps the last one. Outlived by the view.
+/// Draws one picture after the other in the GUI thread while the map is at rest, of the scene that
+/// is shown. A view whose layer is not in it keeps the last one. Outlived by the scenes.
 class ViewThumbnails final : public QObject {
     Q_OBJECT
 
 public:
     static constexpr QSize kSize{112, 70}; // points
 
-    explicit ViewThumbnails(TerrainView& view, QObject* parent = nullptr);
+    explicit ViewThumbnails(const PictureScenes& scenes, QObject* parent = nullptr);
     ~ViewThumbnails() override;
 
     /// Whether anyone looks at them; nothing is drawn otherwise.
@@ -47,14 +47,17 @@ private:
         double exaggeration = 1.0;
         QPixmap picture;
         bool is_current = false;
+        bool is_of_globe = false;
     };
 
-    std::optional<OrbitCamera> cameraOf(const SavedView& view) const;
+    std::optional<SceneCamera> cameraOf(const SavedView& view) const;
+    bool isCurrent(const Entry& entry, const SavedView& view) const;
+    void connectTo(PictureScene& scene);
     const SavedView* next() const;
     void drawNext();
     void makeStale();
 
-    TerrainView& view_;
+    PictureScenes scenes_;
     Session session_;
     std::map<ViewId, Entry> entries_;
     bool is_wanted_ = false;
@@ -62,12 +65,5 @@ private:
     std::unique_ptr<PictureDrawing> drawing_;
     QTimer timer_;
 };
-
-/// Whether a view can be seen with the layers that `view` shows now: its body is theirs, or its
-/// layer is on top. Then the camera for it.
-std::optional<OrbitCamera> sceneCamera(const TerrainView& view,
-                                       const Session& session,
-                                       const SavedView& saved,
-                                       double exaggeration);
 
 } // namespace marsview

@@ -3,6 +3,7 @@
 #include "ui/text/coordinate_text.h"
 
 #include <QEvent>
+#include <QPainter>
 
 #include <algorithm>
 #include <utility>
@@ -47,6 +48,29 @@ std::vector<LabelBox> LabelsOverlay::obstacleBoxes(double scale) const
         }
     }
     return boxes;
+}
+
+std::vector<PicturePart> LabelsOverlay::partsOf(const std::vector<PlacedName>& labels,
+                                                double scale) const
+{
+    std::vector<PicturePart> parts;
+    for (const PlacedName& label : labels) {
+        if (label.point) {
+            const QPointF margin(kLabelDotRadius + kLabelRim, kLabelDotRadius + kLabelRim);
+            QImage dot((QSizeF(2.0 * margin.x(), 2.0 * margin.y()) * scale).toSize(),
+                       QImage::Format_ARGB32_Premultiplied);
+            dot.fill(Qt::transparent);
+            QPainter painter(&dot);
+            painter.scale(scale, scale);
+            drawLabelDot(painter, margin);
+            painter.end();
+            parts.push_back(
+                {.image = std::move(dot), .at = ((*label.point - margin) * scale).toPoint()});
+        }
+        parts.push_back({.image = labelPicture(label.text, labelFont(font(), label.size), scale),
+                         .at = (label.box.topLeft() * scale).toPoint()});
+    }
+    return parts;
 }
 
 std::vector<LabelsOverlay::PlacedName> LabelsOverlay::namesIn(const CameraPose& camera,

@@ -6,6 +6,7 @@
 #include "core/session/name_labels.h"
 #include "core/view/camera.h"
 #include "core/view/label_placement.h"
+#include "ui/widgets/picture_part.h"
 #include "ui/widgets/rimmed_label.h"
 
 #include <QHash>
@@ -64,6 +65,8 @@ protected:
                                      double scale,
                                      const std::function<bool(const ScenePoint&)>& is_visible,
                                      std::vector<LabelBox>& taken) const;
+    /// Labels that were placed in a picture of its own, with `scale` pixels per point.
+    std::vector<PicturePart> partsOf(const std::vector<PlacedName>& labels, double scale) const;
     /// What a cursor there needs: labels that would cover it are left out. In points.
     static QRectF aroundCursor(QPointF place);
     static LabelBox scaled(const QRectF& box, double scale);

@@ -3,11 +3,13 @@
 #include "tests/ui/map_window.h"
 #include "ui/commands/picture_saver.h"
 #include "ui/controllers/measure_controller.h"
+#include "ui/globe/globe_view.h"
 #include "ui/overlay/force_meter.h"
 #include "ui/overlay/legend.h"
 #include "ui/overlay/map_labels.h"
 #include "ui/overlay/map_overlays.h"
 #include "ui/overlay/minimap.h"
+#include "ui/pictures/flat_pictures.h"
 #include "ui/window/window_actions.h"
 
 #include <QAction>
@@ -145,8 +147,9 @@ TEST_F(MapLabelsTest, SavedPicturesHaveTheLabelsAndLinesOfTheView)
     openMars();
     action("graticule").trigger();
     ASSERT_TRUE(waitFor([this] { return view().isPictureComplete(); }));
-    PictureSaver saver(*window_->view(), *window_->overlays(), PictureSaver::Memory::WindowOnly,
-                       window_.get());
+    FlatPictures pictures(view(), *window_->overlays());
+    PictureSaver saver({.flat = pictures, .globe = pictures, .globe_view = *window_->globe()},
+                       PictureSaver::Memory::WindowOnly, window_.get());
     const QSize size{view().viewport().width, view().viewport().height};
     const auto picture = [&](const QSize& pixels, bool has_labels) {
         const QString file = maps_.path(QStringLiteral("labels.png"));

@@ -246,7 +246,7 @@ TEST_F(ReportTest, TheScaleBarIsAsLongAsItSays)
         camera.distance_m *= factor;
         view().setCamera(camera);
         const QSize size(2000, 1500);
-        const Report report = reportOf({.view = view(),
+        const Report report = reportOf({.map = window_->commands().reports.scene().facts(size),
                                         .session = window_->session(),
                                         .measuring = *window_->measuring(),
                                         .annotating = *window_->annotating()},
@@ -267,7 +267,7 @@ TEST_F(ReportTest, NorthIsWhereTheCameraTurnedIt)
     OrbitCamera camera = view().camera();
     camera.azimuth = Angle::degrees(30.0);
     view().setCamera(camera);
-    const Report report = reportOf({.view = view(),
+    const Report report = reportOf({.map = window_->commands().reports.scene().facts({800, 600}),
                                     .session = window_->session(),
                                     .measuring = *window_->measuring(),
                                     .annotating = *window_->annotating()},

@@ -1,8 +1,7 @@
 // Drawing a picture of any size while the window stays usable.
 #pragma once
 
-#include "core/view/camera.h"
-#include "ui/canvas/terrain_canvas.h"
+#include "ui/pictures/picture_scene.h"
 
 #include <QImage>
 #include <QObject>
@@ -10,22 +9,20 @@
 
 namespace marsview {
 
-class TerrainView;
-
 /// Draws the terrain that a camera has, block by block, in the GUI thread between its events. Look
-/// and exaggeration are those at the start unless set. Where the view gets other layers meanwhile,
-/// it begins again with these. Its end stops it. Must not outlive the view.
+/// and exaggeration are those at the start unless set. Where the scene gets other layers meanwhile,
+/// it begins again with these. Its end stops it. Must not outlive the scene.
 class PictureDrawing final : public QObject {
     Q_OBJECT
 
 public:
-    PictureDrawing(TerrainView& view,
-                   const OrbitCamera& camera,
+    PictureDrawing(PictureScene& scene,
+                   const SceneCamera& camera,
                    const QSize& size,
                    PictureLines lines = PictureLines::Drawn,
                    QObject* parent = nullptr);
 
-    /// In place of the view's; before the first events are handled.
+    /// In place of the scene's; before the first events are handled.
     void setStyle(const DrawStyle& style) { style_ = style; }
 
 Q_SIGNALS:
@@ -38,8 +35,8 @@ Q_SIGNALS:
 private:
     void drawNext();
 
-    TerrainView& view_;
-    OrbitCamera camera_;
+    PictureScene& scene_;
+    SceneCamera camera_;
     DrawStyle style_;
     PictureLines lines_;
     QImage picture_;

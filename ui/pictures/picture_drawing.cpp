@@ -1,6 +1,4 @@
-#include "ui/canvas/picture_drawing.h"
-
-#include "ui/canvas/terrain_view.h"
+#include "ui/pictures/picture_drawing.h"
 
 #include <chrono>
 
@@ -20,21 +18,21 @@ int blocksAlong(int pixels)
 
 } // namespace
 
-PictureDrawing::PictureDrawing(TerrainView& view,
-                               const OrbitCamera& camera,
+PictureDrawing::PictureDrawing(PictureScene& scene,
+                               const SceneCamera& camera,
                                const QSize& size,
                                PictureLines lines,
                                QObject* parent)
     : QObject(parent)
-    , view_(view)
+    , scene_(scene)
     , camera_(camera)
-    , style_(view.style())
+    , style_(scene.style())
     , lines_(lines)
     , picture_(size, QImage::Format_RGB888)
 {
     timer_.setSingleShot(true);
     connect(&timer_, &QTimer::timeout, this, &PictureDrawing::drawNext);
-    connect(&view_, &TerrainView::layersChanged, this, [this] { next_ = 0; });
+    connect(&scene_, &PictureScene::layersChanged, this, [this] { next_ = 0; });
     timer_.start(0);
 }
 
@@ -51,7 +49,7 @@ void PictureDrawing::drawNext()
     const QRect block(next_ % columns * kBlockSide, next_ / columns * kBlockSide, kBlockSide,
                       kBlockSide);
     const Result<bool> drawn =
-        view_.drawPart(camera_, style_, block.intersected(picture_.rect()), lines_, picture_);
+        scene_.drawPart(camera_, style_, block.intersected(picture_.rect()), lines_, picture_);
     if (!drawn) {
         Q_EMIT failed(QString::fromStdString(drawn.error().message));
         return;
