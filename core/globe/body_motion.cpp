@@ -187,6 +187,21 @@ BodyCamera broughtTo(BodyCamera camera,
 
 } // namespace
 
+BodyCamera
+steered(const BodyCamera& camera, const CapRates& rates, double seconds, const BodyLimits& limits)
+{
+    const double pan_share = kCapPanPerS * seconds;
+    BodyCamera next = panned(camera, pan_share * capSpeed(rates.push.x),
+                             pan_share * capSpeed(rates.push.y), limits.ellipsoid);
+    // Azimuth is clockwise, rotations about the upward axis are counterclockwise.
+    next = orbited(next, kCapTurnPerS * (-seconds * capSpeed(rates.turn.z)),
+                   kCapTiltPerS * (seconds * capSpeed(rates.turn.x)));
+    next.distance_m =
+        std::clamp(next.distance_m * std::pow(kCapZoomPerS, seconds * capSpeed(rates.push.z)),
+                   limits.distance_min_m, limits.distance_max_m);
+    return next;
+}
+
 ScenePoint pointOnBody(const Ray& ray, const Ellipsoid& ellipsoid, const ScenePoint& level)
 {
     const double polar_scale = ellipsoid.equatorial_m / ellipsoid.polar_m;

@@ -6,6 +6,7 @@
 
 #include "core/globe/body_camera.h"
 #include "core/globe/body_navigation.h"
+#include "core/view/cap_steering.h"
 
 namespace marsview {
 
@@ -38,6 +39,11 @@ BodyCamera orbited(BodyCamera camera, Angle azimuth_change, Angle tilt_change);
 /// viewer, but by no more than an eighth of a turn.
 BodyCamera
 panned(BodyCamera camera, double right_share, double forward_share, const Ellipsoid& ellipsoid);
+
+/// The camera `seconds` later, moved as if a cap were the viewer (core/view/cap_steering.h): pans
+/// are along great circles.
+BodyCamera
+steered(const BodyCamera& camera, const CapRates& rates, double seconds, const BodyLimits& limits);
 
 /// Where the ray through a pixel meets the body, with the ellipsoid raised to go through `level`;
 /// beside the body, the nearest point on its edge.

@@ -31,16 +31,21 @@ void BodyStylus::setModel(ContactModelKind kind)
 
 void BodyStylus::aim(const BodyAim& at, const StylusButtons& buttons, double point_m)
 {
-    const StylusMode mode =
-        buttons.is_pressing ? StylusMode::Press : StylusMode::Hover; // nothing to grab yet
+    const StylusMode mode = pose_ ? nextMode(pose_->mode, buttons, pose_->is_in_contact)
+                                  : nextMode(StylusMode::Hover, buttons, false);
+    if (pose_ && (mode == StylusMode::Pan || mode == StylusMode::Zoom)) {
+        pose_->mode = mode;
+        return;
+    }
+    const bool is_pressing = mode == StylusMode::Press;
     if (at.index != at_.index) {
         model_.reset();
     }
     at_ = at;
     point_m_ = point_m;
-    const double up_points = buttons.is_pressing ? -reach_.depth_points : reach_.hover_points;
+    const double up_points = is_pressing ? -reach_.depth_points : reach_.hover_points;
     const ScenePoint goal = at_.point + at_.up * (up_points * point_m_);
-    if (buttons.is_pressing) {
+    if (is_pressing) {
         press(goal);
     } else {
         model_.reset(); // a hovering stylus has no height of its own, so ridges cannot obstruct it

@@ -21,8 +21,8 @@ struct BodyAim {
 };
 
 /// As Stylus over flat maps: in contact while it presses, free while it hovers, in the direction of
-/// the local vertical under the pointer. Positions and forces are in the body-fixed frame. For the
-/// GUI thread: an update takes microseconds.
+/// the local vertical under the pointer; a grab keeps that state. Positions and forces are in the
+/// body-fixed frame. For the GUI thread: an update takes microseconds.
 class BodyStylus {
 public:
     struct Surface {
@@ -41,6 +41,7 @@ public:
     ContactModelKind model() const noexcept { return kind_; }
 
     /// The pointer is over this point, where a screen point has the positive length `point_m`.
+    /// While the body is grabbed, goal and proxy do not move.
     void aim(const BodyAim& at, const StylusButtons& buttons, double point_m);
     /// The pointer is not over the terrain, or has left the view.
     void lift();

@@ -7,6 +7,7 @@
 #include "ui/canvas/place_reader.h"
 #include "ui/canvas/shown_scene.h"
 #include "ui/canvas/sight_memory.h"
+#include "ui/canvas/steered_view.h"
 #include "ui/canvas/terrain_canvas.h"
 #include "ui/canvas/touch_tool.h"
 #include "ui/canvas/view_projection.h"
@@ -25,7 +26,7 @@ namespace marsview {
 
 /// Joins the scene, the camera, the canvas that draws them, and the tools; passes events on to
 /// them.
-class TerrainView final : public QOpenGLWidget {
+class TerrainView final : public QOpenGLWidget, public SteeredView {
     Q_OBJECT
 
 public:
@@ -66,7 +67,7 @@ public:
     Viewport viewport() const { return viewportOf(*this); }
     /// Jumps, within the limits.
     void setCamera(const OrbitCamera& camera) { camera_.jumpTo(camera); }
-    bool isMoving() const noexcept { return camera_.isMoving(); }
+    bool isMoving() const noexcept override { return camera_.isMoving(); }
 
     double exaggeration() const noexcept { return scene_.style.exaggeration; }
     /// Keeps the piece of ground in the middle of the picture there.
@@ -90,16 +91,8 @@ public:
     void setDots(DotSet dots, LineSet set) { canvas_.setDots(std::move(dots), set); }
 
     void step(NavigationStep step);
-    /// Moves as a cap is pushed, for the time since it was asked last: once a frame while the cap
-    /// is pushed, and once at rest to end with. Draws nothing where the camera stays where it is.
-    /// Without effect while the view is hidden.
-    void steer(const CapRates& rates, double seconds)
-    {
-        if (!isHidden()) {
-            camera_.steer(rates, seconds);
-        }
-    }
-    void goHome();
+    void steer(const CapRates& rates, double seconds) override { camera_.steer(rates, seconds); }
+    void goHome() override;
     void turnNorthUp();
     /// Flies to a place of the topmost layer; `distance_m` of 0 keeps the distance.
     void flyTo(GridPoint grid, double distance_m) { camera_.flyTo(grid, distance_m); }

@@ -1,7 +1,6 @@
 #include "ui/commands/contour_tools.h"
 
 #include "core/view/terrain_look.h"
-#include "ui/canvas/terrain_view.h"
 #include "ui/controllers/session_controller.h"
 #include "ui/dialogs/interval_dialog.h"
 #include "ui/text/number_text.h"
@@ -55,12 +54,14 @@ double ContourTools::shownInterval() const
     const Layer* active = activeLayer(parts_.session.session());
     TerrainLook look = parts_.session.session().look;
     look.has_contours = true;
-    if (active == nullptr) {
+    const PictureScene& scene = parts_.scenes.shown();
+    if (active == nullptr || scene.topmost() == nullptr) {
         return 0.0;
     }
+    const Viewport picture = scene.viewport();
     return contourInterval(look, active->map->heightfield().range().value_or(HeightRange{}),
-                           metersPerPixel(parts_.view.camera(), parts_.view.viewport()),
-                           parts_.view.exaggeration());
+                           scene.facts({picture.width, picture.height}).pixel_m,
+                           scene.style().exaggeration);
 }
 
 void ContourTools::askInterval()

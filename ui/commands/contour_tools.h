@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/contours/contour_export.h"
+#include "ui/pictures/picture_scenes.h"
 
 #include <QObject>
 #include <QString>
@@ -17,7 +18,6 @@ class QProgressDialog;
 namespace marsview {
 
 class SessionController;
-class TerrainView;
 
 /// Asks for the interval of the contour lines, and exports the contours of the active layer on a
 /// thread of its own. GUI thread; must not outlive its parts.
@@ -28,7 +28,7 @@ public:
     struct Parts {
         QMainWindow& window;
         SessionController& session;
-        TerrainView& view;
+        PictureScenes scenes;
         QAction& interval;
         QAction& export_contours;
     };

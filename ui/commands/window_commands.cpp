@@ -5,6 +5,7 @@
 #include "ui/controllers/annotation_controller.h"
 #include "ui/controllers/measure_controller.h"
 #include "ui/controllers/session_controller.h"
+#include "ui/globe/globe_view.h"
 #include "ui/overlay/map_labels.h"
 #include "ui/overlay/map_overlays.h"
 #include "ui/overlay/measure_marks.h"
@@ -60,7 +61,7 @@ WindowCommands::WindowCommands(const WindowParts& parts, const WindowOptions& op
                     .has_questions = options.questions == WindowOptions::Questions::Ask})
     , contours({.window = parts.window,
                 .session = parts.session,
-                .view = parts.view,
+                .scenes = parts.scenes,
                 .interval = *parts.actions.contour_interval,
                 .export_contours = *parts.actions.export_contours})
     , vector_files({.window = parts.window,
@@ -194,7 +195,9 @@ WindowCommands::WindowCommands(const WindowParts& parts, const WindowOptions& op
              .messages = parts.messages,
              .open_sound = options.open_sound,
              .is_remembered = options.isRemembered()})
-    , spacemouse(parts.view, options.spacemouse)
+    , spacemouse({{.widget = parts.view, .view = parts.view},
+                  {.widget = parts.globe, .view = parts.globe}},
+                 options.spacemouse)
     , help(parts.window, parts.view, parts.actions)
     , scene({.actions = parts.actions,
              .view = parts.view,

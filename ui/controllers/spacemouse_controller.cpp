@@ -1,6 +1,6 @@
 #include "ui/controllers/spacemouse_controller.h"
 
-#include "ui/canvas/terrain_view.h"
+#include "ui/canvas/steered_view.h"
 
 #include <QApplication>
 
@@ -43,11 +43,11 @@ std::unique_ptr<SpaceMouse> openFirst(const HidApi& api, const std::function<voi
 
 } // namespace
 
-SpaceMouseController::SpaceMouseController(TerrainView& view,
+SpaceMouseController::SpaceMouseController(std::vector<SteeredWidget> views,
                                            const SpaceMouseOptions& options,
                                            QObject* parent)
     : QObject(parent)
-    , view_(view)
+    , views_(std::move(views))
     , options_(options)
     , jobs_(*this)
 {
@@ -119,20 +119,29 @@ void SpaceMouseController::advance()
     const SpaceMouseRates rates = mouse_->rates();
     const std::uint32_t pressed = mouse_->takePressed();
     const bool is_heard = isHeard();
+    SteeredView& view = shown().view;
     const CapRates cap = is_heard ? capOf(rates) : CapRates{};
     if (is_heard && (pressed & kHomeButton) != 0) {
-        view_.goHome();
+        view.goHome();
         is_flying_home_ = true;
     }
     // Pressing the button may move the cap: it must come to rest before it moves the camera again.
-    is_flying_home_ = is_flying_home_ && view_.isMoving() && doesSteer(cap);
-    view_.steer(is_flying_home_ ? CapRates{} : cap, seconds);
+    is_flying_home_ = is_flying_home_ && view.isMoving() && doesSteer(cap);
+    view.steer(is_flying_home_ ? CapRates{} : cap, seconds);
     if (rates.isAtRest()) {
         frame_timer_.stop();
     } else if (const milliseconds wanted = is_heard ? kFrame : kUnheardInterval;
                wanted != frame_timer_.intervalAsDuration()) {
         frame_timer_.setInterval(wanted); // restarts it
     }
+}
+
+const SteeredWidget& SpaceMouseController::shown() const
+{
+    const auto found = std::find_if(views_.begin(), views_.end(), [](const SteeredWidget& view) {
+        return !view.widget.isHidden();
+    });
+    return found != views_.end() ? *found : views_.front();
 }
 
 // The window itself, or a panel that was taken out of it.
@@ -143,12 +152,13 @@ bool SpaceMouseController::isInFront() const
            active->parentWidget() != nullptr) {
         active = active->parentWidget()->window();
     }
-    return active == view_.window();
+    return active == shown().widget.window();
 }
 
 bool SpaceMouseController::isHeard() const
 {
-    return view_.isVisible() && isInFront() && QApplication::activeModalWidget() == nullptr;
+    return shown().widget.isVisible() && isInFront() &&
+           QApplication::activeModalWidget() == nullptr;
 }
 
 void SpaceMouseController::lose()
@@ -156,7 +166,7 @@ void SpaceMouseController::lose()
     const QString name = QString::fromStdString(mouse_->name());
     frame_timer_.stop();
     mouse_.reset(); // its thread has ended
-    view_.steer({}, 0.0);
+    shown().view.steer({}, 0.0);
     look_timer_.start();
     Q_EMIT disconnected(name);
 }

@@ -1,4 +1,4 @@
-// A SpaceMouse in the window: it moves the view's camera.
+// A SpaceMouse in the window: it moves the camera of the scene that is shown.
 #pragma once
 
 #include "haptics/drivers/spacemouse/spacemouse.h"
@@ -7,14 +7,16 @@
 #include <QObject>
 #include <QString>
 #include <QTimer>
+#include <QWidget>
 
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <vector>
 
 namespace marsview {
 
-class TerrainView;
+class SteeredView;
 
 struct SpaceMouseOptions {
     const HidApi* api = nullptr; // null for hidapi's
@@ -24,15 +26,22 @@ struct SpaceMouseOptions {
     std::function<std::chrono::steady_clock::time_point()> now = std::chrono::steady_clock::now;
 };
 
-/// Opens the first SpaceMouse that is plugged in, and lets its cap move the view's camera as long
-/// as the window is in front and no dialog is in the way; the first button shows the whole map.
-/// Nothing runs while the cap rests. Looking for it and opening it is done on other threads. Lives
-/// in the GUI thread; must not outlive the view.
+/// A widget that a cap steers while it is shown.
+struct SteeredWidget {
+    QWidget& widget;
+    SteeredView& view;
+};
+
+/// Opens the first SpaceMouse that is plugged in, and lets its cap move the camera of the view that
+/// is shown as long as the window is in front and no dialog is in the way; the first button shows
+/// the whole map. Nothing runs while the cap rests. Looking for it and opening it is done on other
+/// threads. Lives in the GUI thread; must not outlive the views.
 class SpaceMouseController final : public QObject {
     Q_OBJECT
 
 public:
-    explicit SpaceMouseController(TerrainView& view,
+    /// `views` are in one window; there is at least one.
+    explicit SpaceMouseController(std::vector<SteeredWidget> views,
                                   const SpaceMouseOptions& options = {},
                                   QObject* parent = nullptr);
     ~SpaceMouseController() override;
@@ -51,10 +60,11 @@ private:
     void wake();
     void advance();
     void lose();
+    const SteeredWidget& shown() const;
     bool isInFront() const;
     bool isHeard() const;
 
-    TerrainView& view_;
+    std::vector<SteeredWidget> views_;
     SpaceMouseOptions options_;
     QTimer look_timer_; // runs only while there is none
     bool is_looking_ = false;

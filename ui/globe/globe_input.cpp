@@ -26,7 +26,8 @@ constexpr double kWheelFactor = 0.8;
 constexpr double kWheelFactorFine = 0.96;
 constexpr milliseconds kWheelDuration{140};
 
-constexpr double kDeeperPerNotch = 1.15; // of the stylus' depth
+constexpr double kDeeperPerNotch = 1.15;  // of the stylus' depth
+constexpr double kGrabZoomPoints = 160.0; // of the hand, for a factor of e
 
 // The pointer is read for so long after it moved, in place of the stylus of a device.
 constexpr milliseconds kLeadDuration{2000};
@@ -183,7 +184,9 @@ void GlobeView::mouseMoveEvent(QMouseEvent* event)
         motion_.jumpTo(
             orbited(motion_.camera(), kTurnPerPixel * moved.x(), kTurnPerPixel * -moved.y()));
     } else {
-        followTouch();
+        if (!moveByGrab(drag_position_, event->position())) {
+            followTouch();
+        }
         report();
         if (PlaceTool* tool = placeTool(); tool != nullptr && drag_ == MapAction::None) {
             tool->hover(event->position());
@@ -236,10 +239,10 @@ void GlobeView::contextMenuEvent(QContextMenuEvent* event)
 
 void GlobeView::keyPressEvent(QKeyEvent* event)
 {
-    if (event->key() == Qt::Key_Space && event->modifiers() == Qt::NoModifier && device_) {
+    if (event->key() == Qt::Key_Space && event->modifiers() == Qt::NoModifier &&
+        (device_ || touch_.isChosen())) {
         if (!event->isAutoRepeat()) {
-            grab_key_.hold();
-            Q_EMIT grabbingChanged(true);
+            grab();
         }
         return;
     }
@@ -253,6 +256,59 @@ void GlobeView::keyPressEvent(QKeyEvent* event)
     if (tool == nullptr || !tool->key(*event)) {
         QOpenGLWidget::keyPressEvent(event);
     }
+}
+
+// By the device, or by the stylus of the mouse: in contact, the ground under the pointer stays
+// there.
+void GlobeView::grab()
+{
+    grab_key_.hold();
+    if (device_) {
+        Q_EMIT grabbingChanged(true);
+        return;
+    }
+    touch_.setGrabbing(true);
+    const auto& pose = touch_.pose();
+    grabbed_ = pose && pose->mode == StylusMode::Pan && pointer_
+                   ? std::optional(heldAtPosition(*pointer_))
+                   : std::nullopt;
+    showCursor();
+}
+
+void GlobeView::releaseGrab()
+{
+    grabbed_.reset();
+    if (touch_.isGrabbing()) {
+        touch_.setGrabbing(false);
+        followTouch();
+        showCursor();
+    } else {
+        Q_EMIT grabbingChanged(false);
+    }
+}
+
+// True where the stylus has hold of the body and moved it.
+bool GlobeView::moveByGrab(QPointF from, QPointF to)
+{
+    const auto& pose = touch_.pose();
+    if (!pose || !touch_.isGrabbing()) {
+        return false;
+    }
+    if (pose->mode == StylusMode::Pan && grabbed_) {
+        grabbed_->pixel = pixelAt(to);
+        motion_.jumpTo(heldAt(motion_.camera(), scene_.ellipsoid(), viewport(), *grabbed_));
+        return true;
+    }
+    if (pose->mode == StylusMode::Zoom) {
+        const double factor = std::exp((to.y() - from.y()) / kGrabZoomPoints);
+        const BodyCamera camera = factor < 1.0 ? onGround(motion_.camera()) : motion_.camera();
+        const auto pixel = project(poseOf(camera, scene_.ellipsoid()), viewport(), pose->proxy);
+        if (pixel) {
+            motion_.jumpTo(zoomed(camera, factor, viewport(), {pose->proxy, *pixel}, limits()));
+        }
+        return true;
+    }
+    return false;
 }
 
 // Where the pointer is on the terrain, and how long a point of the screen is there.

@@ -41,6 +41,12 @@ void GlobeTouch::takeGround()
     follow(at_, point_m_);
 }
 
+void GlobeTouch::setGrabbing(bool is_grabbing)
+{
+    buttons_.is_grabbing = is_grabbing;
+    follow(at_, point_m_);
+}
+
 void GlobeTouch::setModel(ContactModelKind model)
 {
     stylus_.setModel(model);
@@ -53,7 +59,7 @@ void GlobeTouch::follow(const std::optional<BodyAim>& at, double point_m)
     point_m_ = point_m;
     if (at && is_chosen_) {
         stylus_.aim(*at, buttons_, point_m);
-    } else if (!buttons_.is_pressing || !is_chosen_) {
+    } else if (!is_chosen_ || (!buttons_.is_pressing && !buttons_.is_grabbing)) {
         stylus_.lift();
     }
     Q_EMIT moved();

@@ -26,6 +26,9 @@ public:
     bool isReady() const noexcept { return is_chosen_ && meshes_.isReady(); }
 
     void setPressing(bool is_pressing) { buttons_.is_pressing = is_pressing; }
+    /// The body is held by the stylus, and moves with the pointer.
+    void setGrabbing(bool is_grabbing);
+    bool isGrabbing() const noexcept { return buttons_.is_grabbing; }
     bool isPressing() const noexcept { return buttons_.is_pressing; }
     void deepen(double factor) { stylus_.deepen(factor); }
     /// The pointer, a button or the camera changed: where the pointer is on the terrain, and how

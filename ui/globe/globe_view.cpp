@@ -83,7 +83,7 @@ GlobeView::GlobeView(QWidget* parent)
         update(); // over the picture that was kept
         Q_EMIT stylusMoved();
     });
-    connect(&grab_key_, &GrabKey::released, this, [this] { Q_EMIT grabbingChanged(false); });
+    connect(&grab_key_, &GrabKey::released, this, &GlobeView::releaseGrab);
     lead_timer_.setSingleShot(true);
     connect(&lead_timer_, &QTimer::timeout, this, &GlobeView::report);
     connect(&meshes_, &GlobeMeshes::failed, this, &GlobeView::touchFailed);
@@ -458,6 +458,27 @@ void GlobeView::step(NavigationStep step)
         break;
     }
     fly(camera, kKeyDuration);
+}
+
+// Speed and pivot are found when a push begins, as on the flat map: found again in each frame, they
+// would jump from ridge to ridge.
+void GlobeView::steer(const CapRates& rates, double seconds)
+{
+    if (scene_.isEmpty() || !doesSteer(rates)) {
+        cap_ = {};
+        return;
+    }
+    const double rise = capSpeed(rates.push.z);
+    const bool begins = !doesSteer(cap_) || (doesTurn(rates) && !doesTurn(cap_));
+    BodyCamera camera = motion_.camera();
+    if (rise < 0.0 || (begins && rise == 0.0)) {
+        camera = onGround(camera);
+    }
+    camera = bounded(steered(camera, rates, seconds, limits()));
+    if (isMoving() || !(camera == motion_.camera())) {
+        cap_ = rates;
+        motion_.jumpTo(camera);
+    }
 }
 
 void GlobeView::goHome()

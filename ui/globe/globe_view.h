@@ -16,6 +16,7 @@
 #include "ui/canvas/place_reader.h"
 #include "ui/canvas/place_tool.h"
 #include "ui/canvas/shown_layer.h"
+#include "ui/canvas/steered_view.h"
 #include "ui/canvas/tool.h"
 #include "ui/controllers/detached_jobs.h"
 #include "ui/globe/globe_meshes.h"
@@ -41,7 +42,7 @@ namespace marsview {
 
 /// Shows layers where they lie on their body. Placing a layer takes place on a worker thread: until
 /// then the view says so. GUI thread.
-class GlobeView final : public QOpenGLWidget {
+class GlobeView final : public QOpenGLWidget, public SteeredView {
     Q_OBJECT
 
 public:
@@ -96,7 +97,7 @@ public:
 
     const BodyCamera& camera() const noexcept { return motion_.camera(); }
     const BodyCamera& cameraGoal() const noexcept { return motion_.goal(); }
-    bool isMoving() const noexcept { return motion_.isMoving(); }
+    bool isMoving() const noexcept override { return motion_.isMoving(); }
     /// Within the limits; before a layer is placed, when it is.
     void setCamera(const BodyCamera& camera);
     /// At once, or when a layer is placed.
@@ -105,7 +106,8 @@ public:
     BodyLimits limits() const;
 
     void step(NavigationStep step);
-    void goHome();
+    void steer(const CapRates& rates, double seconds) override;
+    void goHome() override;
     void turnNorthUp();
     /// Flies along a great circle; `distance_m` of 0 keeps the distance.
     void flyTo(const GeographicPoint& place, double distance_m);
@@ -234,6 +236,9 @@ private:
     PlaceTool* placeTool() const;
     void endDrag();
     void followTouch();
+    void grab();
+    void releaseGrab();
+    bool moveByGrab(QPointF from, QPointF to);
     std::optional<RayHit> onTopmost(const ScenePoint& place) const;
     void moveStylus(const ScenePoint& place);
     void notePointer(QPointF position);
@@ -266,6 +271,7 @@ private:
     bool is_over_terrain_ = false; // the pointer
     std::optional<HeldPoint> held_;
     std::optional<QPointF> pointer_;
+    CapRates cap_;           // that moved the camera last
     double zoom_left_ = 1.0; // the whole factor of the zoom in progress
     bool is_zooming_ = false;
 
@@ -273,6 +279,7 @@ private:
     GlobeTouch touch_{meshes_};
     std::optional<StylusPose> device_;
     GrabKey grab_key_;
+    std::optional<HeldPoint> grabbed_; // by the stylus of the mouse, in contact
     QTimer lead_timer_; // runs while the pointer is read in place of the device's stylus
     MapCursor cursor_ = MapCursor::Arrow;
     std::unique_ptr<TerrainRenderer> renderer_;

@@ -6,7 +6,10 @@
 #include "ui/canvas/terrain_view.h"
 #include "ui/commands/window_commands.h"
 #include "ui/controllers/spacemouse_controller.h"
+#include "ui/globe/globe_view.h"
+#include "ui/window/window_actions.h"
 
+#include <QAction>
 #include <QApplication>
 #include <QDialog>
 #include <QSignalSpy>
@@ -308,6 +311,45 @@ TEST_F(SpaceMouseControllerTest, TheFirstButtonShowsTheWholeMap)
     ASSERT_TRUE(waitFor([&] { return view().isMoving(); }));
     ASSERT_TRUE(waitFor([&] { return !view().isMoving(); }));
     EXPECT_NEAR(view().camera().distance_m, home_distance_m_, 0.05 * home_distance_m_);
+}
+
+// On a sphere, closed forms: a push to the right pans along a great circle, a twist turns.
+TEST_F(SpaceMouseControllerTest, MovesTheGlobeWhileThatIsShown)
+{
+    ASSERT_TRUE(openAndWait(*window_, maps_.mars()));
+    window_->actionSet().globe->trigger();
+    GlobeView& globe = *window_->globe();
+    ASSERT_TRUE(waitFor([&] { return globe.terrain() != nullptr; }));
+    ASSERT_TRUE(plugIn());
+    const OrbitCamera flat = view().camera();
+    globe.setCamera(
+        {.target = {.longitude = Angle::degrees(15.0), .latitude = Angle::degrees(16.0)},
+         .distance_m = 2e5});
+    QSignalSpy moved(&globe, &GlobeView::sightChanged);
+    const auto hold_on_globe = [&](const FakeHid::Report& report) {
+        moved.clear();
+        hid_.say(report);
+        EXPECT_TRUE(waitFor([&] { return moved.count() >= 4; }));
+        hid_.say(cap(0, 0, 0));
+        EXPECT_TRUE(waitFor([&] { return !isAwake(); }));
+        return static_cast<int>(moved.count());
+    };
+    const BodyCamera begin = globe.camera();
+    int frames = hold_on_globe(cap(kHalf, 0, 0));
+    BodyCamera end = globe.camera();
+    const double radius_m = globe.scene().ellipsoid().equatorial_m;
+    const double way = (end.target.longitude - begin.target.longitude).radians() *
+                       std::cos(begin.target.latitude.radians());
+    const double expected = kCapPanPerS * kStepS * kHalfSpeed * begin.distance_m / radius_m;
+    EXPECT_NEAR(way / (expected * frames), 1.0, 0.05) << frames;
+    EXPECT_NEAR(end.target.latitude.degrees(), begin.target.latitude.degrees(), 0.02);
+    frames = hold_on_globe(cap(0, 0, 0, 0, 0, kHalf));
+    const double turned = std::remainder((globe.camera().azimuth - end.azimuth).degrees(), 360.0);
+    EXPECT_NEAR(std::abs(turned), kCapTurnPerS.degrees() * kStepS * kHalfSpeed * frames, 0.05);
+    end = globe.camera();
+    hold_on_globe(cap(0, 0, kHalf)); // down: nearer
+    EXPECT_LT(globe.camera().distance_m, end.distance_m);
+    EXPECT_EQ(view().camera(), flat) << "the flat map behind it stays";
 }
 
 TEST_F(SpaceMouseControllerTest, SearchingForItBlocksNothing)

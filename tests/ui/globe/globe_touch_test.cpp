@@ -137,6 +137,62 @@ TEST_F(GlobeTouchTest, AnArrowPointsToACursorOutsideThePicture)
     EXPECT_FALSE(overlays().handPointer()->isVisible());
 }
 
+TEST_F(GlobeTouchTest, SpaceWithTheButtonDownMovesTheGlobeWithTheHand)
+{
+    ASSERT_TRUE(beginTouch(-133.0, 40.0, 1e6));
+    move(globeMiddle());
+    press(globeMiddle());
+    ASSERT_TRUE(globe().stylus() && globe().stylus()->is_in_contact);
+    const StylusPose held = *globe().stylus();
+    const ScenePoint grabbed = pointAt(globeMiddle());
+    const double distance_m = globe().camera().distance_m;
+    QTest::keyPress(&globe(), Qt::Key_Space);
+    EXPECT_EQ(globe().stylus()->mode, StylusMode::Pan);
+    for (int i = 1; i <= 6; ++i) {
+        const QPointF at = globeMiddle() + QPointF(9.0, -4.0) * i;
+        move(at, Qt::LeftButton);
+        EXPECT_EQ(globe().stylus()->mode, StylusMode::Pan);
+        EXPECT_EQ(globe().stylus()->proxy, held.proxy) << "the globe moves, not the place on it";
+        const auto now = project(poseOf(globe().camera(), body()), globe().viewport(), grabbed);
+        ASSERT_TRUE(now);
+        EXPECT_NEAR(now->x, at.x(), 0.1);
+        EXPECT_NEAR(now->y, at.y(), 0.1);
+    }
+    EXPECT_EQ(globe().camera().distance_m, distance_m);
+    QTest::keyRelease(&globe(), Qt::Key_Space);
+    EXPECT_EQ(globe().stylus()->mode, StylusMode::Press);
+    const BodyCamera after = globe().camera();
+    move(globeMiddle(), Qt::LeftButton);
+    EXPECT_EQ(globe().camera(), after);
+    release(globeMiddle());
+}
+
+TEST_F(GlobeTouchTest, SpaceAloneZoomsAboutTheGrabbedPlace)
+{
+    ASSERT_TRUE(beginTouch(-133.0, 40.0, 1e6));
+    const QPointF at = globeMiddle() + QPointF(60.0, -30.0);
+    move(at);
+    ASSERT_TRUE(globe().stylus());
+    const ScenePoint held = globe().stylus()->proxy;
+    const auto where = [&] {
+        return *project(poseOf(globe().camera(), body()), globe().viewport(), held);
+    };
+    const PixelPoint before = where();
+    QTest::keyPress(&globe(), Qt::Key_Space);
+    EXPECT_EQ(globe().stylus()->mode, StylusMode::Zoom);
+    double distance_m = globe().camera().distance_m;
+    for (int i = 1; i <= 5; ++i) {
+        move(at - QPointF(0.0, 8.0 * i)); // away from the user: closer
+        EXPECT_LT(globe().camera().distance_m, distance_m);
+        distance_m = globe().camera().distance_m;
+        EXPECT_EQ(globe().stylus()->proxy, held);
+        EXPECT_NEAR(where().x, before.x, 0.5);
+        EXPECT_NEAR(where().y, before.y, 0.5);
+    }
+    QTest::keyRelease(&globe(), Qt::Key_Space);
+    EXPECT_EQ(globe().stylus()->mode, StylusMode::Hover);
+}
+
 TEST_F(GlobeTouchTest, OtherToolsLiftTheStylus)
 {
     ASSERT_TRUE(beginTouch(-133.0, 10.0, 1e6));
