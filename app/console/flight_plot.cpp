@@ -102,8 +102,16 @@ MapMotion motionOf(const std::vector<TickRecord>& records)
     for (const TickRecord& record : records) {
         if (record.has_motion) {
             // The workspace has moved; the map moves against it.
-            shift_m = shift_m + (record.motion.from - record.motion.to);
-            turn_rad -= record.motion.turn_rad;
+            const Vec3 moved_m = record.motion.from - record.motion.to;
+            if (const auto& turn = record.motion.body_turn_rad) { // along the ground there
+                const Vec3 up = normalized(record.motion.from);
+                const Vec3 east = normalized(cross({0.0, 0.0, 1.0}, up));
+                shift_m = shift_m + Vec3{dot(moved_m, east), dot(moved_m, cross(up, east)), 0.0};
+                turn_rad -= dot(*turn, up);
+            } else {
+                shift_m = shift_m + moved_m;
+                turn_rad -= record.motion.turn_rad;
+            }
             octaves -= std::log2(record.motion.scale);
         }
         motion.east_m.push_back(shift_m.x);

@@ -26,6 +26,9 @@ struct SceneMotion {
     ScenePoint to{};
     double scale = 1.0;    // of distances about the point; > 0
     double turn_rad = 0.0; // about the vertical through it, counterclockwise seen from above
+    /// On a body, whose scene is the body-fixed frame: about this axis through it, as long as the
+    /// angle; turn_rad is then 0.
+    std::optional<Vec3> body_turn_rad{};
 
     constexpr bool operator==(const SceneMotion&) const = default;
 };

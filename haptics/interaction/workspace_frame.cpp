@@ -126,14 +126,28 @@ WorkspaceFrame WorkspaceFrame::moved(const WorkspaceFrame& from,
 
 SceneMotion WorkspaceFrame::motionFrom(const WorkspaceFrame& from) const noexcept
 {
-    return {.from = from.place,
-            .to = toScene(from.anchor),
-            .scale = scene_per_meter / from.scene_per_meter,
-            .turn_rad = (turn + -from.turn).radians()};
+    SceneMotion motion{.from = from.place,
+                       .to = toScene(from.anchor),
+                       .scale = scene_per_meter / from.scene_per_meter,
+                       .turn_rad = (turn + -from.turn).radians()};
+    if (body_axes && from.body_axes) {
+        motion.body_turn_rad = (*body_axes * from.body_axes->inverse()).turn();
+    }
+    return motion;
 }
 
 WorkspaceFrame WorkspaceFrame::after(const SceneMotion& motion) const noexcept
 {
+    if (body_axes.has_value() != motion.body_turn_rad.has_value()) {
+        return *this;
+    }
+    if (body_axes) {
+        const Rotation by = Rotation::by(*motion.body_turn_rad);
+        return {.anchor = anchor,
+                .place = motion.to + by * (place - motion.from) * motion.scale,
+                .scene_per_meter = scene_per_meter * motion.scale,
+                .body_axes = (by * *body_axes).orthonormal()};
+    }
     const Angle by = Angle::radians(motion.turn_rad);
     return {.anchor = anchor,
             .place = motion.to + turnedBy(place - motion.from, by) * motion.scale,

@@ -42,9 +42,10 @@ struct WorkspaceFrame {
     /// The frame after the scene has moved in the workspace as it does from `from` to `to`: `to`,
     /// if this frame is `from`.
     WorkspaceFrame moved(const WorkspaceFrame& from, const WorkspaceFrame& to) const noexcept;
-    /// The motion of the camera that this frame's motion from `from` is. In the plane.
+    /// The motion of the camera that this frame's motion from `from` is. Both are in the plane, or
+    /// both on a body.
     SceneMotion motionFrom(const WorkspaceFrame& from) const noexcept;
-    /// The frame after that motion. In the plane.
+    /// The frame after that motion, one of its scene; a motion of another scene changes nothing.
     WorkspaceFrame after(const SceneMotion& motion) const noexcept;
     /// Whether all numbers are finite and the scale is valid.
     bool isSound() const noexcept;

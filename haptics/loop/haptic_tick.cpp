@@ -282,7 +282,7 @@ private:
         if (!isHolding(state_.modes.mode) && input_.recorded == nullptr) {
             lowerIntoReach(has_moved ? clearance() : clearance_m);
         }
-        if (!(state_.seen_frame == seen) && !isOnBody()) {
+        if (!(state_.seen_frame == seen)) {
             result_.motion = state_.seen_frame.motionFrom(seen);
         }
         refreshTerrain(stiffness);
@@ -365,7 +365,7 @@ private:
 
     void moveAsRecorded() noexcept
     {
-        if (input_.recorded == nullptr || !input_.recorded->motion || isOnBody()) {
+        if (input_.recorded == nullptr || !input_.recorded->motion) {
             return;
         }
         const WorkspaceFrame moved = state_.seen_frame.after(*input_.recorded->motion);

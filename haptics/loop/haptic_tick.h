@@ -151,7 +151,7 @@ struct StepResult {
     WorkspacePoint hand{};
     ScenePoint goal{};
     ContactState contact;
-    std::optional<SceneMotion> motion{}; // of the map by the hand, in the plane
+    std::optional<SceneMotion> motion{}; // of the map by the hand
     bool is_at_edge = false;             // beyond the edge of the map, which holds the hand back
     bool has_pressed_point = false;      // LoopSettings::is_placing: the button went down
     bool has_released_point = false;     // and up again

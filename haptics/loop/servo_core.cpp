@@ -348,9 +348,16 @@ void ServoCore::record(const StepResult& result, double tick_s) noexcept
 // Together with motions of ticks without an update.
 void ServoCore::noteMotion(const SceneMotion& motion) noexcept
 {
-    const WorkspaceFrame moved =
-        has_motion_ ? WorkspaceFrame{}.after(motion_).after(motion) : WorkspaceFrame{};
-    motion_ = has_motion_ ? moved.motionFrom({}) : motion;
+    // A motion of the scene before is of no use in another one.
+    if (has_motion_ && motion_.body_turn_rad.has_value() == motion.body_turn_rad.has_value()) {
+        WorkspaceFrame begin;
+        if (motion.body_turn_rad) {
+            begin.body_axes = Rotation{};
+        }
+        motion_ = begin.after(motion_).after(motion).motionFrom(begin);
+    } else {
+        motion_ = motion;
+    }
     has_motion_ = true;
 }
 

@@ -29,30 +29,39 @@ std::optional<StylusMode> stylusMode(std::string_view name) noexcept
 
 std::string motionText(const SceneMotion& motion)
 {
-    return fmt::format("{} {} {} {} {} {} {} {}", asText(motion.from.x), asText(motion.from.y),
-                       asText(motion.from.z), asText(motion.to.x), asText(motion.to.y),
-                       asText(motion.to.z), asText(motion.scale), asText(motion.turn_rad));
+    const auto of = [](const Vec3& v) {
+        return fmt::format("{} {} {}", asText(v.x), asText(v.y), asText(v.z));
+    };
+    return fmt::format("{} {} {} {}", of(motion.from), of(motion.to), asText(motion.scale),
+                       motion.body_turn_rad ? of(*motion.body_turn_rad) : asText(motion.turn_rad));
 }
 
 std::optional<SceneMotion> parseMotion(std::string_view text)
 {
-    std::array<double, 8> numbers{};
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
+    constexpr std::size_t kInPlane = 8;
+    constexpr std::size_t kOnBody = 10;
+    std::array<double, kOnBody> numbers{};
+    std::size_t count = 0;
+    for (bool is_last = false; !is_last; ++count) {
         const std::size_t end = text.find(' ');
-        if ((end == std::string_view::npos) != (i + 1 == numbers.size())) {
-            return std::nullopt;
-        }
+        is_last = end == std::string_view::npos;
         const auto number = parseNumber(text.substr(0, end));
-        if (!number || !std::isfinite(*number)) {
+        if (count == kOnBody || !number || !std::isfinite(*number)) {
             return std::nullopt;
         }
-        numbers[i] = *number;
-        text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+        numbers[count] = *number;
+        text.remove_prefix(is_last ? text.size() : end + 1);
     }
-    const SceneMotion motion{.from = {numbers[0], numbers[1], numbers[2]},
-                             .to = {numbers[3], numbers[4], numbers[5]},
-                             .scale = numbers[6],
-                             .turn_rad = numbers[7]};
+    SceneMotion motion{.from = {numbers[0], numbers[1], numbers[2]},
+                       .to = {numbers[3], numbers[4], numbers[5]},
+                       .scale = numbers[6]};
+    if (count == kInPlane) {
+        motion.turn_rad = numbers[7];
+    } else if (count == kOnBody) {
+        motion.body_turn_rad = Vec3{numbers[7], numbers[8], numbers[9]};
+    } else {
+        return std::nullopt;
+    }
     return motion.scale > 0.0 ? std::optional(motion) : std::nullopt;
 }
 

@@ -17,7 +17,8 @@ std::optional<StylusMode> stylusMode(std::string_view name) noexcept;
 inline constexpr std::string_view kMotionColumn = "motion";
 
 /// "1 2 3 1.5 2 3 0.5 0": where a point of the scene is, where it moves to, the scale and the turn
-/// in radians. Exact: parseMotion() gives the same motion to the bit.
+/// in radians. On a body, three numbers for the turn: its axis in the body-fixed frame, as long as
+/// the angle. Exact: parseMotion() gives the same motion to the bit.
 std::string motionText(const SceneMotion& motion);
 /// Empty if `text` is not such a motion, or its scale is not positive.
 std::optional<SceneMotion> parseMotion(std::string_view text);

@@ -122,6 +122,32 @@ TEST(WorkspaceFrame, AFrameAfterItsMotionToAnotherIsThatOne)
     }
 }
 
+TEST(WorkspaceFrame, AFrameOnABodyAfterItsMotionToAnotherIsThatOne)
+{
+    Random random;
+    const auto on_body = [&random] {
+        WorkspaceFrame frame = randomFrame(random);
+        frame.turn = {};
+        frame.body_axes = Rotation::by(
+            {random.uniform(-2.0, 2.0), random.uniform(-2.0, 2.0), random.uniform(-2.0, 2.0)});
+        return frame;
+    };
+    for (int i = 0; i < 100; ++i) {
+        const WorkspaceFrame from = on_body();
+        const WorkspaceFrame to = on_body();
+        const SceneMotion motion = to.motionFrom(from);
+        EXPECT_EQ(motion.turn_rad, 0.0);
+        const WorkspaceFrame after = from.after(motion);
+        const WorkspacePoint point = randomPoint(random);
+        const ScenePoint expected = to.toScene(point);
+        EXPECT_NEAR(length(after.toScene(point) - expected), 0.0,
+                    1e-9 * (1.0 + length(expected) + to.scene_per_meter));
+    }
+    // Motions of the other scene are none of this one.
+    const WorkspaceFrame frame = on_body();
+    EXPECT_EQ(frame.after({.to = {1.0, 2.0, 3.0}, .turn_rad = 1.0}), frame);
+}
+
 TEST(WorkspaceFrame, TheHandReachesWhatTheCameraSees)
 {
     Random random;

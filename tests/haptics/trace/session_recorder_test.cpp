@@ -1,3 +1,5 @@
+#include "core/base/job_monitor.h"
+#include "core/body/body_mesh.h"
 #include "core/contact/resident_heights.h"
 #include "haptics/drivers/replay_driver.h"
 #include "haptics/terrain/clipmap_streamer.h"
@@ -155,6 +157,82 @@ TEST(SessionRecorder, PansZoomsAndTurnsAreRecordedAndRepeatToTheBit)
     EXPECT_EQ(moved[1], moved[2]);
     EXPECT_NEAR(moved[1].scene_per_meter, moved[0].scene_per_meter, 1e-6);
     EXPECT_NEAR(length(moved[1].toScene({}) - moved[0].toScene({})), 0.0, 1e-6);
+}
+
+TEST(MotionText, OnABodyTheTurnIsAnAxis)
+{
+    const SceneMotion motion{.from = {1e6, -2.5, 3e-7},
+                             .to = {1e6, -2.4, 0.1},
+                             .scale = 1.0 / 3.0,
+                             .body_turn_rad = Vec3{0.1, -1e-17, 2.0 / 3.0}};
+    EXPECT_EQ(parseMotion(motionText(motion)), motion);
+    EXPECT_FALSE(parseMotion("1 2 3 4 5 6 1 0 0")) << "nine numbers";
+    EXPECT_FALSE(parseMotion("1 2 3 4 5 6 1 0 0 0 0"));
+    EXPECT_FALSE(parseMotion("1 2 3 4 5 6 0 0 0 0")) << "no scale";
+}
+
+// A ball of 1000 km with hills, which has 50 mm in the workspace.
+TEST(SessionRecorder, OnABodyPansZoomsAndTurnsRepeatToTheBitToo)
+{
+    const TempFolder folder;
+    constexpr std::size_t kColumns = 240;
+    constexpr std::size_t kRows = 120;
+    const auto filled = filledTerrain(kColumns, kRows, [](std::size_t column, std::size_t row) {
+        return 2000.0 + 500.0 * std::sin(static_cast<double>(column) * 0.7) *
+                            std::cos(static_cast<double>(row) * 0.5);
+    });
+    const auto georeference = std::make_shared<const Georeference>(
+        kColumns, kRows, GeoTransform::fromTerms({-180.0, 1.5, 0.0, 90.0, 0.0, -1.5}).value(),
+        Crs::fromText("+proj=longlat +R=1000000 +no_defs").value());
+    JobMonitor monitor;
+    const auto mesh = BodyMesh::build(filled, *georeference, 1.0, monitor).value();
+    std::vector<WorkspaceFrame> moved;
+    const auto record = [&](std::unique_ptr<HapticDevice> device, const std::string& path,
+                            std::uint64_t ticks) {
+        ServoLoop loop(std::move(device), quick(ticks));
+        auto recorder = SessionRecorder::begin(loop, path, 0, GoalColumns::Geographic);
+        ASSERT_TRUE(recorder);
+        LoopSettings settings = settingsFor(makeServoMap(georeference, mesh, {}));
+        // Over 0° N, 0° E: up is along x, east along y.
+        settings.frame = {.place = {1.002e6, 0.0, 0.0},
+                          .scene_per_meter = 2e7,
+                          .body_axes = Rotation{{0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}, {1.0, 0.0, 0.0}}};
+        loop.set(settings);
+        waitFor(loop);
+        loop.stop();
+        ASSERT_TRUE((*recorder)->finish());
+        EXPECT_EQ(loop.state().counts.not_recorded, 0U);
+        moved.push_back(loop.state().seen_frame);
+    };
+    const std::vector<std::string> names{"lon",       "lat",       "z",    "contact", "force_x_n",
+                                         "force_y_n", "force_z_n", "mode", "motion"};
+    const std::string first = folder.file("first.csv");
+    record(std::make_unique<GrabbingDevice>(), first, 3500);
+    const auto lines = columnsOf(first, names);
+    ASSERT_GE(lines.size(), 3500U);
+    double turned_rad = 0.0;
+    bool has_zoomed = false;
+    for (const auto& line : lines) {
+        if (const auto motion = parseMotion(line[8])) {
+            ASSERT_TRUE(motion->body_turn_rad);
+            turned_rad += length(*motion->body_turn_rad);
+            has_zoomed = has_zoomed || std::abs(motion->scale - 1.0) > 1e-5;
+        }
+    }
+    EXPECT_GT(turned_rad, 0.1);
+    EXPECT_TRUE(has_zoomed);
+    auto recording = readGoalRecording(*readGoalText(first), first, GoalColumns::Geographic);
+    ASSERT_TRUE(recording) << recording.error().message;
+    const std::string second = folder.file("second.csv");
+    record(std::make_unique<ReplayDevice>(std::move(*recording)), second, 0);
+    const auto repeated = columnsOf(second, names);
+    ASSERT_EQ(repeated.size(), lines.size());
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        ASSERT_EQ(repeated[i], lines[i]) << i;
+    }
+    ASSERT_EQ(moved.size(), 2U);
+    EXPECT_NEAR(moved[1].scene_per_meter / moved[0].scene_per_meter, 1.0, 1e-9);
+    EXPECT_NEAR(length(moved[1].toScene({}) - moved[0].toScene({})), 0.0, 1e-3);
 }
 
 TEST(SessionRecorder, ARecordingReplaysToTheSameProxiesToTheBit)
