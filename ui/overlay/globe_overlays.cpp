@@ -1,6 +1,8 @@
 #include "ui/overlay/globe_overlays.h"
 
+#include "core/globe/body_navigation.h"
 #include "core/globe/body_sight.h"
+#include "core/session/saved_view.h"
 #include "core/view/edge_mark.h"
 #include "ui/canvas/map_mouse.h"
 #include "ui/globe/globe_labels.h"
@@ -20,6 +22,7 @@
 #include "ui/overlay/measure_marks.h"
 #include "ui/overlay/minimap.h"
 #include "ui/overlay/overlay_layout.h"
+#include "ui/overlay/overview_picture.h"
 #include "ui/overlay/scale_bar_view.h"
 
 #include <QAction>
@@ -124,9 +127,7 @@ void GlobeOverlays::connectParts()
     connect(&globe_, &GlobeView::stylusMoved, this, &GlobeOverlays::showTouch);
     connect(&globe_, &GlobeView::crosshairChanged, crosshair_, &QWidget::setVisible);
     connect(&globe_, &GlobeView::gestureMade, hint_, &GestureHint::markDone);
-    connect(minimap_, &Minimap::placeRequested, this, [this](const ScenePoint& place) {
-        globe_.lookAt({.longitude = Angle::degrees(place.x), .latitude = Angle::degrees(place.y)});
-    });
+    connect(minimap_, &Minimap::placeRequested, this, &GlobeOverlays::lookAt);
     connect(compass_, &Compass::northRequested, &globe_, &GlobeView::turnNorthUp);
     connect(hint_, &GestureHint::dismissed, this, [this] {
         if (hint_->isAncestorOf(QApplication::focusWidget())) {
@@ -209,6 +210,9 @@ void GlobeOverlays::readOverview()
         overview_ = {};
         return;
     }
+    if (localLayer()) {
+        return; // made at once
+    }
     reading_ = std::make_shared<JobMonitor>();
     jobs_.run([this, scene = globe_.scene(),
                monitor = reading_](const std::shared_ptr<DetachedJobs::Outlet>& outlet) {
@@ -225,8 +229,43 @@ void GlobeOverlays::readOverview()
     });
 }
 
-// All layers, on top of each other.
+// The widest layer, unless all of them together are seen as a ball: there, a map of the whole body
+// says more.
+std::optional<std::size_t> GlobeOverlays::localLayer() const
+{
+    const std::vector<BodyTerrain>& maps = globe_.scene().maps();
+    if (maps.empty() || isBall(globe_.limits().area)) {
+        return std::nullopt;
+    }
+    const auto reach = [](const BodyTerrain& map) { return areaOf(*map.grid()).reach; };
+    const auto widest =
+        std::max_element(maps.begin(), maps.end(), [&](const BodyTerrain& a, const BodyTerrain& b) {
+            return reach(a) < reach(b);
+        });
+    return static_cast<std::size_t>(widest - maps.begin());
+}
+
+// As on the flat map.
 void GlobeOverlays::showOverview()
+{
+    const auto local = localLayer();
+    if (!local) {
+        local_.reset();
+        showBodyOverview();
+        return;
+    }
+    const ShownLayer& layer = globe_.layers()[*local];
+    const OverviewPicture overview =
+        overviewPicture({layer}, SceneSurface({layer.map}), globe_.look(), globe_.exaggeration());
+    local_ = layer.map;
+    overview_ = overview.image;
+    showSettings();
+    minimap_->setMap(overview.image, overview.frame, overview.columns, overview.rows);
+    showSight();
+}
+
+// All layers, on top of each other.
+void GlobeOverlays::showBodyOverview()
 {
     const BodyScene& scene = globe_.scene();
     const double equator_m = 2.0 * std::numbers::pi * scene.ellipsoid().equatorial_m;
@@ -274,6 +313,21 @@ void GlobeOverlays::showSight()
         return;
     }
     const BodyCamera& camera = globe_.camera();
+    // As over a plane at the target.
+    const OrbitCamera at_target{.distance_m = camera.distance_m,
+                                .azimuth = camera.azimuth,
+                                .tilt = camera.tilt,
+                                .field_of_view = camera.field_of_view};
+    compass_->setCamera(at_target);
+    scale_bar_->setScale(globe_.metersPerPointInMiddle());
+    const auto local = local_.lock();
+    local ? showLocalSight(*local) : showBodySight();
+    showLegend();
+}
+
+void GlobeOverlays::showBodySight()
+{
+    const BodyCamera& camera = globe_.camera();
     const Ellipsoid& ellipsoid = globe_.scene().ellipsoid();
     const Viewport viewport = globe_.viewport();
     const CameraPose pose = poseOf(camera, ellipsoid);
@@ -291,14 +345,38 @@ void GlobeOverlays::showSight()
                                  edge[1].longitude.degrees(), edge[1].latitude.degrees());
     }
     minimap_->setSight(sight);
-    // As over a plane at the target.
-    const OrbitCamera at_target{.distance_m = camera.distance_m,
-                                .azimuth = camera.azimuth,
-                                .tilt = camera.tilt,
-                                .field_of_view = camera.field_of_view};
-    compass_->setCamera(at_target);
-    scale_bar_->setScale(globe_.metersPerPointInMiddle());
-    showLegend();
+}
+
+// The camera of the flat map that has about the same picture.
+void GlobeOverlays::showLocalSight(const Map& map)
+{
+    const BodyCamera& camera = globe_.camera();
+    const double exaggeration = globe_.exaggeration();
+    const auto flat = orbitCamera(map.georeference(),
+                                  {.target = camera.target,
+                                   .elevation_m = camera.height_m / exaggeration,
+                                   .distance_m = camera.distance_m,
+                                   .azimuth = camera.azimuth,
+                                   .tilt = camera.tilt,
+                                   .field_of_view = camera.field_of_view},
+                                  exaggeration);
+    if (flat) {
+        minimap_->setCamera(*flat, globe_.viewport());
+    }
+}
+
+// In the frame of the overview map.
+void GlobeOverlays::lookAt(const ScenePoint& place)
+{
+    const auto local = local_.lock();
+    if (!local) {
+        globe_.lookAt({.longitude = Angle::degrees(place.x), .latitude = Angle::degrees(place.y)});
+        return;
+    }
+    const Georeference& georeference = local->georeference();
+    if (const auto there = georeference.toGeographic(georeference.sceneFrame().toGrid(place))) {
+        globe_.lookAt(*there);
+    }
 }
 
 // The layer in the middle of the picture, otherwise the topmost one.

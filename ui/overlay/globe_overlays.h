@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/base/job_monitor.h"
+#include "core/session/map.h"
 #include "ui/controllers/detached_jobs.h"
 
 #include <QImage>
@@ -11,6 +12,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace marsview {
@@ -34,7 +36,8 @@ class ScaleBarView;
 
 /// Creates the overlays of a globe at the places that they have on the flat map, shows and hides
 /// them by the same actions, and passes their requests to the globe. The overview map shows the
-/// whole body. A child of the globe; `flat` outlives it.
+/// whole body, or, of layers that are not seen as a ball, the widest one. A child of the globe;
+/// `flat` outlives it.
 class GlobeOverlays final : public QObject {
     Q_OBJECT
 
@@ -69,6 +72,11 @@ private:
     void showSettings();
     void readOverview();
     void showOverview();
+    void showBodyOverview();
+    std::optional<std::size_t> localLayer() const;
+    void showBodySight();
+    void showLocalSight(const Map& map);
+    void lookAt(const ScenePoint& place);
     void showScene();
     void showSight();
     void showLegend();
@@ -95,6 +103,7 @@ private:
     std::shared_ptr<JobMonitor> reading_;         // of the overview
     std::vector<std::vector<float>> overviews_m_; // elevations, a map
     QImage overview_;                             // the latest; null until there is one
+    std::weak_ptr<const Map> local_;              // whose overview it is; empty for the body's
     DetachedJobs jobs_;
 };
 

@@ -5,6 +5,7 @@
 #include "ui/overlay/globe_overlays.h"
 #include "ui/overlay/legend.h"
 #include "ui/overlay/map_overlays.h"
+#include "ui/overlay/minimap.h"
 #include "ui/panels/layer_model.h"
 #include "ui/panels/layers_panel.h"
 #include "ui/widgets/notice_bar.h"
@@ -95,6 +96,41 @@ TEST_F(GlobeLayersTest, TheElevationReadIsThatOfTheLayerInThePicture)
         EXPECT_EQ(globe().reading()->index, ground.index);
         EXPECT_FALSE(window_->readout()->heightLabel().isEmpty());
     }
+}
+
+// 2026-11: from far away, with an overview of the whole body that had a dot on it.
+TEST_F(GlobeLayersTest, ALocalMapAloneIsSeenAsOnTheFlatMap)
+{
+    ASSERT_TRUE(openNested());
+    window_->controller().remove(window_->session().layers.back().id);
+    ASSERT_EQ(window_->session().layers.size(), 1U);
+    view().goHome();
+    ASSERT_TRUE(waitFor([this] { return !view().isMoving(); }));
+    const double flat_m = view().camera().distance_m;
+    ASSERT_TRUE(showGlobe());
+    EXPECT_NEAR(globe().camera().distance_m / flat_m, 1.0, 1e-6);
+    globe().goHome();
+    ASSERT_TRUE(rests());
+    EXPECT_NEAR(globe().camera().distance_m / flat_m, 1.0, 0.25);
+    // The overview map is that of the layer.
+    Minimap& map = *globe().findChild<GlobeOverlays*>()->minimap();
+    ASSERT_TRUE(waitFor([&] { return map.isVisible(); }));
+    const Georeference& georeference = view().map()->georeference();
+    const auto on_map = [&](GridPoint grid) {
+        return map.positionOf(georeference.sceneFrame().toScene(grid, 0.0));
+    };
+    EXPECT_GT(on_map({39.0, 15.0}).x() - on_map({0.0, 15.0}).x(), 0.8 * map.width());
+    const GridPoint there{10.0, 20.0};
+    QTest::mouseClick(&map, Qt::LeftButton, Qt::NoModifier, on_map(there).toPoint());
+    const auto target = georeference.toGrid(globe().camera().target);
+    ASSERT_TRUE(target);
+    EXPECT_NEAR(target->column, there.column, 0.5);
+    EXPECT_NEAR(target->row, there.row, 0.5);
+    // Together with the whole planet, the overview is that of the planet.
+    window_->open(QString::fromStdString(test::bundledMars()));
+    ASSERT_TRUE(waitFor([this] { return globe().scene().maps().size() == 2; }));
+    EXPECT_NEAR(map.positionOf({180.0, 0.0, 0.0}).x() - map.positionOf({-180.0, 0.0, 0.0}).x(),
+                map.width(), 12.0);
 }
 
 TEST_F(GlobeLayersTest, GoToLayerFliesToWhereAllOfItIsInThePicture)
