@@ -148,13 +148,13 @@ void NameSearch::goTo(const PlaceName& place)
         std::max(extent->across_m, kPixelsLeast * parts_.view.ground().pixelMeters());
     const double distance_m = distanceShowing(
         across_m, kFilledShare, parts_.view.camera().field_of_view, parts_.view.viewport());
-    if (!parts_.globe.isHidden()) {
+    if (parts_.globe.isHidden()) {
+        parts_.view.setFocus(Qt::OtherFocusReason);
+        parts_.view.flyTo(extent->center, distance_m);
+    } else {
         parts_.globe.setFocus(Qt::OtherFocusReason);
         parts_.globe.flyTo(place.position, distance_m);
-        return;
     }
-    parts_.view.setFocus(Qt::OtherFocusReason);
-    parts_.view.flyTo(extent->center, distance_m);
     parts_.overlays.markPlace(extent->center);
 }
 

@@ -228,13 +228,11 @@ void PlaceCommands::goToPlace()
     GoToDialog* dialog = makeDialog();
     connect(dialog, &GoToDialog::nameChosen, &parts_.names, &NameSearch::goTo);
     connect(dialog, &GoToDialog::placeChosen, this, [this](GridPoint grid) {
-        if (!parts_.globe.isHidden()) {
-            if (const auto place = parts_.view.map()->georeference().toGeographic(grid)) {
-                parts_.globe.flyTo(*place, 0.0);
-            }
-            return;
+        if (parts_.globe.isHidden()) {
+            parts_.view.goTo(grid);
+        } else if (const auto place = parts_.view.map()->georeference().toGeographic(grid)) {
+            parts_.globe.flyTo(*place, 0.0);
         }
-        parts_.view.goTo(grid);
         parts_.overlays.markPlace(grid);
     });
     dialog->open();

@@ -826,9 +826,13 @@ Result<bool> GlobeView::drawPart(const BodyCamera& camera,
                                  PictureLines lines,
                                  QImage& picture)
 {
-    if (!renderer_ || scene_.isEmpty()) {
+    if (!renderer_) {
         return Error{ErrorCode::Unsupported,
                      "cannot draw a picture: no graphics context; install the graphics driver"};
+    }
+    if (scene_.isEmpty()) {
+        return Error{ErrorCode::Unsupported,
+                     "cannot draw a picture: the globe is not shown any more; show it again"};
     }
     makeCurrent();
     sendLayers();

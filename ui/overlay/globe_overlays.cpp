@@ -23,17 +23,20 @@
 #include "ui/overlay/minimap.h"
 #include "ui/overlay/overlay_layout.h"
 #include "ui/overlay/overview_picture.h"
+#include "ui/overlay/place_mark.h"
 #include "ui/overlay/scale_bar_view.h"
 
 #include <QAction>
 #include <QApplication>
 #include <QHelpEvent>
+#include <QMouseEvent>
 #include <QPainter>
 #include <QToolTip>
 
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -76,6 +79,7 @@ GlobeOverlays::GlobeOverlays(GlobeView& globe, MapOverlays& flat)
     , compass_(new Compass(&globe))
     , labels_(new GlobeLabels(globe))
     , crosshair_(new Crosshair(&globe))
+    , place_mark_(new PlaceMark(&globe))
     , scale_bar_(new ScaleBarView(&globe))
     , legend_(new Legend(&globe))
     , force_meter_(new ForceMeter(&globe))
@@ -100,9 +104,12 @@ GlobeOverlays::GlobeOverlays(GlobeView& globe, MapOverlays& flat)
     for (QWidget* part : std::initializer_list<QWidget*>{minimap_, compass_, hint_}) {
         part->installEventFilter(this);
     }
+    place_mark_->lower();
     crosshair_->lower();
     labels_->lower();
-    labels_->setObstacles({minimap_, compass_, scale_bar_, legend_, hint_, force_meter_});
+    // A pin does not cover the name that it marks.
+    labels_->setObstacles(
+        {minimap_, compass_, scale_bar_, legend_, hint_, force_meter_, place_mark_});
     labels_->setNames(flat_.labels()->names());
     labels_->setCoordinateFormat(flat_.labels()->coordinateFormat());
     connectParts();
@@ -121,6 +128,7 @@ void GlobeOverlays::connectParts()
     connect(flat_.labels(), &MapLabels::formatChanged, labels_,
             [this] { labels_->setCoordinateFormat(flat_.labels()->coordinateFormat()); });
     connect(&flat_, &MapOverlays::settingsChanged, this, &GlobeOverlays::showSettings);
+    connect(&flat_, &MapOverlays::markChanged, this, &GlobeOverlays::showMark);
     connect(&globe_, &GlobeView::placed, this, &GlobeOverlays::readOverview);
     connect(&globe_, &GlobeView::sceneChanged, this, &GlobeOverlays::showScene);
     connect(&globe_, &GlobeView::sightChanged, this, &GlobeOverlays::showSight);
@@ -309,6 +317,7 @@ void GlobeOverlays::showSight()
 {
     placeCrosshair();
     showHand();
+    showMark();
     if (globe_.terrain() == nullptr || globe_.isHidden()) {
         return;
     }
@@ -448,6 +457,25 @@ void GlobeOverlays::showHand()
     }
 }
 
+void GlobeOverlays::showMark()
+{
+    const auto marked = flat_.markedPlace();
+    const double height_m = marked && globe_.terrain() != nullptr
+                                ? globe_.scene().height(*marked)
+                                : std::numeric_limits<double>::quiet_NaN();
+    if (std::isfinite(height_m)) {
+        const Ellipsoid& body = globe_.scene().ellipsoid();
+        const ScenePoint place =
+            targetOf({.target = *marked, .height_m = height_m * globe_.exaggeration()}, body);
+        if (globe_.isInPicture(place)) {
+            const auto pixel = project(poseOf(globe_.camera(), body), globe_.viewport(), place);
+            place_mark_->pointAt(QPointF(pixel->x, pixel->y) / globe_.devicePixelRatioF());
+            return;
+        }
+    }
+    place_mark_->hide();
+}
+
 void GlobeOverlays::placeCrosshair()
 {
     QRect place(QPoint(), crosshair_->sizeHint());
@@ -467,6 +495,10 @@ bool GlobeOverlays::eventFilter(QObject* watched, QEvent* event)
             QToolTip::showText(help->globalPos(), legend_->summary(), &globe_, legend_->geometry());
             return true;
         }
+    }
+    if (watched == &globe_ && (event->type() == QEvent::MouseButtonPress ||
+                               event->type() == QEvent::MouseButtonRelease)) {
+        flat_.clearMarkOnClick(static_cast<const QMouseEvent&>(*event));
     }
     return QObject::eventFilter(watched, event);
 }

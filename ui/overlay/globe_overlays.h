@@ -32,6 +32,7 @@ class MapOverlays;
 class MeasureMarks;
 class Minimap;
 class OverlayLayout;
+class PlaceMark;
 class ScaleBarView;
 
 /// Creates the overlays of a globe at the places that they have on the flat map, shows and hides
@@ -54,6 +55,7 @@ public:
     Crosshair* crosshair() const noexcept { return crosshair_; }
     GlobeLabels* labels() const noexcept { return labels_; }
     FocusFrame* focusFrame() const noexcept { return focus_frame_; }
+    PlaceMark* placeMark() const noexcept { return place_mark_; }
 
     /// Marks on the globe, which keep clear of its overlays and of `others`. Names of places keep
     /// clear of them.
@@ -84,6 +86,7 @@ private:
     void showTouch();
     void showHand();
     void placeCrosshair();
+    void showMark();
 
     GlobeView& globe_;
     MapOverlays& flat_;
@@ -93,6 +96,7 @@ private:
     Compass* compass_ = nullptr;
     GlobeLabels* labels_ = nullptr;  // below those that follow
     Crosshair* crosshair_ = nullptr; // also
+    PlaceMark* place_mark_ = nullptr;
     ScaleBarView* scale_bar_ = nullptr;
     Legend* legend_ = nullptr;
     ForceMeter* force_meter_ = nullptr;

@@ -179,12 +179,22 @@ void MapOverlays::markPlace(GridPoint grid)
 {
     marked_ = MarkedPlace{.map = view_.map(), .grid = grid};
     showMark();
+    Q_EMIT markChanged();
 }
 
 void MapOverlays::clearMark()
 {
     marked_.reset();
     showMark();
+    Q_EMIT markChanged();
+}
+
+std::optional<GeographicPoint> MapOverlays::markedPlace() const
+{
+    const auto map = marked_ ? marked_->map.lock() : nullptr;
+    return map && map->georeference().body() != nullptr
+               ? map->georeference().toGeographic(marked_->grid)
+               : std::nullopt;
 }
 
 void MapOverlays::showMark()
@@ -203,7 +213,7 @@ void MapOverlays::showMark()
 // A drag looks around the place, a click has done with it.
 void MapOverlays::clearMarkOnClick(const QMouseEvent& event)
 {
-    if (event.button() != Qt::LeftButton) {
+    if (event.button() != Qt::LeftButton || !marked_) {
         return;
     }
     if (event.type() == QEvent::MouseButtonPress) {
@@ -272,9 +282,8 @@ bool MapOverlays::eventFilter(QObject* watched, QEvent* event)
             return true;
         }
     }
-    if (watched == &view_ && marked_ &&
-        (event->type() == QEvent::MouseButtonPress ||
-         event->type() == QEvent::MouseButtonRelease)) {
+    if (watched == &view_ && (event->type() == QEvent::MouseButtonPress ||
+                              event->type() == QEvent::MouseButtonRelease)) {
         clearMarkOnClick(static_cast<const QMouseEvent&>(*event));
     }
     return QObject::eventFilter(watched, event);

@@ -67,7 +67,11 @@ public:
     /// cleared, the map is clicked, or another map is topmost.
     void markPlace(GridPoint grid);
     bool isPlaceMarked() const noexcept { return marked_.has_value(); }
+    /// On its body; empty if no place is marked, or one without a known body.
+    std::optional<GeographicPoint> markedPlace() const;
     void clearMark();
+    /// What a press and a release of the mouse on the map mean for the mark.
+    void clearMarkOnClick(const QMouseEvent& event);
     PlaceMark* placeMark() const noexcept { return place_mark_; }
 
     /// Names of layers, and which one is active. After the view shows them.
@@ -89,6 +93,8 @@ public:
 Q_SIGNALS:
     /// By the user.
     void hintDismissed();
+    /// markedPlace() may have changed.
+    void markChanged();
     /// The session, the unit of elevations, what is covered, or whether the hint is offered.
     void settingsChanged();
 
@@ -106,7 +112,6 @@ private:
     void showHand();
     void placeCrosshair();
     void showMark();
-    void clearMarkOnClick(const QMouseEvent& event);
 
     TerrainView& view_;
     ContourLabelsView* contour_labels_ = nullptr; // below all others

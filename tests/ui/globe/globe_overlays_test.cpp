@@ -10,6 +10,7 @@
 #include "ui/overlay/legend.h"
 #include "ui/overlay/map_overlays.h"
 #include "ui/overlay/minimap.h"
+#include "ui/overlay/place_mark.h"
 #include "ui/overlay/scale_bar_view.h"
 
 #include <QImage>
@@ -194,6 +195,32 @@ TEST_F(GlobeOverlaysTest, TheOverviewShowsTheWholeBodyAndLeadsToAnyPlace)
     QTest::keyClick(&map, Qt::Key_Right);
     EXPECT_NEAR(std::remainder(globe().camera().target.longitude.degrees() + 163.0, 360.0), 0.0,
                 0.5);
+}
+
+TEST_F(GlobeOverlaysTest, APinMarksAPlaceWhereItIsSeen)
+{
+    ASSERT_TRUE(showGlobe());
+    const GeographicPoint place{.longitude = Angle::degrees(-133.0),
+                                .latitude = Angle::degrees(18.0)};
+    globe().setCamera({.target = place, .distance_m = 2e6, .tilt = Angle::degrees(30.0)});
+    flat().markPlace(*view().map()->georeference().toGrid(place));
+    PlaceMark& pin = *overlays().placeMark();
+    ASSERT_TRUE(pin.isVisible());
+    const auto pixel =
+        project(poseOf(globe().camera(), body()), globe().viewport(),
+                targetOf({.target = place,
+                          .height_m = globe().terrain()->height(place) * globe().exaggeration()},
+                         body()));
+    EXPECT_NEAR(pin.tip().x(), pixel->x, 1.0);
+    EXPECT_NEAR(pin.tip().y(), pixel->y, 1.0);
+    globe().setCamera(
+        {.target = {.longitude = Angle::degrees(47.0), .latitude = {}}, .distance_m = 2e6});
+    EXPECT_FALSE(pin.isVisible()) << "behind the horizon";
+    globe().setCamera({.target = place, .distance_m = 3e6});
+    EXPECT_TRUE(pin.isVisible());
+    QTest::mouseClick(&globe(), Qt::LeftButton, Qt::NoModifier, globeMiddle().toPoint());
+    EXPECT_FALSE(pin.isVisible());
+    EXPECT_FALSE(flat().isPlaceMarked());
 }
 
 TEST_F(GlobeOverlaysTest, TheHintIsOfferedAndDismissedAsOnTheFlatMap)
