@@ -362,11 +362,12 @@ private:
         }
         return turnedCorner(facet, i);
     }
-    static auto stepOver(const Facet& facet,
-                         std::size_t opposite) noexcept requires MeshOfSamples<Mesh>
+    // A template, as spokeAt() is: clang 14 instantiates constrained members with every class.
+    template <MeshOfSamples M = Mesh>
+    static auto stepOver(const Facet& facet, std::size_t opposite) noexcept
     {
         const auto& at = facet.steps.at;
-        return Mesh::step(at[opposite], at[(opposite + 1) % 3], at[(opposite + 2) % 3]);
+        return M::step(at[opposite], at[(opposite + 1) % 3], at[(opposite + 2) % 3]);
     }
     Facet facetAt(std::uint32_t corner) const noexcept
     {
@@ -414,7 +415,8 @@ private:
     {
         return {{vertex}, mesh_->vertex(vertex) - fan.point};
     }
-    static Spoke spokeAt(const Fan& fan, std::size_t i) noexcept requires MeshWithRings<Mesh>
+    template <MeshWithRings M = Mesh>
+    static Spoke spokeAt(const Fan& fan, std::size_t i) noexcept
     {
         return {{fan.ring.edges.vertices[i]}, fan.ring.edges.along[i]};
     }
