@@ -6,5 +6,5 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 ./packaging/install-packages.sh run test
 cmake --preset release --log-level=WARNING
 cmake --build --preset release
-# One more than the number of cores: some tests wait for a server or for a window.
-exec ctest --preset release --parallel "$(($(nproc) + 1))"
+# Two more than the number of cores: tests of windows and servers wait half of their time.
+exec ctest --preset release --parallel "$(($(nproc) + 2))"
