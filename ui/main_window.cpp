@@ -326,6 +326,11 @@ void MainWindow::openSample(const QString& file)
     controller_->openSample(file);
 }
 
+bool MainWindow::isSettled() const
+{
+    return commands_->progress.isIdle();
+}
+
 const Preferences& MainWindow::preferences() const noexcept
 {
     return commands_->preferences.preferences();

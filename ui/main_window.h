@@ -84,9 +84,11 @@ public:
     /// Takes effect at once; remembered when the window is.
     void setPreferences(const Preferences& preferences);
 
-Q_SIGNALS:
     /// Nothing is loading or being prepared, and the picture shows all there is, or there is
     /// nothing to load.
+    bool isSettled() const;
+
+Q_SIGNALS:
     void settled();
     /// "FILE: WHY", or why nothing can be drawn.
     void openFailed(const QString& problem);

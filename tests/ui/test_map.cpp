@@ -2,8 +2,6 @@
 
 #include "tests/support/make_raster.h"
 #include "tests/ui/timeout.h"
-#include "ui/canvas/terrain_view.h"
-#include "ui/controllers/session_controller.h"
 
 #include <QFile>
 #include <QTest>
@@ -85,13 +83,7 @@ WindowOptions testWindowOptions()
 // By the state: the signal may have come before, while the caller waited for something else.
 bool waitUntilSettled(MainWindow& window)
 {
-    return QTest::qWaitFor(
-        [&window] {
-            const SessionController& controller = window.controller();
-            return window.view()->isReady() && !controller.isBusy() && !controller.isPreparing() &&
-                   (shownLayers(window.session()).empty() || window.view()->isPictureComplete());
-        },
-        kTimeout);
+    return QTest::qWaitFor([&window] { return window.isSettled(); }, kTimeout);
 }
 
 bool openAndWait(MainWindow& window, const QString& file)

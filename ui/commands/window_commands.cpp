@@ -144,6 +144,7 @@ WindowCommands::WindowCommands(const WindowParts& parts, const WindowOptions& op
     , progress({.actions = parts.actions,
                 .session = parts.session,
                 .view = parts.view,
+                .scenes = parts.scenes,
                 .pictures = parts.pictures,
                 .recordings = fly_through.recorder(),
                 .reports = reports,

@@ -31,7 +31,9 @@ WorkProgress::WorkProgress(const Parts& parts)
     });
     connect(&parts_.view, &TerrainView::ready, this, &WorkProgress::settleIfIdle,
             Qt::QueuedConnection);
-    connect(&parts_.view, &TerrainView::pictureCompleted, this, &WorkProgress::settleIfIdle);
+    for (PictureScene* scene : {&parts_.scenes.flat, &parts_.scenes.globe}) {
+        connect(scene, &PictureScene::pictureCompleted, this, &WorkProgress::settleIfIdle);
+    }
     followLoading();
     followFiles();
     followPreparing();
@@ -161,12 +163,17 @@ void WorkProgress::showCancel()
     parts_.actions.save_picture->setEnabled(!parts_.pictures.isSaving());
 }
 
-void WorkProgress::settleIfIdle()
+bool WorkProgress::isIdle() const
 {
     const SessionController& session = parts_.session;
-    if (parts_.view.isReady() && !session.isBusy() && !session.isPreparing() &&
-        !parts_.files.isBusy() &&
-        (shownLayers(session.session()).empty() || parts_.view.isPictureComplete())) {
+    return !session.isBusy() && !session.isPreparing() && !parts_.files.isBusy() &&
+           (shownLayers(session.session()).empty() ? parts_.view.isReady()
+                                                   : parts_.scenes.shown().isComplete());
+}
+
+void WorkProgress::settleIfIdle()
+{
+    if (isIdle()) {
         Q_EMIT settled();
     }
 }

@@ -1,6 +1,8 @@
 // What the window is busy with: loading, building overviews, saving pictures, recordings, reports.
 #pragma once
 
+#include "ui/pictures/picture_scenes.h"
+
 #include <QObject>
 
 namespace marsview {
@@ -24,6 +26,7 @@ public:
         const WindowActions& actions;
         SessionController& session;
         TerrainView& view;
+        PictureScenes scenes;
         PictureSaver& pictures;
         FlyThroughRecorder& recordings;
         ReportExporter& reports;
@@ -34,12 +37,14 @@ public:
 
     explicit WorkProgress(const Parts& parts);
 
-    /// Emits settled() if nothing is going on.
+    /// Whether nothing is loading or being prepared, and the picture in the window shows all there
+    /// is, or there is nothing to load.
+    bool isIdle() const;
+    /// Emits settled() if it is idle.
     void settleIfIdle();
 
 Q_SIGNALS:
-    /// Nothing is loading or being prepared, and the picture shows all there is, or there is
-    /// nothing to load.
+    /// isIdle() has become true, or a picture was completed while it was.
     void settled();
 
 private:

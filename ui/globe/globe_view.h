@@ -161,7 +161,7 @@ public:
     int pictureSideMax();
 
     /// True when the picture shows all there is, as well as can be, and nothing moves.
-    bool isPictureComplete() const { return is_complete_ && !isMoving(); }
+    bool isPictureComplete() const { return is_complete_ && !placing_ && !isMoving(); }
 
 Q_SIGNALS:
     void readingChanged(const std::optional<BodyScenePoint>& ground);

@@ -62,6 +62,15 @@ TEST_F(GlobeLayersTest, LayersInOtherProjectionsLieTogetherTheUpperOneOnTop)
     EXPECT_EQ(layerAt(-120.0, 10.0), 1U);
 }
 
+TEST_F(GlobeLayersTest, AMapThatIsOpenedOnTheGlobeIsInItsPictureOnceTheWindowHasSettled)
+{
+    ASSERT_TRUE(showGlobe());
+    ASSERT_TRUE(openNested()); // waits for MainWindow::isSettled()
+    EXPECT_FALSE(globe().isHidden());
+    EXPECT_TRUE(globe().isPictureComplete());
+    EXPECT_EQ(globe().scene().maps().size(), 2U);
+}
+
 // The flat map hides the lower one; a notice offers the globe.
 TEST_F(GlobeLayersTest, ANoticeOffersTheGlobeForLayersOfOtherCrss)
 {
