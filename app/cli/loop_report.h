@@ -22,7 +22,7 @@ struct LoopReport {
     double rate_hz = 1000.0;
     LoopStatistics statistics;
     RealTimeGrants grants;
-    LoopState state;                                                // the last
+    LoopState state;                                                   // the last
     std::array<std::uint64_t, kForceOffReasonCount> force_off_ticks{}; // LoopWatch's
     ForceOffReason last_reason = ForceOffReason::None;
     std::optional<ClipmapStreamerStatistics> streamer{};

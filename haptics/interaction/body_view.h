@@ -37,10 +37,10 @@ struct LimitedBodyView {
 /// move the body under the hand. Otherwise the body returns to the camera.
 LimitedBodyView limitedView(const BodyHandView& followed, const BodyCamera& camera);
 
-/// The frame in which `reach` covers what the camera sees of the body, from its lowest visible place
-/// to as far above the terrain: the heading is away from the user, and the local vertical at the
-/// camera's target is up. Heights are exaggerated; where there is no terrain, the target's height
-/// counts.
+/// The frame in which `reach` covers what the camera sees of the body, from its lowest visible
+/// place to as far above the terrain: the heading is away from the user, and the local vertical at
+/// the camera's target is up. Heights are exaggerated; where there is no terrain, the target's
+/// height counts.
 WorkspaceFrame frameForBodyView(const BodyCamera& camera,
                                 const Viewport& viewport,
                                 const BodyGround& ground,
