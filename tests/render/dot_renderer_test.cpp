@@ -51,10 +51,7 @@ protected:
                      .clip = renderer_->clip(camera, style.exaggeration)},
                     renderer_->keptDepths());
         EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
-        std::vector<std::uint8_t> rgb(std::size_t{3} * kPictureSize.width * kPictureSize.height);
-        glPixelStorei(GL_PACK_ALIGNMENT, 1);
-        glReadPixels(0, 0, kPictureSize.width, kPictureSize.height, GL_RGB, GL_UNSIGNED_BYTE,
-                     rgb.data());
+        std::vector<std::uint8_t> rgb = readColors(kPictureSize);
         glBindFramebuffer(GL_FRAMEBUFFER, 0);
         return rgb;
     }

@@ -75,6 +75,15 @@ OffscreenPicture RenderTest::draw(const OrbitCamera& camera,
     return picture;
 }
 
+std::vector<std::uint8_t> readColors(const Viewport& size)
+{
+    std::vector<std::uint8_t> rgb(std::size_t{3} * static_cast<std::size_t>(size.width) *
+                                  static_cast<std::size_t>(size.height));
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, size.width, size.height, GL_RGB, GL_UNSIGNED_BYTE, rgb.data());
+    return rgb;
+}
+
 bool isSky(const Picture& picture, std::size_t pixel)
 {
     return picture.rgb[3 * pixel] == kSkyColor.red &&

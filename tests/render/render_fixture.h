@@ -9,7 +9,9 @@
 #include <gtest/gtest.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <vector>
 
 namespace marsview::test {
 
@@ -48,6 +50,8 @@ protected:
     std::unique_ptr<TerrainRenderer> renderer_; // null only if tests are skipped
 };
 
+/// The colors in the bound frame buffer: red, green, blue, rows from the bottom.
+std::vector<std::uint8_t> readColors(const Viewport& size);
 bool isSky(const Picture& picture, std::size_t pixel);
 std::size_t skyPixels(const Picture& picture);
 

@@ -155,17 +155,9 @@ std::vector<PicturePart> GlobeLabels::partsFor(const BodyCamera& camera,
     const Sight sight{.camera = camera,
                       .viewport = {.width = size.width(), .height = size.height()},
                       .scale = static_cast<double>(size.height()) / height()};
-    std::vector<LabelBox> taken;
-    taken.reserve(obstacles.size());
-    for (const QRect& obstacle : obstacles) {
-        taken.push_back(scaled(obstacle, 1.0));
-    }
-    if (camera == globe_.camera()) { // measurements and annotations are drawn as in the window
-        const double left = 0.5 * (width() - size.width() / sight.scale);
-        for (const QRectF& box : taken_) {
-            taken.push_back(scaled(box.translated(-left, 0.0), sight.scale));
-        }
-    }
+    // Measurements and annotations are drawn as in the window.
+    std::vector<LabelBox> taken =
+        takenIn(size, obstacles, camera == globe_.camera() ? taken_ : std::vector<QRectF>{});
     std::vector<Label> labels = valuesOf(graticuleIn(sight), sight, taken);
     if (names_) {
         // Of their own, because those of the window remember what they showed last.

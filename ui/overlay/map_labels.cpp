@@ -176,17 +176,9 @@ std::vector<PicturePart> MapLabels::partsFor(const OrbitCamera& camera,
     const Sight sight{.camera = camera,
                       .viewport = {.width = size.width(), .height = size.height()},
                       .scale = static_cast<double>(size.height()) / height()};
-    std::vector<LabelBox> taken;
-    taken.reserve(obstacles.size());
-    for (const QRect& obstacle : obstacles) {
-        taken.push_back(scaled(obstacle, 1.0));
-    }
-    if (camera == view_.camera()) { // measurements and annotations are drawn as in the view
-        const double left = 0.5 * (width() - size.width() / sight.scale);
-        for (const QRectF& box : markedBoxes()) {
-            taken.push_back(scaled(box.translated(-left, 0.0), sight.scale));
-        }
-    }
+    // Measurements and annotations are drawn as in the view.
+    std::vector<LabelBox> taken =
+        takenIn(size, obstacles, camera == view_.camera() ? markedBoxes() : std::vector<QRectF>{});
     // Of their own, because those of the view remember what they showed last.
     std::unique_ptr<NameLabels> names;
     if (names_) {

@@ -73,6 +73,23 @@ std::vector<PicturePart> LabelsOverlay::partsOf(const std::vector<PlacedName>& l
     return parts;
 }
 
+std::vector<LabelBox> LabelsOverlay::takenIn(const QSize& picture,
+                                             const std::vector<QRect>& obstacles,
+                                             const std::vector<QRectF>& boxes) const
+{
+    std::vector<LabelBox> taken;
+    taken.reserve(obstacles.size() + boxes.size());
+    for (const QRect& obstacle : obstacles) {
+        taken.push_back(scaled(obstacle, 1.0));
+    }
+    const double scale = static_cast<double>(picture.height()) / height();
+    const double left = 0.5 * (width() - picture.width() / scale);
+    for (const QRectF& box : boxes) {
+        taken.push_back(scaled(box.translated(-left, 0.0), scale));
+    }
+    return taken;
+}
+
 std::vector<LabelsOverlay::PlacedName> LabelsOverlay::namesIn(const CameraPose& camera,
                                                               const NameLabelOptions& options,
                                                               NameLabels& names) const

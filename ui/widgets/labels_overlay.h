@@ -12,7 +12,9 @@
 #include <QHash>
 #include <QPixmap>
 #include <QPointF>
+#include <QRect>
 #include <QRectF>
+#include <QSize>
 #include <QString>
 #include <QTimer>
 #include <QWidget>
@@ -48,6 +50,11 @@ protected:
     void showSightSoon() { soon_.start(); }
     /// Of the visible obstacles, in pixels; `scale` pixels per point.
     std::vector<LabelBox> obstacleBoxes(double scale) const;
+    /// What labels of a picture of any size keep clear of, in its pixels: `obstacles` in it, and
+    /// `boxes` of the window, in points, which are as far from the middle and from the top there.
+    std::vector<LabelBox> takenIn(const QSize& picture,
+                                  const std::vector<QRect>& obstacles,
+                                  const std::vector<QRectF>& boxes) const;
     std::vector<PlacedName>
     namesIn(const CameraPose& camera, const NameLabelOptions& options, NameLabels& names) const;
     /// How the values of a graticule are written.
