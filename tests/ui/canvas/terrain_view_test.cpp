@@ -194,34 +194,37 @@ TEST_F(TerrainViewTest, NeverShowsOnlySky)
     }
 }
 
-// The straight path from one side of a ridge to the other passes through it.
+// The straight path from one side of a ridge to the other passes through it. How many frames a
+// motion has depends on the machine: it is repeated until one of them is above the ridge.
 TEST_F(TerrainViewTest, StaysAboveTheGroundWhileItMoves)
 {
-    const QString wall = maps_.write(QStringLiteral("wall.asc"), {}, [](int column, int /*row*/) {
-        return column > 27 && column < 33 ? 400.0 : 0.0;
+    const QString ridge = maps_.write(QStringLiteral("ridge.asc"), {}, [](int column, int /*row*/) {
+        return column < 33 ? 400.0 : 0.0;
     });
-    ASSERT_TRUE(openAndWait(*window_, wall));
+    ASSERT_TRUE(openAndWait(*window_, ridge));
     view().setExaggeration(1.0);
     const Map& map = *view().map();
     const SceneFrame& frame = map.georeference().sceneFrame();
-    int frames_over_wall = 0;
+    int frames_over_ridge = 0;
     QObject::connect(&view(), &TerrainView::pointerMoved, &view(), [&] {
         const ScenePoint eye = eyeOf(view().camera());
         const double ground_m = map.heightfield().height(frame.toGrid(eye));
         if (std::isfinite(ground_m)) {
             EXPECT_GT(eye.z, ground_m);
-            frames_over_wall += ground_m > 300.0 ? 1 : 0;
+            frames_over_ridge += ground_m > 300.0 ? 1 : 0;
         }
     });
-    // The turn takes the eye around the target from north through west to south: twice over the
-    // wall.
-    view().setCamera({.target = frame.toScene({38.0, 20.0}, 0.0),
-                      .distance_m = 500.0,
-                      .azimuth = Angle::degrees(170.0),
-                      .tilt = Angle::degrees(70.0)});
-    view().turnNorthUp();
-    ASSERT_TRUE(arrive());
-    EXPECT_GT(frames_over_wall, 0);
+    // The turn takes the eye around the target from north through west to south, over the ridge.
+    for (int turn = 0; turn < 50 && frames_over_ridge == 0; ++turn) {
+        view().setCamera({.target = frame.toScene({38.0, 20.0}, 0.0),
+                          .distance_m = 500.0,
+                          .azimuth = Angle::degrees(170.0),
+                          .tilt = Angle::degrees(70.0)});
+        ASSERT_EQ(frames_over_ridge, 0) << "already at the start";
+        view().turnNorthUp();
+        ASSERT_TRUE(arrive());
+    }
+    EXPECT_GT(frames_over_ridge, 0);
 }
 
 TEST_F(TerrainViewTest, FliesToWhereItIsDoubleClicked)
