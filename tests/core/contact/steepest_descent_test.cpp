@@ -94,6 +94,9 @@ int endsAtSteepestFeet(const HeightfieldSurface& surface)
                     EXPECT_NEAR(test::distance(state.proxy, *steepest.foot), 0.0, 1e-9)
                         << column << " " << row << " " << depth_m;
                     EXPECT_EQ(state.feature, ContactFeature::Face);
+                    // In one straight step over that face, not by way of an edge or a vertex.
+                    EXPECT_EQ(state.counters.vertices, 1U);
+                    EXPECT_EQ(state.counters.faces, 1U);
                 }
             }
         }
