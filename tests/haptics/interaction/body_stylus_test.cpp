@@ -98,6 +98,67 @@ TEST_F(BodyStylusTest, IsNotPressedWhereAnotherSurfaceIsTheTerrain)
                       });
     stylus_.aim(at, {.is_pressing = true}, kPointM);
     EXPECT_LT(length(stylus_.pose()->proxy - at.point), 3e4);
+    // It is pressed as deep as that allows, by halves.
+    ScenePoint deepest{};
+    for (double share = 1.0; share > 1e-3 && deepest == ScenePoint{}; share *= 0.5) {
+        const ScenePoint goal = at.point - at.up * (30.0 * kPointM * share);
+        const ScenePoint proxy =
+            makeContactModel(kContactModelDefault, BodySurface(mesh_), ContactModelOptions{})
+                ->place(goal)
+                .proxy;
+        deepest = length(proxy - at.point) < 3e4 ? proxy : ScenePoint{};
+    }
+    EXPECT_NEAR(length(stylus_.pose()->proxy - deepest), 0.0, 1e-3);
+}
+
+TEST_F(BodyStylusTest, AGrabHoldsWhatItGrabbed)
+{
+    const BodyAim at = aimAt(20.0, 50.0);
+    const BodyAim beside = aimAt(25.0, 50.0);
+    stylus_.aim(at, {.is_grabbing = true}, kPointM);
+    EXPECT_EQ(stylus_.pose()->mode, StylusMode::Zoom); // in free space
+    const ScenePoint hovering = stylus_.pose()->goal;
+    stylus_.aim(beside, {.is_grabbing = true}, kPointM);
+    EXPECT_EQ(stylus_.pose()->goal, hovering);
+    stylus_.lift();
+    stylus_.aim(at, {.is_pressing = true}, kPointM);
+    const StylusPose pressed = *stylus_.pose();
+    stylus_.aim(beside, {.is_pressing = true, .is_grabbing = true}, kPointM);
+    EXPECT_EQ(stylus_.pose()->mode, StylusMode::Pan);
+    EXPECT_EQ(stylus_.pose()->goal, pressed.goal);
+    EXPECT_EQ(stylus_.pose()->proxy, pressed.proxy);
+}
+
+TEST_F(BodyStylusTest, PressesDeeperWithinBounds)
+{
+    const BodyAim at = aimAt(20.0, 50.0);
+    const auto depth = [&] {
+        stylus_.aim(at, {.is_pressing = true}, kPointM);
+        return length(stylus_.pose()->goal - at.point) / kPointM;
+    };
+    stylus_.deepen(1.2);
+    EXPECT_NEAR(depth(), 36.0, 1e-6);
+    stylus_.deepen(1e9);
+    EXPECT_NEAR(depth(), kStylusDepthMax, 1e-6);
+    stylus_.deepen(1e-9);
+    EXPECT_NEAR(depth(), kStylusDepthMin, 1e-6);
+}
+
+// A proxy that stayed with the first surface would lie below the second.
+TEST_F(BodyStylusTest, PressesTheSurfaceThatItIsAimedAt)
+{
+    const auto higher = test::bodyMesh(test::wholeMars(120, 60), 4.0);
+    stylus_.setGround({{.mesh = mesh_}, {.mesh = higher}}, {});
+    BodyAim at = aimAt(20.0, 50.0);
+    stylus_.aim(at, {.is_pressing = true}, kPointM);
+    const ScenePoint first = stylus_.pose()->proxy;
+    at.index = 1;
+    stylus_.aim(at, {.is_pressing = true}, kPointM);
+    const auto model =
+        makeContactModel(kContactModelDefault, BodySurface(higher), ContactModelOptions{});
+    const ScenePoint second = model->place(stylus_.pose()->goal).proxy;
+    EXPECT_GT(length(second - first), 100.0);
+    EXPECT_NEAR(length(stylus_.pose()->proxy - second), 0.0, 1e-3);
 }
 
 TEST_F(BodyStylusTest, AnotherModelContinuesFromTheProxy)
@@ -106,7 +167,11 @@ TEST_F(BodyStylusTest, AnotherModelContinuesFromTheProxy)
     stylus_.aim(at, {.is_pressing = true}, kPointM);
     const ScenePoint before = stylus_.pose()->proxy;
     stylus_.setModel(ContactModelKind::SurfaceWalk);
+    EXPECT_EQ(stylus_.model(), ContactModelKind::SurfaceWalk);
     EXPECT_LT(length(stylus_.pose()->proxy - before), 1.0);
+    // The center of a sphere on the surface is its radius away from every point of it.
+    stylus_.setModel(ContactModelKind::VirtualProxy);
+    EXPECT_GT(length(stylus_.pose()->proxy - before), 1e4 - 1.0);
 }
 
 } // namespace

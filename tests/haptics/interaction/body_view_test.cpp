@@ -140,6 +140,106 @@ TEST(BodyView, CameraAndFrameFollowEachOther)
                 0.0, 1e-9);
 }
 
+// A camera that the limits have moved by more than a thousandth of its distance, or turned by more
+// than 0.05°, is another view.
+TEST(BodyView, ALimitMovesTheFrameOnlyIfItIsSeen)
+{
+    const BodyCamera camera = cameraOver(-30.0, 20.0, 3e5);
+    const BodyHandView followed{camera, frameFor(camera, kBall), kBall};
+    const auto is_moved = [&](auto change) {
+        BodyCamera limited = camera;
+        change(limited);
+        return limitedView(followed, limited).is_moved;
+    };
+    for (const double sign : {-1.0, 1.0}) {
+        const auto north = [&](double way_m) {
+            return is_moved([&](BodyCamera& at) {
+                at.target.latitude = at.target.latitude + Angle::radians(sign * way_m / 1e6);
+            });
+        };
+        EXPECT_FALSE(north(290.0));
+        EXPECT_TRUE(north(310.0));
+        const auto away = [&](double share) {
+            return is_moved([&](BodyCamera& at) { at.distance_m *= 1.0 + sign * share; });
+        };
+        EXPECT_FALSE(away(0.9e-3));
+        EXPECT_TRUE(away(1.1e-3));
+        const auto turned = [&](double degrees) {
+            return is_moved(
+                [&](BodyCamera& at) { at.azimuth = at.azimuth + Angle::degrees(sign * degrees); });
+        };
+        EXPECT_FALSE(turned(0.04));
+        EXPECT_TRUE(turned(0.06));
+        EXPECT_FALSE(turned(360.0));
+    }
+    // At a pole the heading of one and the same view depends on the longitude.
+    BodyCamera pole = cameraOver(10.0, 90.0, 3e5);
+    const BodyHandView over_pole{pole, frameFor(pole, kBall), kBall};
+    pole.target.longitude = pole.target.longitude + Angle::degrees(40.0);
+    pole.azimuth = pole.azimuth + Angle::degrees(40.0);
+    EXPECT_FALSE(limitedView(over_pole, pole).is_moved);
+    pole.azimuth = pole.azimuth + Angle::degrees(40.0);
+    EXPECT_TRUE(limitedView(over_pole, pole).is_moved);
+}
+
+// Room for a hand over the highest terrain and below the lowest: 0.15 of the relief and 0.03 of the
+// view's diagonal.
+TEST(BodyView, TheWorkspaceHasRoomOverAndBelowARelief)
+{
+    constexpr double kReliefM = 1e4;
+    BodyCamera camera = cameraOver(40.0, 60.0, 5e3);
+    camera.azimuth = {};
+    const WorkspaceFrame frame = frameForBodyView(
+        camera, kSquare,
+        [&](const GeographicPoint& foot) {
+            return foot.latitude.radians() > camera.target.latitude.radians() ? kReliefM : 0.0;
+        },
+        kBall, kReach);
+    // Terrain that is higher is wider by its share of the radius.
+    const double width_m = 2.0 * 5e3 * std::tan(Angle::degrees(20.0).radians());
+    const double room_m = 0.15 * kReliefM + 0.03 * width_m * std::hypot(1.01, 1.005);
+    // The fall of a ball away from the target takes 3 m below, and as much is added above.
+    const double fall_m = width_m * width_m / 4.0 / 1e6;
+    EXPECT_NEAR(frame.scene_per_meter * 0.12, kReliefM + 2.0 * (room_m + fall_m), 1.0);
+    const double middle_m = length(frame.toScene({})) - 1e6;
+    EXPECT_NEAR(middle_m, 0.5 * kReliefM, 5.0);
+}
+
+// At the camera's nearest and farthest distance the workspace has the scales between which a hand
+// may zoom.
+TEST(BodyView, LimitsOfTheCameraBoundAHand)
+{
+    const BodyCamera camera = cameraOver(-30.0, 20.0, 3e5);
+    const BodyHandView view{camera, frameFor(camera, kBall), kBall};
+    BodyLimits limits;
+    limits.distance_min_m = 1e3;
+    limits.distance_max_m = 6e6;
+    ModeOptions modes;
+    boundZoom(view, limits, modes);
+    EXPECT_NEAR(modes.scene_per_meter_min / view.frame.scene_per_meter, 1e3 / 3e5, 1e-12);
+    EXPECT_NEAR(modes.scene_per_meter_max / view.frame.scene_per_meter, 6e6 / 3e5, 1e-9);
+    limits.area.middle = {.longitude = Angle::degrees(90.0), .latitude = Angle::degrees(30.0)};
+    limits.area.reach = Angle::degrees(50.0);
+    const auto bounds = boundsFor(view, limits);
+    ASSERT_TRUE(bounds);
+    EXPECT_NEAR(length(view.frame.toScene(bounds->target) - targetOf(camera, kBall)), 0.0, 1e-6);
+    EXPECT_NEAR(length(bounds->middle - Vec3{0.0, std::sqrt(0.75), 0.5}), 0.0, 1e-12);
+    EXPECT_NEAR(bounds->reach_rad, 50.0 * std::numbers::pi / 180.0, 1e-12);
+    // A map around the body has no edge.
+    limits.area.reach = Angle::radians(std::numbers::pi);
+    EXPECT_FALSE(boundsFor(view, limits));
+}
+
+TEST(BodyView, TheFrameHasTheScaleOfTheCameraThatItFollows)
+{
+    const BodyCamera camera = cameraOver(-30.0, 20.0, 3e5);
+    const BodyHandView before{camera, frameFor(camera, kBall), kBall};
+    BodyCamera away = camera;
+    away.distance_m *= 2.5;
+    EXPECT_NEAR(frameFollowing(before, away).scene_per_meter / before.frame.scene_per_meter, 2.5,
+                1e-12);
+}
+
 // Until the workspace fits the view again, level and of its size.
 TEST(BodyView, TheWorkspaceSlowlyFitsTheViewAgain)
 {
