@@ -21,8 +21,7 @@ void BodyStylus::setModel(ContactModelKind kind)
     constexpr double kHair = 1e-6;
     const auto [proxy, goal] = std::pair(pose_->proxy, pose_->goal);
     model_.reset();
-    const Surface& surface = surfaces_[at_.index];
-    model_ = makeContactModel(kind_, BodySurface(surface.mesh), {.radius_m = surface.radius_m});
+    model_ = makeModel();
     model_->place(proxy + (goal - proxy) * kHair);
     model_->update(goal);
     keepOnItsSurface(goal);
@@ -39,7 +38,7 @@ void BodyStylus::aim(const BodyAim& at, const StylusButtons& buttons, double poi
     }
     const bool is_pressing = mode == StylusMode::Press;
     if (at.index != at_.index) {
-        model_.reset();
+        model_.reset(); // no wall between two maps holds a pointer, which feels none
     }
     at_ = at;
     point_m_ = point_m;
@@ -65,14 +64,21 @@ void BodyStylus::deepen(double factor)
         std::clamp(reach_.depth_points * factor, kStylusDepthMin, kStylusDepthMax);
 }
 
+std::unique_ptr<ContactModel> BodyStylus::makeModel() const
+{
+    const Surface& surface = surfaces_[at_.index];
+    const ContactModelOptions options{.radius_m = surface.radius_m};
+    return surface.joined ? makeContactModel(kind_, LayeredSurface(surface.joined), options)
+                          : makeContactModel(kind_, BodySurface(surface.mesh), options);
+}
+
 void BodyStylus::press(const ScenePoint& goal)
 {
     if (at_.index >= surfaces_.size() || !surfaces_[at_.index].mesh) {
         return;
     }
     if (!model_) {
-        const Surface& surface = surfaces_[at_.index];
-        model_ = makeContactModel(kind_, BodySurface(surface.mesh), {.radius_m = surface.radius_m});
+        model_ = makeModel();
         model_->place(goal); // from straight above: nothing next to it can obstruct it
     }
     model_->update(goal);
@@ -93,7 +99,12 @@ void BodyStylus::keepOnItsSurface(const ScenePoint& goal)
 
 bool BodyStylus::isOnItsSurface(const ScenePoint& proxy) const
 {
-    return !surface_at_ || surface_at_(proxy) == at_.index;
+    if (!surface_at_) {
+        return true;
+    }
+    const auto found = surface_at_(proxy);
+    const auto& joined = surfaces_[at_.index].joined;
+    return found && (*found == at_.index || (joined && surfaces_[*found].joined == joined));
 }
 
 void BodyStylus::updatePose(StylusMode mode, const ScenePoint& goal)

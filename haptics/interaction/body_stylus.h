@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/body/body_mesh.h"
+#include "core/body/layered_mesh.h"
 #include "core/contact/contact_model.h"
 #include "haptics/interaction/stylus.h"
 
@@ -27,7 +28,10 @@ class BodyStylus {
 public:
     struct Surface {
         std::shared_ptr<const BodyMesh> mesh; // null: cannot be pressed yet
-        double radius_m = 1.0;                // of the sphere of a VirtualProxy
+        /// The map joined with others, which is pressed in place of the mesh; null for a map by
+        /// itself. Surfaces that share it are one.
+        std::shared_ptr<const LayeredMesh> joined{};
+        double radius_m = 1.0; // of the sphere of a VirtualProxy
     };
     /// Which surface is the terrain at a point, straight above or below it; nothing without
     /// terrain there.
@@ -54,6 +58,7 @@ public:
     const Vec3& up() const noexcept { return at_.up; }
 
 private:
+    std::unique_ptr<ContactModel> makeModel() const;
     void press(const ScenePoint& goal);
     void keepOnItsSurface(const ScenePoint& goal);
     bool isOnItsSurface(const ScenePoint& proxy) const;

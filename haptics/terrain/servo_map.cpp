@@ -1,7 +1,9 @@
 #include "haptics/terrain/servo_map.h"
 
+#include "core/base/check.h"
 #include "core/contact/body_below.h"
 #include "core/contact/body_goal_frame.h"
+#include "core/contact/layered_surface.h"
 #include "core/contact/resident_heights.h"
 
 #include <atomic>
@@ -72,9 +74,10 @@ private:
     Surface surface_;
 };
 
+template <typename Surface>
 class BodyTouch final : public TouchSurface {
 public:
-    BodyTouch(const BodyGoalFrame& frame, BodySurface surface)
+    BodyTouch(const BodyGoalFrame& frame, Surface surface)
         : frame_(frame)
         , surface_(std::move(surface))
     {}
@@ -138,7 +141,7 @@ private:
     }
 
     BodyGoalFrame frame_;
-    BodySurface surface_;
+    Surface surface_;
     mutable ScenePoint asked_{std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0};
     mutable BodyBelow below_; // of asked_
 };
@@ -158,6 +161,25 @@ std::shared_ptr<ServoMap> madeOf(const GoalFrame& frame,
                  .map_model = map_model,
                  .surface = std::make_unique<FlatTouch<Surface>>(frame, surface),
                  .terrain = std::move(terrain),
+                 .kind = options.kind,
+                 .radius_m = options.contact.radius_m,
+                 .map_id = options.map_id,
+                 .serial = nextSerial()});
+}
+
+// A BodyMesh, or maps that are joined to one.
+template <typename Surface, typename Mesh>
+std::shared_ptr<ServoMap> bodyMapOf(const std::shared_ptr<const Georeference>& georeference,
+                                    const std::shared_ptr<const Mesh>& mesh,
+                                    const ServoMapOptions& options)
+{
+    const Surface surface(mesh);
+    const BodyGoalFrame frame =
+        bodyGoalFrame(*georeference, mesh->ellipsoid(), mesh->exaggeration());
+    return std::make_shared<ServoMap>(
+        ServoMap{.frame = GoalFrame(georeference, mesh->exaggeration()),
+                 .model = makeContactModel(options.kind, surface, options.contact),
+                 .surface = std::make_unique<BodyTouch<Surface>>(frame, surface),
                  .kind = options.kind,
                  .radius_m = options.contact.radius_m,
                  .map_id = options.map_id,
@@ -192,17 +214,17 @@ std::shared_ptr<ServoMap> makeServoMap(const std::shared_ptr<const Georeference>
                                        const std::shared_ptr<const BodyMesh>& mesh,
                                        const ServoMapOptions& options)
 {
-    const BodySurface surface(mesh);
-    const BodyGoalFrame frame =
-        bodyGoalFrame(*georeference, mesh->positions().ellipsoid(), mesh->exaggeration());
-    return std::make_shared<ServoMap>(
-        ServoMap{.frame = GoalFrame(georeference, mesh->exaggeration()),
-                 .model = makeContactModel(options.kind, surface, options.contact),
-                 .surface = std::make_unique<BodyTouch>(frame, surface),
-                 .kind = options.kind,
-                 .radius_m = options.contact.radius_m,
-                 .map_id = options.map_id,
-                 .serial = nextSerial()});
+    return bodyMapOf<BodySurface>(georeference, mesh, options);
+}
+
+std::shared_ptr<ServoMap> makeServoMap(const std::vector<std::shared_ptr<const Georeference>>& maps,
+                                       const std::shared_ptr<const LayeredMesh>& mesh,
+                                       const ServoMapOptions& options)
+{
+    MARSVIEW_CHECK(maps.size() == mesh->mapCount());
+    auto map = bodyMapOf<LayeredSurface>(maps.front(), mesh, options);
+    map->below.assign(maps.begin() + 1, maps.end());
+    return map;
 }
 
 } // namespace marsview

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/body/body_mesh.h"
+#include "core/body/layered_mesh.h"
 #include "core/contact/contact_model.h"
 #include "core/contact/goal_frame.h"
 #include "core/terrain/filled_heightfield.h"
@@ -12,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 namespace marsview {
 
@@ -27,6 +29,9 @@ struct ServoMap {
     std::uint64_t map_id = 0;                     // identifies the touched map
     std::uint64_t serial = 0;                     // unique for each ServoMap
     bool is_touched = false;                      // the model already has a proxy
+    /// On the body, the maps below that of `frame` which are joined with it to one surface, the
+    /// uppermost first.
+    std::vector<std::shared_ptr<const Georeference>> below{};
 };
 
 /// The nearest position on the grid of a map.
@@ -61,6 +66,11 @@ std::shared_ptr<ServoMap> makeServoMap(const GoalFrame& frame,
 /// longitude, latitude and elevation (BodyGoalFrame).
 std::shared_ptr<ServoMap> makeServoMap(const std::shared_ptr<const Georeference>& georeference,
                                        const std::shared_ptr<const BodyMesh>& mesh,
+                                       const ServoMapOptions& options);
+/// Several maps on their body, joined to one surface: those of the mesh, in its order. Longitudes
+/// in recordings are those around the middle of the uppermost.
+std::shared_ptr<ServoMap> makeServoMap(const std::vector<std::shared_ptr<const Georeference>>& maps,
+                                       const std::shared_ptr<const LayeredMesh>& mesh,
                                        const ServoMapOptions& options);
 
 } // namespace marsview

@@ -2,6 +2,7 @@
 #include "core/globe/body_camera.h"
 #include "haptics/interaction/body_stylus.h"
 #include "tests/core/contact/body_maps.h"
+#include "tests/core/contact/nested_maps.h"
 
 #include <gtest/gtest.h>
 
@@ -172,6 +173,39 @@ TEST_F(BodyStylusTest, AnotherModelContinuesFromTheProxy)
     // The center of a sphere on the surface is its radius away from every point of it.
     stylus_.setModel(ContactModelKind::VirtualProxy);
     EXPECT_GT(length(stylus_.pose()->proxy - before), 1e4 - 1.0);
+}
+
+// Joined, two maps are one surface: over the border a proxy rests on what lies uppermost.
+TEST(BodyStylusOnJoinedMaps, PressesBothMapsOnOneSurface)
+{
+    const auto maps = test::meshesOf(test::levelStep());
+    JobMonitor monitor;
+    const auto joined = LayeredMesh::build(maps, monitor);
+    ASSERT_TRUE(joined) << joined.error().message;
+    BodyStylus stylus;
+    const BodyPositions& upper = maps[0]->positions();
+    const auto is_inside = [&upper](const ScenePoint& point) {
+        return dot(point - upper.at(40, 16, 0.0), upper.at(40, 16, 0.0) - upper.at(0, 16, 0.0)) <
+               0.0;
+    };
+    stylus.setGround({{.mesh = maps[0], .joined = *joined}, {.mesh = maps[1], .joined = *joined}},
+                     [&](const ScenePoint& point) -> std::optional<std::size_t> {
+                         return is_inside(point) ? 0U : 1U;
+                     });
+    // Along a row of the upper map and beyond its border.
+    for (int i = -20; i <= 20; ++i) {
+        const ScenePoint place = upper.at(40, 16, 0.0) +
+                                 (upper.at(40, 16, 0.0) - upper.at(39, 16, 0.0)) * (0.1 * i + 0.05);
+        const BodyVertical vertical = verticalAt((*joined)->ellipsoid(), place);
+        const auto ground = test::below(**joined, place - vertical.up * vertical.height_m);
+        ASSERT_TRUE(ground);
+        const ScenePoint point = place + vertical.up * (ground->height_m - vertical.height_m);
+        stylus.aim({.index = i < 0 ? 0U : 1U, .point = point, .up = vertical.up},
+                   {.is_pressing = true}, 0.1); // by 3 m
+        ASSERT_TRUE(stylus.pose()->is_in_contact) << i;
+        // Both maps are level, apart from their curvature.
+        EXPECT_LT(length(stylus.pose()->proxy - point), 0.1) << i;
+    }
 }
 
 } // namespace
