@@ -61,8 +61,7 @@ ModeStep zoom(const ModeOptions& options, const ModeInput& input, ModeState& sta
             .force_n = {-hold * (input.hand.x - state.grabbed.x),
                         -hold * (input.hand.y - state.grabbed.y),
                         detentForce(options.zoom, state.above_detent_m)},
-            .has_moved_map =
-                input.hand_shift.z != 0.0 || next != scale || input.twist_change_rad != 0.0};
+            .has_moved_map = input.hand_shift.z != 0.0 || input.twist_change_rad != 0.0};
 }
 
 ModeStep glide(const ModeOptions& options, const ModeInput& input, ModeState& state, double dt_s)

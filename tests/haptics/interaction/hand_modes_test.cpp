@@ -78,6 +78,60 @@ TEST(HandModes, PanningHoldsTheHeightAndMovesTheMap)
     EXPECT_NEAR(step.force_n.x, 0.0, 1e-3);
 }
 
+// Section 4.2: at the grab the force continues, also that on a hand that strokes. With the map's
+// mass m and drag c and the hold's spring k and damper b, the first step keeps the share
+// m (1 + c dt) / (m (1 + c dt) + (k dt + b) dt) of the horizontal force, whatever the hand's speed.
+TEST(HandModes, TheForceOnAStrokingHandContinuesAtTheGrab)
+{
+    const PanOptions pan;
+    const double mass = pan.mass_kg * (1.0 + pan.drag_per_s * kDt);
+    const double share = mass / (mass + (pan.grip_n_per_m * kDt + pan.grip_n_s_per_m) * kDt);
+    for (const double speed_m_per_s : {0.0, 0.1, 0.5}) {
+        for (const double stiffness : {400.0, 0.5}) {
+            Hand hand;
+            hand.input.is_in_contact = true;
+            hand.input.stiffness_n_per_m = stiffness;
+            hand.move({});
+            hand.input.is_grabbing = true;
+            hand.input.surface_force_n = {0.003, -0.002, 0.004};
+            const ModeStep step = hand.move({-speed_m_per_s * kDt, 0.5 * speed_m_per_s * kDt, 0.0});
+            // A spring that is as weak as the hand's takes the place of a stiffer hold.
+            const double kept =
+                stiffness < 1.0 ? mass / (mass + (1.0 * kDt + pan.grip_n_s_per_m) * kDt) : share;
+            EXPECT_NEAR(step.force_n.x, 0.003 * kept, 1e-12);
+            EXPECT_NEAR(step.force_n.y, -0.002 * kept, 1e-12);
+            EXPECT_NEAR(step.force_n.z, 0.004, 1e-12);
+        }
+    }
+}
+
+TEST(HandModes, WithoutStiffnessAGrabExertsNoVerticalForce)
+{
+    Hand hand;
+    hand.input.is_in_contact = true;
+    hand.input.stiffness_n_per_m = 0.0;
+    hand.input.is_grabbing = true;
+    hand.input.surface_force_n = {0.0, 0.0, 0.5};
+    EXPECT_EQ(hand.move({}).force_n.z, 0.0);
+    EXPECT_EQ(hand.move({0.0, 0.0, 0.01}).force_n.z, 0.0);
+}
+
+// Section 4.2: while the hand zooms, its horizontal position is held.
+TEST(HandModes, AZoomPullsBackToWhereItGrabbed)
+{
+    Hand hand;
+    hand.move({0.02, -0.03, 0.01});
+    hand.input.is_grabbing = true;
+    EXPECT_FALSE(hand.move({}).has_moved_map);
+    const ModeStep aside = hand.move({0.001, 0.002, 0.0});
+    EXPECT_NEAR(aside.force_n.x, -0.4, 1e-12); // 400 N/m
+    EXPECT_NEAR(aside.force_n.y, -0.8, 1e-12);
+    EXPECT_FALSE(aside.has_moved_map);
+    EXPECT_TRUE(hand.move({}, 0.01).has_moved_map);
+    EXPECT_TRUE(hand.move({0.0, 0.0, 0.001}).has_moved_map);
+    EXPECT_FALSE(hand.move({}).has_moved_map);
+}
+
 // The detents belong to the zoom at which the hand grabs, wherever it has just been.
 TEST(HandModes, AGrabOnADetentFeelsNoneThoughTheHandMoves)
 {

@@ -84,6 +84,7 @@ TEST(HandView, ALimitOfTheCameraMovesTheMapExceptInHeight)
     EXPECT_FALSE(limited([](OrbitCamera& c) { c.target.z = 50.0; }).is_moved);
     EXPECT_TRUE(limited([](OrbitCamera& c) { c.distance_m = 120.0; }).is_moved);
     EXPECT_TRUE(limited([](OrbitCamera& c) { c.azimuth = Angle::degrees(31.0); }).is_moved);
+    EXPECT_FALSE(limited([](OrbitCamera& c) { c.azimuth = Angle::degrees(390.0); }).is_moved);
     // A thousandth of the distance of 100 m is rounding.
     EXPECT_FALSE(limited([](OrbitCamera& c) { c.target.x += 0.09; }).is_moved);
     EXPECT_TRUE(limited([](OrbitCamera& c) { c.target.x += 0.11; }).is_moved);
