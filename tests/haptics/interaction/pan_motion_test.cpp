@@ -204,6 +204,38 @@ TEST(PanMotion, AWallTakesTheMomentum)
     EXPECT_EQ(glideMap({}, state, 1.0, kDt).shift_m, Vec3{}); // permanently
 }
 
+// After a grab without a force the hold has none to exert in the first step, near a wall too, and
+// what has no mass needs none.
+TEST(PanMotion, AKnockIsHeldBackWithAnyMass)
+{
+    for (const double share : {0.0, 0.002, 1.0}) {
+        PanState state;
+        grabMap({}, state, {}, {});
+        const PanStep step = pullMap({}, state, {5e-4, 0.0, 0.0}, share, kDt);
+        EXPECT_NEAR(length(step.force_n), 0.0, 1e-12) << share;
+        // The map follows without mass; with mass it stays where it is.
+        EXPECT_NEAR(step.shift_m.x, share > 0.0 ? 0.0 : 5e-4, 1e-12) << share;
+    }
+}
+
+TEST(PanMotion, WithoutTimeTheForceIsThatOfTheStretchedHold)
+{
+    PanState state{.stretch_m = {0.002, -0.001, 0.0}};
+    const PanOptions options;
+    const PanStep step = pullMap(options, state, {}, 1.0, 0.0);
+    EXPECT_EQ(step.shift_m, Vec3{});
+    EXPECT_NEAR(step.force_n.x, -0.002 * options.grip_n_per_m, 1e-12);
+    EXPECT_NEAR(step.force_n.y, 0.001 * options.grip_n_per_m, 1e-12);
+}
+
+TEST(PanMotion, AMapSlowerThanATenthOfAMillimeterPerSecondRests)
+{
+    for (const double speed_m_per_s : {0.9e-4, 1.1e-4}) {
+        PanState state{.velocity_m_per_s = {0.0, -speed_m_per_s, 0.0}};
+        EXPECT_EQ(glideMap({}, state, 1.0, kDt).shift_m == Vec3{}, speed_m_per_s < 1e-4);
+    }
+}
+
 TEST(PanMotion, TakesAnyTimeStep)
 {
     for (const double dt_s : {0.0, 1e-9, 1e-4, 0.01, 1.0, std::nan("")}) {
