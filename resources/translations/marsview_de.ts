@@ -2983,6 +2983,11 @@ y %2</translation>
         <source>Nothing to touch here: the layer is not held in memory</source>
         <translation>Hier ist nichts zu ertasten: Die Ebene liegt nicht im Speicher</translation>
     </message>
+    <message>
+        <source>Layers are touched one by one: %1</source>
+        <extracomment>%1 is the reason</extracomment>
+        <translation>Die Ebenen werden einzeln ertastet: %1</translation>
+    </message>
 </context>
 <context>
     <name>marsview::HapticsPanel</name>

@@ -49,6 +49,11 @@ public:
     virtual void release() = 0;
     /// Which is touched; empty for none, or if it is not shown any more.
     virtual std::optional<std::size_t> touched() const = 0;
+    /// The surface of this map, as it is now, is the one that is touched: alone, or joined with
+    /// others.
+    virtual bool isTouched(std::size_t index) const = 0;
+    /// Why maps on top of each other are touched one by one; empty if they are not.
+    virtual QString whyApart() const = 0;
     /// The touched map with a new model.
     virtual std::shared_ptr<ServoMap> make(ContactModelKind kind) const = 0;
 

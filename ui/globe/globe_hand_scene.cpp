@@ -63,35 +63,88 @@ std::optional<std::size_t> GlobeHandScene::mapAt(const ScenePoint& hand) const
     return scene.mapAt(placeOf(hand, scene.ellipsoid()).foot);
 }
 
-void GlobeHandScene::touch(std::size_t index)
+// The map with that index, and what it is joined with.
+std::vector<BodyTerrain> GlobeHandScene::surfaceOf(std::size_t index) const
 {
-    touched_ =
-        Touched{.terrain = globe_.meshes().ground()->scene.maps()[index], .map_id = nextMapId()};
+    const GlobeMeshes::Ground& ground = *globe_.meshes().ground();
+    const auto& joined = ground.surfaces[index].joined;
+    std::vector<BodyTerrain> maps;
+    for (std::size_t i = 0; i < ground.surfaces.size(); ++i) {
+        if (i == index || (joined && ground.surfaces[i].joined == joined)) {
+            maps.push_back(ground.scene.maps()[i]);
+        }
+    }
+    return maps;
 }
 
+void GlobeHandScene::touch(std::size_t index)
+{
+    const BodyStylus::Surface& surface = globe_.meshes().ground()->surfaces[index];
+    touched_ = Touched{.maps = surfaceOf(index),
+                       .map_id = nextMapId(),
+                       .joined = surface.joined,
+                       .radius_m = surface.radius_m};
+}
+
+// Of several maps, the uppermost, as long as all are shown in their order.
 std::optional<std::size_t> GlobeHandScene::touched() const
 {
     const auto& ground = globe_.meshes().ground();
     if (!touched_ || !ground) {
         return std::nullopt;
     }
+    std::optional<std::size_t> first;
+    std::size_t next = 0;
     const auto& maps = ground->scene.maps();
-    const auto found = std::find_if(maps.begin(), maps.end(), [this](const BodyTerrain& terrain) {
-        return terrain.map() == touched_->terrain.map() &&
-               terrain.grid() == touched_->terrain.grid();
-    });
-    return found != maps.end()
-               ? std::optional(static_cast<std::size_t>(std::distance(maps.begin(), found)))
-               : std::nullopt;
+    for (std::size_t i = 0; i < maps.size() && next < touched_->maps.size(); ++i) {
+        if (isSameMap(maps[i], touched_->maps[next])) {
+            first = first.value_or(i);
+            ++next;
+        }
+    }
+    return next == touched_->maps.size() ? first : std::nullopt;
+}
+
+// While the maps of the scene are not joined yet, a surface of earlier ones stays.
+bool GlobeHandScene::isTouched(std::size_t index) const
+{
+    const GlobeMeshes::Ground& ground = *globe_.meshes().ground();
+    const auto is_same = [&](const BodyTerrain& map) {
+        return isSameMap(map, ground.scene.maps()[index]);
+    };
+    if (!touched_ || std::none_of(touched_->maps.begin(), touched_->maps.end(), is_same)) {
+        return false;
+    }
+    if (!ground.surfaces[index].joined) {
+        return touched_->maps.size() == 1 || !globe_.meshes().isComplete();
+    }
+    const std::vector<BodyTerrain> maps = surfaceOf(index);
+    return std::equal(maps.begin(), maps.end(), touched_->maps.begin(), touched_->maps.end(),
+                      isSameMap);
+}
+
+QString GlobeHandScene::whyApart() const
+{
+    const auto& ground = globe_.meshes().ground();
+    return ground ? ground->why_apart : QString();
 }
 
 std::shared_ptr<ServoMap> GlobeHandScene::make(ContactModelKind kind) const
 {
-    const BodyStylus::Surface& surface = globe_.meshes().ground()->surfaces[*touched()];
-    const auto& map = touched_->terrain.map();
+    const auto index = *touched();
+    const BodyStylus::Surface& surface = globe_.meshes().ground()->surfaces[index];
+    const ServoMapOptions options{
+        .kind = kind, .contact = {.radius_m = touched_->radius_m}, .map_id = touched_->map_id};
+    std::vector<std::shared_ptr<const Georeference>> maps;
+    for (const BodyTerrain& terrain : touched_->maps) {
+        maps.emplace_back(terrain.map(), &terrain.map()->georeference());
+    }
+    if (maps.size() == 1) {
+        return makeServoMap(maps.front(), surface.mesh, options);
+    }
+    // At another exaggeration the same maps are joined again.
     return makeServoMap(
-        {map, &map->georeference()}, surface.mesh,
-        {.kind = kind, .contact = {.radius_m = surface.radius_m}, .map_id = touched_->map_id});
+        maps, surface.joined && isTouched(index) ? surface.joined : touched_->joined, options);
 }
 
 BodyGround GlobeHandScene::ground() const

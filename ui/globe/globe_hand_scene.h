@@ -28,6 +28,8 @@ public:
     void touch(std::size_t index) override;
     void release() override { touched_.reset(); }
     std::optional<std::size_t> touched() const override;
+    bool isTouched(std::size_t index) const override;
+    QString whyApart() const override;
     std::shared_ptr<ServoMap> make(ContactModelKind kind) const override;
 
     void fit(const WorkspaceBox& workspace, LoopSettings& settings) override;
@@ -54,11 +56,16 @@ public:
     void releaseStylus() override;
 
 private:
-    // A map where it is; the same one at another exaggeration.
+    // A map where it is, or several that are joined to one surface, the uppermost first; the same
+    // ones at another exaggeration.
     struct Touched {
-        BodyTerrain terrain;
+        std::vector<BodyTerrain> maps;
         std::uint64_t map_id = 0;
+        std::shared_ptr<const LayeredMesh> joined{}; // the latest
+        double radius_m = 1.0;
     };
+
+    std::vector<BodyTerrain> surfaceOf(std::size_t index) const;
 
     BodyGround ground() const;
 

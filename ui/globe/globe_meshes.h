@@ -17,7 +17,9 @@
 namespace marsview {
 
 /// Made on a worker thread when the mouse or a device needs them, and again where the layers or the
-/// exaggeration change; until then the earlier ones are kept. GUI thread.
+/// exaggeration change; until then the earlier ones are kept. Maps on top of each other are joined
+/// to one surface, which takes longer: for new layers they can be touched one by one until then.
+/// GUI thread.
 class GlobeMeshes final : public QObject {
     Q_OBJECT
 
@@ -29,6 +31,9 @@ public:
         BodyScene scene;
         double exaggeration = 1.0;
         std::vector<BodyStylus::Surface> surfaces;
+        /// Why maps on top of each other are touched one by one; empty while they are being joined,
+        /// and afterwards if they are.
+        QString why_apart{};
     };
 
     explicit GlobeMeshes(QObject* parent = nullptr);
@@ -40,6 +45,8 @@ public:
     bool isPreparing() const noexcept { return preparing_ != nullptr; }
     /// ground() is that of the scene of now.
     bool isReady() const noexcept { return is_ready_; }
+    /// And what lies on top of each other in it is joined, or cannot be.
+    bool isComplete() const noexcept { return is_ready_ && is_complete_; }
     /// The latest; empty before the first, and if a scene cannot be touched.
     const std::optional<Ground>& ground() const noexcept { return ground_; }
     /// Why the scene cannot be touched.
@@ -58,18 +65,22 @@ private:
     void prepare();
     void cancel();
     void take(std::optional<Ground> ground, const QString& problem);
+    void takeJoined(const Ground& ground);
 
     BodyScene scene_;
     double exaggeration_ = 1.0;
     std::array<bool, 2> is_wanted_{};
     bool is_ready_ = false;
+    bool is_complete_ = false;
     std::optional<Ground> ground_;
     QString problem_;
-    std::shared_ptr<JobMonitor> preparing_;
+    std::shared_ptr<JobMonitor> preparing_; // of ground_
+    std::shared_ptr<JobMonitor> joining_;   // of its maps; null while preparing
     DetachedJobs jobs_;
 };
 
-/// The same maps at the same places.
+/// The same map at the same place.
+bool isSameMap(const BodyTerrain& a, const BodyTerrain& b);
 bool areSameMaps(const BodyScene& a, const BodyScene& b);
 
 } // namespace marsview

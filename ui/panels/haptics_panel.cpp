@@ -576,6 +576,7 @@ void HapticsPanel::showState(const LoopState& state)
     if (text != reason_->text()) {
         reason_->setText(text);
     }
+    reason_->setToolTip(controller_.whyApart());
     rest_->setVisible(state.reason == ForceOffReason::DeviceUnready && device_.canBeSetAtRest());
     if (times_->isDue()) {
         times_->showLoop(device_.loop()->statistics(), device_.loop()->grants());

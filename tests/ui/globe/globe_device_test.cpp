@@ -138,6 +138,62 @@ TEST_F(GlobeDeviceTest, PullingRollsTheGlobeUnderTheHandAndTheCameraFollows)
     EXPECT_TRUE(waitFor([&] { return state().mode != StylusMode::Pan; }));
 }
 
+// Two layers on top of each other are one surface, made in the background, and again where layers
+// or exaggeration change.
+TEST_F(GlobeDeviceTest, AStrokeFromLayerToLayerStaysOnOneSurface)
+{
+    // 40 × 30 samples of 20 km around 80° N, 0° E, kilometers above Mars there.
+    ASSERT_TRUE(openAndWait(*window_, maps_.placed("polar", "IAU_2015:49930",
+                                                   {-400e3, 20e3, 0.0, -300e3, 0.0, -20e3})));
+    const auto are_joined = [&] {
+        const auto& map = settings().map;
+        return map && map->below.size() == 1 && map->frame.georeference().columns() == 40 &&
+               map->frame.exaggeration() == globe().exaggeration();
+    };
+    ASSERT_TRUE(begin(20.0, 79.0, 8e5));
+    ASSERT_TRUE(waitFor(are_joined));
+    EXPECT_TRUE(haptics().whyApart().isEmpty());
+    const std::uint64_t id = settings().map->map_id;
+    // From the middle of the view to the east, beyond the border.
+    const LocalAxes local =
+        localAxes(body(), {.longitude = Angle::degrees(45.0), .latitude = Angle::degrees(79.0)});
+    const double east_m = state().frame.toWorkspace(local.up * body().polar_m).x;
+    const auto layerBelowProxy = [&] {
+        return globe().scene().mapAt(placeOf(state().contact.proxy, body()).foot);
+    };
+    const auto moveTo = [&](const WorkspacePoint& at) { // slower than a jump
+        const WorkspacePoint begin = state().hand;
+        const int steps = 1 + static_cast<int>(length(at - begin) / 0.005);
+        for (int i = 1; i <= steps; ++i) {
+            const WorkspacePoint next = begin + (at - begin) * (static_cast<double>(i) / steps);
+            hand_->moveTo(next);
+            if (!waitFor([&] { return length(state().hand - next) < 1e-9; })) {
+                return false;
+            }
+        }
+        return true;
+    };
+    ASSERT_TRUE(moveTo({0.0, 0.0, 0.0}));
+    ASSERT_TRUE(moveTo({0.0, 0.0, -0.04}));
+    ASSERT_TRUE(waitFor([&] { return state().contact.is_in_contact; }));
+    EXPECT_EQ(layerBelowProxy(), 0U);
+    ASSERT_TRUE(moveTo({std::min(east_m, 0.07), 0.0, -0.04}));
+    ASSERT_TRUE(waitFor([&] { return layerBelowProxy() == 1U; }));
+    EXPECT_EQ(settings().map->map_id, id) << "the same surface";
+    EXPECT_TRUE(state().contact.is_in_contact);
+
+    view().setExaggeration(3.0);
+    ASSERT_TRUE(waitFor(are_joined));
+    EXPECT_EQ(settings().map->map_id, id) << "the same surface, raised";
+    const LayerId polar = window_->session().layers.front().id;
+    window_->controller().setVisible(polar, false);
+    ASSERT_TRUE(waitFor([&] {
+        return settings().map->below.empty() && settings().map->frame.georeference().columns() > 40;
+    }));
+    window_->controller().setVisible(polar, true);
+    ASSERT_TRUE(waitFor(are_joined));
+}
+
 // The force fades out and in: from write to write by no more than the limiter allows.
 TEST_F(GlobeDeviceTest, AnotherSceneTakesTheHandOverWithoutAStep)
 {

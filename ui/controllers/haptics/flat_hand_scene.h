@@ -28,6 +28,8 @@ public:
     void touch(std::size_t index) override;
     void release() override { map_.reset(); }
     std::optional<std::size_t> touched() const override;
+    bool isTouched(std::size_t index) const override { return touched() == index; }
+    QString whyApart() const override { return {}; }
     std::shared_ptr<ServoMap> make(ContactModelKind kind) const override;
 
     void fit(const WorkspaceBox& workspace, LoopSettings& settings) override;

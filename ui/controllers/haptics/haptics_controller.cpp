@@ -124,6 +124,13 @@ QString HapticsController::whyNoTouch() const
                : scene_->whyNone();
 }
 
+QString HapticsController::whyApart() const
+{
+    const QString why = device_->loop() != nullptr ? scene_->whyApart() : QString();
+    //: %1 is the reason
+    return why.isEmpty() ? why : tr("Layers are touched one by one: %1").arg(why);
+}
+
 HapticsController::~HapticsController()
 {
     blockSignals(true);
@@ -229,7 +236,8 @@ void HapticsController::setStopped(bool is_stopped)
     }
 }
 
-// The hand stays on its map as long as that is shown, and begins on the uppermost.
+// The hand stays on its map as long as that is shown, and begins on the uppermost. Where its map
+// was joined with one that is not shown any more, it touches what is left below it.
 void HapticsController::takeGround()
 {
     if (device_->loop() == nullptr) {
@@ -249,12 +257,13 @@ void HapticsController::takeGround()
         return;
     }
     const bool is_kept = scene_->touched().has_value();
-    const bool is_raised = std::exchange(exaggeration_, scene_->exaggeration()) != exaggeration_;
-    if (is_kept && is_raised) {
+    exaggeration_ = scene_->exaggeration();
+    const auto& map = device_->settings().map;
+    if (is_kept && map && map->frame.exaggeration() != exaggeration_) {
         makeMapAgain();
     }
     if (!is_kept) {
-        takeMap(first); // pushed together with the frame
+        takeMap(mapBelowHand().value_or(first)); // pushed together with the frame
     }
     takeSight();
     checkReplay();
@@ -343,21 +352,36 @@ void HapticsController::takeExaggeration()
     }
 }
 
-// Where several maps are shown, what lies uppermost below the hand is touched.
+// Where several maps are shown, what lies uppermost below the hand is touched, together with the
+// maps that it is joined with.
 void HapticsController::chooseMap(const LoopState& state)
 {
     const auto touched = scene_->touched();
-    if (!touched || scene_->maps().size() < 2) {
+    if (!touched) {
         setCovered(false);
         return;
     }
     // Where the hand is: the goal never leaves the map that it touches.
-    const auto index = scene_->mapAt(state.frame.toScene(state.hand));
+    const auto index =
+        scene_->maps().size() > 1 ? scene_->mapAt(state.frame.toScene(state.hand)) : touched;
     setCovered(index && !scene_->canTouch(*index));
-    if (index && *index != *touched && scene_->canTouch(*index) && !recorder_->isRecording()) {
-        takeMap(*index);
+    const std::size_t next = index && scene_->canTouch(*index) ? *index : *touched;
+    if (!scene_->isTouched(next) && !recorder_->isRecording()) {
+        takeMap(next);
         push();
     }
+}
+
+// Of those that can be touched, for a hand that was touching a map until now.
+std::optional<std::size_t> HapticsController::mapBelowHand() const
+{
+    const LoopState state = device_->loop()->state();
+    if (!device_->settings().map || state.tick == 0 ||
+        state.frame.body_axes.has_value() != scene_->isOnBody()) {
+        return std::nullopt;
+    }
+    const auto index = scene_->mapAt(state.frame.toScene(state.hand));
+    return index && scene_->canTouch(*index) ? index : std::nullopt;
 }
 
 void HapticsController::setCovered(bool is_covered)

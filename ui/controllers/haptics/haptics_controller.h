@@ -43,6 +43,9 @@ public:
     void replay(const QString& file);
     /// Why the hand has nothing to touch where it is; empty if it has, or if no map is open.
     QString whyNoTouch() const;
+    /// Why the hand changes from layer to layer where they lie on top of each other; empty where
+    /// they are one surface.
+    QString whyApart() const;
 
     // Forces.
 
@@ -79,6 +82,7 @@ private:
     void takeGround();
     void takeExaggeration();
     void chooseMap(const LoopState& state);
+    std::optional<std::size_t> mapBelowHand() const;
     void setCovered(bool is_covered);
     void checkReplay();
     void reportReplay();
