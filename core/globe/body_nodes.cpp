@@ -1,5 +1,7 @@
 #include "core/globe/body_nodes.h"
 
+#include "core/globe/map_walls.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -65,6 +67,7 @@ void BodyNodes::setExaggeration(double exaggeration)
 {
     exaggeration_ = exaggeration;
     boxes_.clear();
+    boxes_with_walls_.clear();
     const MinMaxPyramid& bounds = analysis_->bounds;
     const auto all = bounds.bounds(bounds.levelCount() - 1, 0, 0);
     const double radius_m = std::min(grid_->ellipsoid().polar_m, grid_->ellipsoid().equatorial_m);
@@ -76,14 +79,15 @@ NodeSpace::Sight BodyNodes::sight(const DetailNode& node,
                                   const ScenePoint& eye,
                                   bool is_inside) const
 {
-    const OrientedBox& box = keptBoxOf(node);
+    const OrientedBox& all = boxWithWalls(node);
     Sight sight{.is_outside =
-                    (!is_inside && frustum.isOutside(box)) ||
-                    Horizon(grid_->ellipsoid(), exaggeration_ * lowest_m_).hides(box, eye),
+                    (!is_inside && frustum.isOutside(all)) ||
+                    Horizon(grid_->ellipsoid(), exaggeration_ * lowest_m_).hides(all, eye),
                 .is_inside = is_inside};
     if (sight.is_outside) {
         return sight;
     }
+    const OrientedBox& box = keptBoxOf(node);
     sight.is_inside = is_inside || frustum.isInside(box);
     sight.distance_m = box.distanceFrom(eye);
     sight.diagonal_m = box.diagonal_m();
@@ -94,7 +98,7 @@ bool BodyNodes::isOutside(const DetailNode& node,
                           const Frustum& frustum,
                           const ScenePoint& /*eye*/) const
 {
-    return frustum.isOutside(keptBoxOf(node));
+    return frustum.isOutside(boxWithWalls(node));
 }
 
 double BodyNodes::diagonalM(const DetailNode& node) const
@@ -144,9 +148,33 @@ const OrientedBox& BodyNodes::keptBoxOf(const DetailNode& node) const
     return boxes_.emplace(node, boxOf(node)).first->second;
 }
 
+const OrientedBox& BodyNodes::boxWithWalls(const DetailNode& node) const
+{
+    if (!walls_) {
+        return keptBoxOf(node);
+    }
+    const auto known = boxes_with_walls_.find(node);
+    if (known != boxes_with_walls_.end()) {
+        return known->second;
+    }
+    if (boxes_with_walls_.size() >= kBoxesMax) {
+        boxes_with_walls_.clear();
+    }
+    MinMaxPyramid::Bounds bounds = heightsOf(node);
+    if (mayEnd(*grid_, analysis_->means, node)) {
+        bounds.minimum_m = std::min(bounds.minimum_m, static_cast<float>(walls_->minimum_m));
+        bounds.maximum_m = std::max(bounds.maximum_m, static_cast<float>(walls_->maximum_m));
+    }
+    return boxes_with_walls_.emplace(node, boxOf(node, bounds)).first->second;
+}
+
 OrientedBox BodyNodes::boxOf(const DetailNode& node) const
 {
-    const MinMaxPyramid::Bounds bounds = heightsOf(node);
+    return boxOf(node, heightsOf(node));
+}
+
+OrientedBox BodyNodes::boxOf(const DetailNode& node, const MinMaxPyramid::Bounds& bounds) const
+{
     const std::array<double, 2> heights_m{static_cast<double>(bounds.minimum_m) * exaggeration_,
                                           static_cast<double>(bounds.maximum_m) * exaggeration_};
     const std::size_t side = DetailErrors::kNodeCells << node.level;

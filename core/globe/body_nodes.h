@@ -8,6 +8,7 @@
 #include "core/view/node_space.h"
 
 #include <memory>
+#include <optional>
 #include <unordered_map>
 
 namespace marsview {
@@ -20,6 +21,8 @@ public:
 
     /// The height, not exaggerated, of the lowest terrain in the scene: by default that of the map.
     void setLowest(double lowest_m) { lowest_m_ = lowest_m; }
+    /// The elevations, not exaggerated, that walls at the map's edges may reach; see map_walls.h.
+    void setWalls(const HeightRange& reach) { walls_ = reach; }
     void setExaggeration(double exaggeration) override;
     Sight sight(const DetailNode& node,
                 const Frustum& frustum,
@@ -42,7 +45,11 @@ private:
         std::size_t operator()(const DetailNode& node) const noexcept;
     };
 
+    using Boxes = std::unordered_map<DetailNode, OrientedBox, NodeHash>;
+
     const OrientedBox& keptBoxOf(const DetailNode& node) const;
+    const OrientedBox& boxWithWalls(const DetailNode& node) const;
+    OrientedBox boxOf(const DetailNode& node, const MinMaxPyramid::Bounds& bounds) const;
     MinMaxPyramid::Bounds heightsOf(const DetailNode& node) const;
 
     std::shared_ptr<const SurfaceAnalysis> analysis_;
@@ -50,7 +57,9 @@ private:
     double exaggeration_ = 1.0;
     double lowest_m_ = 0.0;
     double growth_ = 1.0; // of horizontal lengths at the highest terrain
-    mutable std::unordered_map<DetailNode, OrientedBox, NodeHash> boxes_; // for exaggeration_
+    std::optional<HeightRange> walls_;
+    mutable Boxes boxes_;            // for exaggeration_
+    mutable Boxes boxes_with_walls_; // likewise, of nodes in which the map may end
 };
 
 } // namespace marsview

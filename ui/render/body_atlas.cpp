@@ -1,8 +1,12 @@
 #include "ui/render/body_atlas.h"
 
+#include "core/globe/body_camera.h"
+
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <numeric>
+#include <string>
 #include <utility>
 
 namespace marsview {
@@ -26,6 +30,69 @@ Directions directionsOf(const BodyGrid::Steps& steps, const SceneFrame& frame)
     const Vec3 per_row = cross(normal, steps.column) * (1.0 / area_square);
     return {.east = per_column * frame.east_per_column + per_row * frame.east_per_row,
             .north = per_column * frame.north_per_column + per_row * frame.north_per_row};
+}
+
+constexpr double kOverlapCells = 0.05;
+constexpr double kOverlapMax = 0.1; // of the map
+
+// Of a body's radius: on the ground of maps up to this size, planes are good enough.
+constexpr double kSmallMap = 0.1;
+// How far from the middle of a map its plane is used, in its sizes. Within that, and on a map that
+// is not small, places are found among its samples, and those further away are too near to it.
+constexpr double kFarShare = 1.0;
+
+GLfloat asFloat(double value)
+{
+    return static_cast<GLfloat>(value);
+}
+
+// The pole that the triangles next to the first or last row end at, and its height.
+std::array<GLfloat, 4>
+poleFromEye(const CameraPose& pose, const BodySubject& subject, BodyGrid::Pole pole, float height_m)
+{
+    const double height =
+        subject.exaggeration * (subject.surface->baseMeters() + static_cast<double>(height_m));
+    const Vec3 p = subject.grid->atPole(pole, height) - pose.eye;
+    return {asFloat(p.x), asFloat(p.y), asFloat(p.z), height_m};
+}
+
+// Where other maps lie over this one.
+void setCovers(const GlProgram& program, const BodySubject& subject, GLint first_unit)
+{
+    for (std::size_t i = 0; i < subject.covers.size(); ++i) {
+        const BodyCover& cover = subject.covers[i];
+        const auto set_pole = [&](std::size_t pole, BodyGrid::Pole at) {
+            std::optional<GridPoint> start;
+            const std::array<float, 3> place =
+                placeOnCover(cover, subject.grid->atPole(at, 0.0), start);
+            const std::string name =
+                fmt::format("u_cover_pole[{}]", pole * subject.covers.size() + i);
+            glUniform3fv(program.uniform(name.c_str()), 1, place.data());
+        };
+        set_pole(0, subject.grid->poleAtFirstRow());
+        set_pole(1, subject.grid->poleAtLastRow());
+        const std::string element = fmt::format("[{}]", i);
+        glUniform1i(program.uniform(("u_cover_place" + element).c_str()),
+                    first_unit + static_cast<GLint>(BodyAtlas::kTextures + i));
+        glUniform1f(program.uniform(("u_cover_turn" + element).c_str()), asFloat(cover.turn()));
+        // Its outermost samples overlap a little, by as much as places on it may be off.
+        constexpr float kEverywhere = 1e6F;
+        const BodyGrid& above = cover.locator->grid();
+        const double error_m = cover.errorM(subject.grid->stepMaxM());
+        const auto overlap = [error_m](double last, double length_m) {
+            return asFloat(
+                std::min(kOverlapCells / last + error_m / std::max(length_m, 1e-9), kOverlapMax));
+        };
+        const float columns = overlap(cover.last_column, cover.width_m);
+        const float rows = overlap(cover.last_row, cover.height_m);
+        glUniform2f(program.uniform(("u_cover_overlap" + element).c_str()), columns, rows);
+        const bool has_first_pole = above.poleAtFirstRow() != BodyGrid::Pole::None;
+        const bool has_last_pole = above.poleAtLastRow() != BodyGrid::Pole::None;
+        glUniform4f(
+            program.uniform(("u_cover_range" + element).c_str()),
+            above.closes() ? -kEverywhere : columns, above.closes() ? kEverywhere : 1.0F - columns,
+            has_first_pole ? -kEverywhere : rows, has_last_pole ? kEverywhere : 1.0F - rows);
+    }
 }
 
 } // namespace
@@ -58,9 +125,53 @@ std::array<float, 2> poleHeights(const DrawnSurface& surface, std::size_t top_le
     return {mean(0), mean(kNodeSide - 1)};
 }
 
+BodyCover::BodyCover(std::shared_ptr<const BodyLocator> located,
+                     std::size_t columns,
+                     std::size_t rows)
+    : locator(std::move(located))
+    , last_column(static_cast<double>(columns - 1))
+    , last_row(static_cast<double>(rows - 1))
+{
+    const BodyGrid& grid = locator->grid();
+    const std::size_t column = grid.columns() / 2;
+    const std::size_t row = grid.rows() / 2;
+    const BodyGrid::Steps steps = grid.steps(column, row);
+    width_m = last_column * length(steps.column);
+    height_m = last_row * length(steps.row);
+    const Vec3 normal = cross(steps.column, steps.row);
+    const double area_square = std::max(dot(normal, normal), 1e-300);
+    per_column_ = cross(steps.row, normal) * (1.0 / (area_square * last_column));
+    per_row_ = cross(normal, steps.column) * (1.0 / (area_square * last_row));
+    middle_ = grid.at(column, row, 0.0) - steps.column * static_cast<double>(column) -
+              steps.row * static_cast<double>(row);
+}
+
+// How far a chord lies below the surface, which is how far places between vertices are off.
+double BodyCover::errorM(double cell_m) const
+{
+    const double chord_m = std::min(cell_m, sizeM());
+    return chord_m * chord_m / (8.0 * locator->grid().ellipsoid().equatorial_m);
+}
+
+std::optional<std::array<float, 3>> BodyCover::farPlace(const Vec3& point) const
+{
+    if (sizeM() > kSmallMap * locator->grid().ellipsoid().equatorial_m) {
+        return std::nullopt;
+    }
+    const double column = dot(point - middle_, per_column_);
+    const double row = dot(point - middle_, per_row_);
+    if (std::max(std::abs(column - 0.5), std::abs(row - 0.5)) < kFarShare) {
+        return std::nullopt;
+    }
+    return std::array{static_cast<float>(column), static_cast<float>(row), 1.0F};
+}
+
 std::array<float, 3>
 placeOnCover(const BodyCover& cover, const Vec3& point, std::optional<GridPoint>& start)
 {
+    if (const auto place = cover.farPlace(point)) {
+        return *place;
+    }
     const std::optional<GridPoint> before = start;
     start = cover.locator->find(point, start);
     if (!start) {
@@ -243,6 +354,47 @@ void BodyAtlas::bind(GLenum first) const
         glActiveTexture(first + kTextures + static_cast<GLenum>(i));
         glBindTexture(GL_TEXTURE_2D, cover_textures_[i].id());
     }
+}
+
+void setBodyUniforms(const GlProgram& program,
+                     const CameraPose& pose,
+                     const BodySubject& subject,
+                     GLint first_unit)
+{
+    constexpr std::array<const char*, BodyAtlas::kTextures> kTextures{"u_near", "u_far", "u_east",
+                                                                      "u_north"};
+    for (std::size_t i = 0; i < kTextures.size(); ++i) {
+        glUniform1i(program.uniform(kTextures[i]), first_unit + static_cast<GLint>(i));
+    }
+    const Ellipsoid& ellipsoid = subject.grid->ellipsoid();
+    const double axes = ellipsoid.equatorial_m / ellipsoid.polar_m;
+    const BodyLattice::Split eye = subject.lattice.split(pose.eye);
+    glUniform3f(program.uniform("u_eye_far"), asFloat(eye.cube[0]), asFloat(eye.cube[1]),
+                asFloat(eye.cube[2]));
+    glUniform3f(program.uniform("u_eye_near"), asFloat(eye.within[0]), asFloat(eye.within[1]),
+                asFloat(eye.within[2]));
+    glUniform1f(program.uniform("u_lattice"), asFloat(subject.lattice.side_m));
+    glUniform1f(program.uniform("u_axes_squared"), asFloat(axes * axes));
+    glUniform1f(program.uniform("u_exaggeration"), asFloat(subject.exaggeration));
+
+    const BodyPlace target = placeOf(pose.eye + pose.axes.forward * pose.distance_m, ellipsoid);
+    const LocalAxes local = localAxes(ellipsoid, target.foot);
+    std::array<GLfloat, 9> columns{};
+    std::size_t i = 0;
+    for (const Vec3& axis : {local.east, local.north, local.up}) {
+        for (const double value : {axis.x, axis.y, axis.z}) {
+            columns[i++] = asFloat(value);
+        }
+    }
+    glUniformMatrix3fv(program.uniform("u_target"), 1, GL_FALSE, columns.data());
+
+    const std::array<GLfloat, 4> first =
+        poleFromEye(pose, subject, subject.grid->poleAtFirstRow(), subject.pole_heights_m.front());
+    const std::array<GLfloat, 4> last =
+        poleFromEye(pose, subject, subject.grid->poleAtLastRow(), subject.pole_heights_m.back());
+    glUniform4fv(program.uniform("u_pole[0]"), 1, first.data());
+    glUniform4fv(program.uniform("u_pole[1]"), 1, last.data());
+    setCovers(program, subject, first_unit);
 }
 
 } // namespace marsview

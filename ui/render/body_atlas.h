@@ -5,12 +5,16 @@
 #include "core/body/body_locator.h"
 #include "core/geo/scene_frame.h"
 #include "core/terrain/drawn_surface.h"
+#include "core/view/camera.h"
 #include "ui/render/gl_objects.h"
+#include "ui/render/gl_program.h"
 #include "ui/render/lru_slots.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -33,9 +37,19 @@ struct BodyLattice {
 
 /// A map that covers another one on the body.
 struct BodyCover {
-    const BodyLocator* locator = nullptr;
+    std::shared_ptr<const BodyLocator> locator;
     double last_column = 1.0; // of its raster
     double last_row = 1.0;
+    double width_m = 0.0;
+    double height_m = 0.0;
+
+    BodyCover(std::shared_ptr<const BodyLocator> located, std::size_t columns, std::size_t rows);
+
+    /// Of places on the map between the vertices of a map with such cells, in meters.
+    double errorM(double cell_m) const;
+    /// Where a place far outside lies in the plane of the map's middle, as placeOnCover(); nothing
+    /// near or on the map, or if it is not small.
+    std::optional<std::array<float, 3>> farPlace(const Vec3& point) const;
     /// The width of a turn around the body, of that of the raster; 0 if it does not go around.
     double turn() const
     {
@@ -43,6 +57,13 @@ struct BodyCover {
                    ? static_cast<double>(locator->grid().columns() - 1) / last_column
                    : 0.0;
     }
+
+private:
+    double sizeM() const { return std::max(width_m, height_m); }
+
+    Vec3 middle_;
+    Vec3 per_column_; // shares of the map a meter from its middle
+    Vec3 per_row_;
 };
 
 /// A map as it is drawn on its body.
@@ -106,5 +127,12 @@ private:
     std::vector<GlTexture> cover_textures_;
     std::vector<std::vector<float>> cover_places_;
 };
+
+/// What programs that draw on a body need besides the flat scene's, for the program in use. The
+/// atlas' textures are bound from `first_unit` on.
+void setBodyUniforms(const GlProgram& program,
+                     const CameraPose& pose,
+                     const BodySubject& subject,
+                     GLint first_unit);
 
 } // namespace marsview

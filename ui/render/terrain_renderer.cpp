@@ -8,9 +8,9 @@
 #include "core/body/body_locator.h"
 #include "core/globe/body_camera.h"
 #include "core/globe/body_nodes.h"
+#include "core/globe/map_walls.h"
 #include "core/view/scene_box.h"
 #include "ui/render/body_atlas.h"
-#include "ui/render/body_uniforms.h"
 #include "ui/render/cover_texture.h"
 #include "ui/render/frame_target.h"
 #include "ui/render/gl_objects.h"
@@ -18,6 +18,7 @@
 #include "ui/render/node_instance.h"
 #include "ui/render/relief_cache.h"
 #include "ui/render/terrain_shaders.h"
+#include "ui/render/wall_drawing.h"
 #include "ui/render/warm_up.h"
 
 #include <algorithm>
@@ -67,6 +68,9 @@ constexpr int kCoarserMax = 12;
 // level 1 are further away than kRangePerSizeMoving × kMorphEnd of their diagonals, 54 samples.
 constexpr double kMeshDepth = 40.0;
 constexpr double kAllDepths = 1e20;
+
+// How far walls reach below both surfaces, which hide that, besides the error of the lower one.
+constexpr double kWallBelowPx = 4.0;
 
 constexpr double kDirectLight = 0.84;
 
@@ -127,8 +131,10 @@ struct Layer {
     std::uint32_t number = 0; // never used twice
     // For what vertices on a body depend on: the layers above, and the lowest terrain of all.
     std::uint32_t body_number = 0;
-    std::vector<std::uint32_t> covered_by; // numbers of layers
-    double lowest_m = 0.0;
+    std::vector<std::uint32_t> covered_by;      // numbers of layers
+    std::vector<std::uint32_t> lies_on;         // likewise
+    std::optional<MapWalls> walls;              // to those
+    std::optional<std::array<double, 3>> reach; // of setReach()
     std::shared_ptr<const BodyLocator> locator;
     DrawnSurface surface;
     std::array<float, 2> pole_heights_m{};
@@ -137,6 +143,7 @@ struct Layer {
     CoverTexture cover;
     std::optional<TileRequests> requests; // of a tiled map
     std::vector<TileId> missing;          // of this picture
+    double texel_px = 1.0;                // likewise: of the relief, at most
     std::function<void()> notify;
 
     Layer(const TerrainLayer& layer,
@@ -202,23 +209,31 @@ struct Layer {
                                            layer.heightfield->rows(), layer.frame);
     }
 
-    // The horizon hides nothing that rises over the lowest terrain of the scene.
-    void setLowest(double height_m)
+    // The horizon hides nothing that rises over the lowest terrain of the scene. Walls reach the
+    // terrain of the maps below, if there are any.
+    void setReach(double scene_lowest_m, const std::optional<HeightRange>& below)
     {
-        if (source.body && std::exchange(lowest_m, height_m) != height_m) {
+        const std::array<double, 3> to{scene_lowest_m, below ? below->minimum_m : HUGE_VAL,
+                                       below ? below->maximum_m : -HUGE_VAL};
+        if (source.body && std::exchange(reach, to) != to) {
             auto nodes = std::make_unique<BodyNodes>(source.analysis, source.body);
-            nodes->setLowest(height_m);
+            nodes->setLowest(scene_lowest_m);
+            if (below) {
+                nodes->setWalls(*below);
+            }
             selector = DetailSelector(source.analysis, std::move(nodes));
         }
     }
-    BodyCover asCover()
+    const std::shared_ptr<const BodyLocator>& located()
     {
         if (!locator) {
             locator = std::make_shared<const BodyLocator>(source.body);
         }
-        return {.locator = locator.get(),
-                .last_column = static_cast<double>(source.heightfield->columns() - 1),
-                .last_row = static_cast<double>(source.heightfield->rows() - 1)};
+        return locator;
+    }
+    BodyCover asCover()
+    {
+        return {located(), source.heightfield->columns(), source.heightfield->rows()};
     }
 
     HeightRange range() const { return source.heightfield->range().value_or(HeightRange{}); }
@@ -287,6 +302,12 @@ Viewport drawnSize(const DrawRequest& request)
     return {.width = scaled(request.viewport.width), .height = scaled(request.viewport.height)};
 }
 
+// The width of a pixel that is drawn, at a distance of 1.
+double pixelSlope(const DrawRequest& request)
+{
+    return 2.0 * std::tan(0.5 * request.pose().field_of_view.radians()) / drawnSize(request).height;
+}
+
 std::array<GLfloat, 16> asFloats(const Matrix4& matrix)
 {
     std::array<GLfloat, 16> values{};
@@ -329,6 +350,7 @@ struct TerrainRenderer::Impl {
         }
     };
     std::vector<Batch> batches; // one a page
+    WallDrawing walls;
 
     Impl(TerrainShaders compiled,
          std::string name,
@@ -360,6 +382,10 @@ struct TerrainRenderer::Impl {
                      const DrawStyle& style,
                      GridPoint anchor) const;
     void drawBatches(const DrawRequest& request);
+    void drawWalls(std::size_t index,
+                   const DetailSelection& selection,
+                   const DrawRequest& request,
+                   const DrawStyle& style);
     // Pictures in motion omit effects that are slow in software.
     bool isCheap(const DrawRequest& request) const { return request.is_hasty && is_software; }
     void setRays(const GlProgram& program,
@@ -468,6 +494,7 @@ TerrainRenderer::Impl::select(Layer& layer, const DrawRequest& request, double e
                                                            .pose = request.body_pose},
                                                           target);
         if (reliefCount(selection) <= room || i == kCoarserMax) {
+            layer.texel_px = target.texel_px;
             return selection;
         }
         target.texel_px *= 1.4;
@@ -537,6 +564,66 @@ void TerrainRenderer::Impl::drawLayer(std::size_t index,
         }
     }
     drawBatches(request);
+    if (layer.walls) {
+        drawWalls(index, selection, request, style);
+    }
+}
+
+// The steps at the layer's edges. All of its nodes are in the atlas by now, or find room again.
+void TerrainRenderer::Impl::drawWalls(std::size_t index,
+                                      const DetailSelection& selection,
+                                      const DrawRequest& request,
+                                      const DrawStyle& style)
+{
+    Layer& layer = *layers[index];
+    std::uint64_t generation = 0;
+    for (std::size_t i = index; i < layers.size(); ++i) {
+        generation += layers[i]->generation();
+    }
+    const std::optional<BodySubject> on_body = onBody(index, style.exaggeration);
+    const auto draw = [&] {
+        if (walls.isEmpty()) {
+            return;
+        }
+        const GlProgram& program = shaders.terrain(
+            {.mode = style.look.mode,
+             .has_contours = style.look.has_contours,
+             .cover_count = static_cast<int>(std::min<std::size_t>(index, kCoversMax)),
+             .is_on_body = true,
+             .is_wall = true});
+        glUseProgram(program.id());
+        setUniforms(program, index, request, style, {});
+        glUniform1f(program.uniform("u_base"), static_cast<GLfloat>(layer.surface.baseMeters()));
+        glUniform1f(program.uniform("u_pixel"), static_cast<GLfloat>(pixelSlope(request)));
+        const double error_px = std::max(request.detail.error_px, 1.0);
+        glUniform1f(program.uniform("u_wall_above_px"), static_cast<GLfloat>(error_px));
+        glUniform1f(program.uniform("u_wall_below_px"),
+                    static_cast<GLfloat>(kWallBelowPx +
+                                         static_cast<double>(DetailErrors::kPeak) * error_px));
+        walls.draw();
+    };
+    for (const SelectedNode& selected : selection.nodes) {
+        // Corners as close together as the texels that show where the map ends.
+        const std::size_t texel =
+            selected.relief.level - std::min(selected.relief.level, kReliefLevelMin);
+        const MapWalls::NodeWalls& of_node =
+            layer.walls->of(selected.node, std::size_t{1} << std::min(texel, selected.node.level),
+                            layer.source.analysis->means, generation);
+        if (std::all_of(of_node.begin(), of_node.end(),
+                        [](const auto& quadrant) { return quadrant.empty(); })) {
+            continue;
+        }
+        std::optional<NodeSlots::Place> slot = placeOf(layer, selected.node, on_body);
+        if (!slot) {
+            draw();
+            beginRound(layer);
+            slot = placeOf(layer, selected.node, on_body);
+        }
+        walls.add(nodeInstance(selected, {}, layer.surface.baseMeters(), *slot,
+                               {.node = selected.relief}),
+                  of_node, selected.quadrants);
+    }
+    draw();
 }
 
 void TerrainRenderer::Impl::beginRound(const Layer& layer)
@@ -728,6 +815,13 @@ void TerrainRenderer::Impl::setUniforms(const GlProgram& program,
         const CoverTexture::Placement& to = cover.cover.placement();
         set(("u_cover_texture" + element).c_str(), to.column_scale, to.row_scale, to.column_offset,
             to.row_offset);
+        const SceneFrame& above_frame = cover.source.frame;
+        const double sample_m =
+            std::sqrt(std::abs(above_frame.east_per_column * above_frame.north_per_row -
+                               above_frame.east_per_row * above_frame.north_per_column));
+        set(("u_cover_level" + element).c_str(),
+            cover.texel_px * pixelSlope(request) / (sample_m * to.texel_samples),
+            static_cast<double>(to.level_max));
         if (layer.source.body) {
             continue; // vertices have their places on covers
         }
@@ -872,17 +966,39 @@ void TerrainRenderer::setLayers(const std::vector<TerrainLayer>& layers)
 
 void TerrainRenderer::Impl::relateLayers()
 {
-    double lowest_m = HUGE_VAL;
-    for (const auto& layer : layers) {
-        lowest_m = std::min(lowest_m, static_cast<double>(layer->range().minimum_m));
-    }
     std::vector<std::uint32_t> above;
     for (const auto& layer : layers) {
-        layer->setLowest(lowest_m);
         if (std::exchange(layer->covered_by, above) != above) {
             layer->body_number = next_layer_number++; // places on covers are found again
         }
         above.push_back(layer->number);
+    }
+    double lowest_m = HUGE_VAL;
+    for (const auto& layer : layers) {
+        lowest_m = std::min(lowest_m, layer->range().minimum_m);
+    }
+    std::vector<std::uint32_t> below;
+    std::vector<LowerMap> lower;
+    std::optional<HeightRange> lower_range;
+    for (std::size_t i = layers.size(); i-- > 0;) {
+        Layer& layer = *layers[i];
+        layer.setReach(lowest_m, lower_range);
+        if (!layer.source.body) {
+            continue;
+        }
+        if (std::exchange(layer.lies_on, below) != below) {
+            layer.walls.reset();
+            if (!lower.empty()) {
+                layer.walls.emplace(layer.source.heightfield, layer.source.body, lower);
+            }
+        }
+        const HeightRange range = layer.range();
+        lower_range = lower_range ? HeightRange{std::min(lower_range->minimum_m, range.minimum_m),
+                                                std::max(lower_range->maximum_m, range.maximum_m)}
+                                  : range;
+        below.insert(below.begin(), layer.number);
+        lower.insert(lower.begin(),
+                     {.locator = layer.located(), .heightfield = layer.source.heightfield});
     }
 }
 

@@ -11,7 +11,12 @@ namespace {
 // numbers, the same for a sample whichever node it is drawn with, so that nodes that meet compute
 // the same bits. See core/view/detail_selection.h for ranges and morphing.
 constexpr const char* kTerrainVertex = R"(
+#ifdef WALL
+layout(location = 0) in vec4 a_wall; // cell; elevation of the map below; off the ellipsoid
+layout(location = 8) in float a_is_top;
+#else
 layout(location = 0) in vec2 a_cell;
+#endif
 layout(location = 1) in vec3 a_place;
 layout(location = 2) in vec4 a_slot;
 layout(location = 3) in vec4 a_relief;
@@ -110,7 +115,9 @@ uniform float u_axes_squared;
 uniform mat3 u_target;   // columns: east, north and up at the camera's target
 uniform float u_exaggeration;
 uniform vec4 u_pole[2];  // from the eye; height over the base
-out mat2 v_turn;         // of slopes
+#ifndef WALL
+out mat2 v_turn; // of slopes
+#endif
 out vec3 v_ray;          // from the eye, in the directions that slopes are turned to
 
 #if COVERS > 0
@@ -125,6 +132,18 @@ vec3 coverAt(sampler2D places, ivec2 own, ivec2 next, ivec2 last, float to_last,
                  to_next);
 }
 #endif
+
+struct Vertex {
+    vec3 p;       // from the eye
+    vec3 surface; // column, row, height
+    vec3 out_of;  // the body's center
+    vec3 own;     // p without morphing
+    float to_next;
+    float to_last;
+#if COVERS > 0
+    vec3 cover[COVERS];
+#endif
+};
 
 // A vertex's position has the same bits whichever node it is drawn with: a difference of cubes is
 // exact, and so is its product with a power of two.
@@ -141,11 +160,8 @@ vec2 shareOf(vec2 share, vec2 at_sample)
                 at_sample.y >= u_last_sample.y ? 1.0 : share.y);
 }
 
-void main()
+Vertex vertexAt(vec2 own_cell)
 {
-    bool is_pole = a_cell.y > kNodeCells;
-    int pole = a_cell.y > 2.0 * kNodeCells ? 1 : 0;
-    vec2 own_cell = is_pole ? vec2(a_cell.x, pole == 1 ? kNodeCells : 0.0) : a_cell;
     vec2 next_cell = 2.0 * floor(own_cell * 0.5);
     vec2 last_cell = 4.0 * floor(own_cell * 0.25);
     ivec2 own_texel = ivec2(a_slot.xy + own_cell);
@@ -164,46 +180,141 @@ void main()
                           shareOf(a_uncle + next_cell / (4.0 * kNodeCells), next_sample));
     float to_next =
         morph(own, a_parent, shareOf(a_slot.zw + own_cell / (2.0 * kNodeCells), own_sample));
-    vec3 p = blend(own, blend(next, last, to_last), to_next);
-    vec3 surface = blend(vec3(own_sample, own_near.w),
-                         blend(vec3(next_sample, next_near.w),
-                               vec3(sampleOf(last_cell), last_near.w), to_last),
-                         to_next);
-    if (is_pole) {
-        p = u_pole[pole].xyz;
-        surface.z = u_pole[pole].w;
-    }
-    setSurface(surface);
-
+    Vertex v;
+    v.p = blend(own, blend(next, last, to_last), to_next);
+    v.surface = blend(vec3(own_sample, own_near.w),
+                      blend(vec3(next_sample, next_near.w),
+                            vec3(sampleOf(last_cell), last_near.w), to_last),
+                      to_next);
+    v.out_of = own_far * u_lattice + own_near.xyz;
+    v.own = own;
+    v.to_next = to_next;
+    v.to_last = to_last;
     // Samplers of an array can be chosen by constants only.
 #if COVERS > 0
-    v_cover[0] = is_pole ? u_cover_pole[pole * COVERS]
-                         : coverAt(u_cover_place[0], own_texel, next_texel, last_texel, to_last,
-                                   to_next);
+    v.cover[0] = coverAt(u_cover_place[0], own_texel, next_texel, last_texel, to_last, to_next);
 #endif
 #if COVERS > 1
-    v_cover[1] = is_pole ? u_cover_pole[pole * COVERS + 1]
-                         : coverAt(u_cover_place[1], own_texel, next_texel, last_texel, to_last,
-                                   to_next);
+    v.cover[1] = coverAt(u_cover_place[1], own_texel, next_texel, last_texel, to_last, to_next);
 #endif
 #if COVERS > 2
-    v_cover[2] = is_pole ? u_cover_pole[pole * COVERS + 2]
-                         : coverAt(u_cover_place[2], own_texel, next_texel, last_texel, to_last,
-                                   to_next);
+    v.cover[2] = coverAt(u_cover_place[2], own_texel, next_texel, last_texel, to_last, to_next);
 #endif
+    return v;
+}
 
-    vec3 out_of = own_far * u_lattice + own_near.xyz;
-    vec3 up = normalize(vec3(out_of.xy, out_of.z * u_axes_squared));
+#ifdef WALL
+uniform float u_base;
+uniform float u_pixel;         // meters at a distance of one
+uniform float u_wall_above_px; // beyond the map below where that is higher: its mesh is not exact
+uniform float u_wall_below_px; // beyond the lower one of the two surfaces, which hides it
+out float v_step_px;           // height of the wall
+out float v_beyond_px;         // above both surfaces
+
+// Within the triangle of the mesh around a point.
+Vertex vertexAround(vec2 point)
+{
+    vec2 cell = min(floor(point), vec2(kNodeCells - 1.0));
+    vec2 f = point - cell;
+    Vertex a = vertexAt(cell);
+    Vertex b = vertexAt(cell + (f.x >= f.y ? vec2(1.0, 0.0) : vec2(0.0, 1.0)));
+    Vertex c = vertexAt(cell + vec2(1.0));
+    vec3 share = vec3(1.0 - max(f.x, f.y), abs(f.x - f.y), min(f.x, f.y));
+    Vertex v;
+    v.p = share.x * a.p + share.y * b.p + share.z * c.p;
+    v.surface = share.x * a.surface + share.y * b.surface + share.z * c.surface;
+    v.out_of = share.x * a.out_of + share.y * b.out_of + share.z * c.out_of;
+#if COVERS > 0
+    for (int i = 0; i < COVERS; ++i) {
+        v.cover[i] = share.x * a.cover[i] + share.y * b.cover[i] + share.z * c.cover[i];
+    }
+#endif
+    return v;
+}
+
+// Where in two cells a point lies that morphing moves to t: the vertex between them moves to 0.
+float beforeMorph(float t, float to_next)
+{
+    float first = 1.0 - to_next;
+    return t <= first ? t / max(first, 1e-6) : 1.0 + (t - first) / (1.0 + to_next);
+}
+
+vec2 beforeMorph(vec2 t, float to_next)
+{
+    return vec2(beforeMorph(t.x, to_next), beforeMorph(t.y, to_next));
+}
+
+// On the mesh as it is drawn, above a place. Vertices that morph move sideways too: by so much the
+// point is looked for elsewhere. What is left, because they do not all move alike, is made up for
+// along the mesh.
+Vertex vertexOver(vec2 cell)
+{
+    vec2 four = 4.0 * floor(cell * 0.25);
+    vec2 found = cell;
+    float to_last = vertexAt(min(four + 2.0, vec2(kNodeCells))).to_last;
+    found = four + 2.0 * beforeMorph((cell - four) * 0.5, to_last);
+    vec2 two = 2.0 * floor(found * 0.5);
+    Vertex middle = vertexAt(min(two + 1.0, vec2(kNodeCells)));
+    found = two + beforeMorph(found - two, middle.to_next);
+    Vertex v = vertexAround(found);
+    vec2 base = min(floor(cell), vec2(kNodeCells - 1.0));
+    vec2 samples = sampleOf(base + 1.0) - sampleOf(base);
+    vec2 target = sampleOf(base) + (cell - base) * samples;
+    vec2 rest = (target - v.surface.xy) / max(samples, vec2(1.0));
+    vec3 own = vertexAt(base).own;
+    v.p += rest.x * (vertexAt(base + vec2(1.0, 0.0)).own - own) +
+           rest.y * (vertexAt(base + vec2(0.0, 1.0)).own - own);
+    return v;
+}
+
+void main()
+{
+    Vertex v = vertexOver(a_wall.xy);
+    vec3 up = normalize(vec3(v.out_of.xy, v.out_of.z * u_axes_squared));
+    float step_m = a_wall.z > -1e29 ? a_wall.z - u_base - v.surface.z : 0.0;
+    float rise = a_wall.z > -1e29 ? step_m * u_exaggeration + a_wall.w : 0.0;
+    float pixel = u_pixel * length(v.p);
+    bool is_top = a_is_top > 0.5;
+    float above = rise > 0.0 ? rise + min(rise, u_wall_above_px * pixel) : 0.1 * pixel;
+    float below = a_wall.z > -1e29 ? min(rise, 0.0) - u_wall_below_px * pixel : 0.0;
+    v.surface.z += is_top ? max(step_m, 0.0) : min(step_m, 0.0);
+    v.p += (is_top ? above : below) * up;
+    v_step_px = abs(rise) / pixel;
+    v_beyond_px = ((is_top ? above : below) - max(rise, 0.0)) / pixel;
+#else
+void main()
+{
+    bool is_pole = a_cell.y > kNodeCells;
+    int pole = a_cell.y > 2.0 * kNodeCells ? 1 : 0;
+    vec2 cell = is_pole ? vec2(a_cell.x, pole == 1 ? kNodeCells : 0.0) : a_cell;
+    Vertex v = vertexAt(cell);
+    vec3 up = normalize(vec3(v.out_of.xy, v.out_of.z * u_axes_squared));
+    if (is_pole) {
+        v.p = u_pole[pole].xyz;
+        v.surface.z = u_pole[pole].w;
+    }
+#if COVERS > 0
+    for (int i = 0; i < COVERS; ++i) {
+        v.cover[i] = is_pole ? u_cover_pole[pole * COVERS + i] : v.cover[i];
+    }
+#endif
+#endif
+    setSurface(v.surface);
+#if COVERS > 0
+    v_cover = v.cover;
+#endif
     // The directions at the target, turned the shortest way to the ground here.
     vec3 middle = (u_target[2] + up) / max(1.0 + dot(u_target[2], up), 1e-3);
     vec3 to_east = u_target[0] - dot(up, u_target[0]) * middle;
     vec3 to_north = u_target[1] - dot(up, u_target[1]) * middle;
-    vec3 east = texelFetch(u_east, own_texel, 0).xyz;
-    vec3 north = texelFetch(u_north, own_texel, 0).xyz;
+#ifndef WALL
+    vec3 east = texelFetch(u_east, ivec2(a_slot.xy + cell), 0).xyz;
+    vec3 north = texelFetch(u_north, ivec2(a_slot.xy + cell), 0).xyz;
     v_turn = mat2(dot(east, to_east), dot(east, to_north), dot(north, to_east),
                   dot(north, to_north));
-    v_ray = vec3(dot(p, to_east), dot(p, to_north), dot(p, up) / u_exaggeration);
-    gl_Position = u_clip_from_eye * vec4(p, 1.0);
+#endif
+    v_ray = vec3(dot(v.p, to_east), dot(v.p, to_north), dot(v.p, up) / u_exaggeration);
+    gl_Position = u_clip_from_eye * vec4(v.p, 1.0);
 }
 #endif
 )";
@@ -267,34 +378,68 @@ bool isInHole(vec2 place)
 #if COVERS > 0
 uniform sampler2D u_cover[COVERS];
 uniform vec4 u_cover_texture[COVERS]; // shares of the cover to its texture: × xy + zw
+
+// Texels that the cover is drawn with, in its samples, at a depth of 1 m; the texture's last level.
+uniform vec2 u_cover_level[COVERS];
+
+// The triangles between texels that have a surface. Where the cover is drawn with texels of several
+// samples, its edge and its walls lie up to one of those within: so does this one, and further.
+bool hasSurface(sampler2D cover, vec2 texture_place, float relief_texel, int last_level)
+{
+    int level = min(relief_texel < 1.0 ? 0 : int(log2(relief_texel)) + 1, last_level);
+    ivec2 size = textureSize(cover, level);
+    vec2 place = texture_place * vec2(size) - 0.5;
+    ivec2 cell = ivec2(floor(place));
+    vec2 f = place - vec2(cell);
+    ivec2 a = clamp(cell, ivec2(0), size - 1);
+    ivec2 c = clamp(cell + 1, ivec2(0), size - 1);
+    ivec2 b = f.x >= f.y ? ivec2(c.x, a.y) : ivec2(a.x, c.y);
+    return min(texelFetch(cover, b, level).r,
+               min(texelFetch(cover, a, level).r, texelFetch(cover, c, level).r)) >= 0.5;
+}
+
 #ifdef BODY
 in vec3 v_cover[COVERS];              // shares; 1 near the cover
+uniform vec2 u_cover_overlap[COVERS]; // shares by which both maps are drawn at an edge
 uniform vec4 u_cover_range[COVERS];   // least and most of the first share, and of the second
 uniform float u_cover_turn[COVERS];   // of the first; 0 where the cover does not go around
 
-bool isUnder(sampler2D cover, vec3 share, vec4 range, float turn, vec4 to_texture)
+bool isUnder(sampler2D cover,
+             vec3 share,
+             vec4 range,
+             float turn,
+             vec2 overlap,
+             vec4 to_texture,
+             vec2 level)
 {
     vec2 place = share.xy;
     place.x -= turn > 0.0 ? turn * floor(place.x / turn) : 0.0;
-    return share.z > 0.999 && all(greaterThanEqual(place, range.xz)) &&
-           all(lessThanEqual(place, range.yw)) &&
-           texture(cover, place * to_texture.xy + to_texture.zw).r >= 0.5;
+    bool is_under = share.z > 0.999 && all(greaterThanEqual(place, range.xz)) &&
+                    all(lessThanEqual(place, range.yw));
+    int corners = level.y > 0.5 ? 4 : 0; // there are no voids otherwise
+    for (int i = 0; i < corners; ++i) {
+        vec2 corner = place + overlap * vec2((i & 1) == 0 ? -1.0 : 1.0, i < 2 ? -1.0 : 1.0);
+        is_under = is_under && hasSurface(cover, corner * to_texture.xy + to_texture.zw,
+                                          level.x / gl_FragCoord.w, int(level.y));
+    }
+    return is_under;
 }
 
 #define IS_UNDER(i) \
-    isUnder(u_cover[i], v_cover[i], u_cover_range[i], u_cover_turn[i], u_cover_texture[i])
+    isUnder(u_cover[i], v_cover[i], u_cover_range[i], u_cover_turn[i], u_cover_overlap[i], u_cover_texture[i], u_cover_level[i])
 #else
 uniform vec4 u_cover_linear[COVERS]; // sample relative to the anchor to a share of the cover
 uniform vec2 u_cover_offset[COVERS];
 
-bool isUnder(sampler2D cover, vec4 linear, vec2 offset, vec4 to_texture)
+bool isUnder(sampler2D cover, vec4 linear, vec2 offset, vec4 to_texture, vec2 level)
 {
     vec2 place = vec2(dot(linear.xy, v_sample), dot(linear.zw, v_sample)) + offset;
     return all(greaterThanEqual(place, vec2(0.0))) && all(lessThanEqual(place, vec2(1.0))) &&
-           texture(cover, place * to_texture.xy + to_texture.zw).r >= 0.5;
+           hasSurface(cover, place * to_texture.xy + to_texture.zw, level.x / gl_FragCoord.w,
+                      int(level.y));
 }
 
-#define IS_UNDER(i) isUnder(u_cover[i], u_cover_linear[i], u_cover_offset[i], u_cover_texture[i])
+#define IS_UNDER(i) isUnder(u_cover[i], u_cover_linear[i], u_cover_offset[i], u_cover_texture[i], u_cover_level[i])
 #endif
 
 // Samplers of an array can be chosen by constants only.
@@ -345,7 +490,26 @@ vec4 withoutVoids(vec4 relief)
     return relief;
 }
 
-#ifdef BODY
+#ifdef WALL
+in vec3 v_ray;
+in float v_step_px;
+in float v_beyond_px;
+
+const float kWallSlopeMax = 50.0;
+
+// Of a wall whose side toward the eye is seen, in units of the relief. Low steps and what reaches
+// beyond the surfaces are lit like level ground, so that they show no line.
+vec2 slopeOfWall()
+{
+    vec2 across = dFdx(v_ray.xy);
+    vec2 down = dFdy(v_ray.xy);
+    vec2 along = dot(across, across) > dot(down, down) ? across : down;
+    vec2 away = vec2(along.y, -along.x) / max(length(along), 1e-20);
+    away *= dot(away, v_ray.xy) < 0.0 ? -1.0 : 1.0;
+    float steep = v_beyond_px > 0.0 ? 0.0 : min(v_step_px * v_step_px, kWallSlopeMax);
+    return away * (steep * inversesqrt(u_slope_square));
+}
+#elif defined(BODY)
 in mat2 v_turn;
 in vec3 v_ray;
 
@@ -397,6 +561,10 @@ vec4 reliefOnRay(vec4 relief)
 
 void main()
 {
+#ifdef WALL
+    vec2 slope = slopeOfWall();
+    float height = v_height;
+#else
     vec4 relief = withoutVoids(texture(u_relief, vec3(v_relief, v_layer)));
 #ifdef VOIDS
     float share = relief.a;
@@ -406,6 +574,7 @@ void main()
 #endif
     vec2 slope = slopeOf(relief);
     float height = colorHeight(relief.b);
+#endif
 #ifdef CONTOURS
     float ink = contour(height); // before any pixel is given up: it takes differences between them
 #endif
@@ -460,24 +629,24 @@ void main()
 }
 )";
 
-std::string vertexSourceFor(bool is_on_body, int cover_count)
+std::string vertexSourceFor(const TerrainShaderKey& key)
 {
-    return fmt::format("#version 330 core\n#define COVERS {}\n{}{}", cover_count,
-                       is_on_body ? "#define BODY\n" : "", kTerrainVertex);
+    return fmt::format("#version 330 core\n#define COVERS {}\n{}{}{}", key.cover_count,
+                       key.is_on_body ? "#define BODY\n" : "", key.is_wall ? "#define WALL\n" : "",
+                       kTerrainVertex);
 }
 
 Result<GlProgram> compiledTerrain(const TerrainShaderKey& key)
 {
     const std::string fragment = fmt::format(
         "#version 330 core\n#define RAMP_TEXELS {}.0\n#define HILLSHADE_WHITE {:.4f}\n"
-        "#define MODE {}\n#define COVERS {}\n{}{}{}{}{}",
+        "#define MODE {}\n#define COVERS {}\n{}{}{}{}{}{}",
         kRampTexels, kHillshadeWhite, static_cast<int>(key.mode), key.cover_count,
         key.has_contours ? "#define CONTOURS\n" : "",
         key.is_ray_corrected ? "#define RAY_CORRECTED\n" : "",
         key.has_voids ? "#define VOIDS\n" : "", key.is_on_body ? "#define BODY\n" : "",
-        kTerrainFragment);
-    return GlProgram::create(vertexSourceFor(key.is_on_body, key.cover_count).c_str(),
-                             fragment.c_str());
+        key.is_wall ? "#define WALL\n" : "", kTerrainFragment);
+    return GlProgram::create(vertexSourceFor(key).c_str(), fragment.c_str());
 }
 
 } // namespace
@@ -510,7 +679,7 @@ const GlProgram& TerrainShaders::terrain(const TerrainShaderKey& key)
 
 std::string TerrainShaders::vertexSource(bool is_on_body)
 {
-    return vertexSourceFor(is_on_body, 0);
+    return vertexSourceFor({.is_on_body = is_on_body});
 }
 
 } // namespace marsview

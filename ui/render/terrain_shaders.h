@@ -24,6 +24,7 @@ struct TerrainShaderKey {
     bool is_ray_corrected = false;
     int cover_count = 0; // maps that lie over this one, at most kCoversMax
     bool is_on_body = false;
+    bool is_wall = false; // of a map on its body, see core/globe/map_walls.h
     auto operator<=>(const TerrainShaderKey&) const = default;
 };
 
@@ -35,7 +36,8 @@ inline constexpr int kLastPoleRow = 65;
 
 /// The program's locations of the vertex attributes.
 enum TerrainAttribute : unsigned {
-    kCellAttribute,         // vertex: column and row within the node, 0 … 32; see kFirstPoleRow
+    kCellAttribute,         // vertex: column and row within the node, 0 … 32; see kFirstPoleRow;
+                            // of a wall also the elevation of the map below and its sag
     kPlaceAttribute,        // node: first sample relative to the anchor, samples a cell
     kSlotAttribute,         // node: place in the height atlas, place in the parent
     kReliefAttribute,       // node: texture coordinate = sample × x + (y, z), layer w
@@ -43,6 +45,7 @@ enum TerrainAttribute : unsigned {
     kParentAttribute,       // node: ranges at the parent's corners
     kGrandparentAttribute,  // node: ranges at the grandparent's corners
     kColorHeightsAttribute, // node: height = relief's × x + y; share z of the mesh's own height
+    kWallEndAttribute,      // corner of a wall: 1 at the top
 };
 
 class TerrainShaders {

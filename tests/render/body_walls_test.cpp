@@ -1,0 +1,245 @@
+// The edge of a map over another one on the body is a step, which is drawn closed.
+
+#include "core/globe/body_camera.h"
+#include "core/globe/body_navigation.h"
+#include "tests/render/render_fixture.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <functional>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace marsview::test {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kRadius = 3396190.0;
+constexpr Viewport kViewport{480, 360};
+
+// A map of a sphere.
+struct StepMap {
+    Georeference georeference;
+    DrawnMap drawn;
+    std::shared_ptr<const BodyGrid> grid;
+
+    StepMap(const std::string& crs,
+            std::size_t columns,
+            std::size_t rows,
+            const GeoTransform::Terms& terms,
+            const std::function<double(std::size_t, std::size_t)>& height_m)
+        : georeference(columns, rows, *GeoTransform::fromTerms(terms), *Crs::fromText(crs))
+        , drawn(floatTerrain(columns, rows, height_m), georeference.sceneFrame())
+    {
+        JobMonitor monitor;
+        grid = BodyGrid::make(georeference, monitor).value();
+    }
+    TerrainLayer layer() const
+    {
+        TerrainLayer made = drawn.layer();
+        made.body = grid;
+        return made;
+    }
+    // NaN where the map has no surface.
+    double height(const GeographicPoint& place) const
+    {
+        auto at = georeference.toGrid(place);
+        if (at && grid->closes()) {
+            const auto turn = static_cast<double>(grid->columns() - 1);
+            at->column -= turn * std::floor(at->column / turn);
+            at->row = std::clamp(at->row, 0.0, static_cast<double>(georeference.rows() - 1));
+            at->column = std::min(at->column, static_cast<double>(georeference.columns() - 1));
+        }
+        return at ? drawn.field->height(*at) : kNaN;
+    }
+};
+
+struct Position {
+    double distance_m;
+    double tilt_deg;
+};
+const std::vector<Position> kPositions{{1e4, 0.0}, {1e4, 60.0}, {3e4, 75.0}, {1e5, 80.0}};
+
+class BodyWalls : public RenderTest {
+protected:
+    OffscreenPicture drawFrom(const std::vector<TerrainLayer>& layers,
+                              const BodyCamera& camera,
+                              double exaggeration = 1.0,
+                              const DetailTarget& detail = {})
+    {
+        renderer_->setLayers(layers);
+        DrawStyle style;
+        style.exaggeration = exaggeration;
+        style.sky_top = kSkyColor;
+        style.sky_bottom = kSkyColor;
+        DrawRequest request{.viewport = kViewport, .detail = detail};
+        request.body_pose = poseOf(camera, layers.back().body->ellipsoid());
+        OffscreenPicture picture = drawOffscreen(*renderer_, request, style, DepthUse::Yes).value();
+        EXPECT_TRUE(picture.report.is_complete);
+        return picture;
+    }
+
+    // Pixels without terrain whose ray meets the ball below all terrain.
+    static std::size_t open(const Picture& picture, const BodyCamera& camera, double lowest_m)
+    {
+        const CameraPose pose = poseOf(camera, Ellipsoid{kRadius, kRadius});
+        std::size_t count = 0;
+        for (int y = 0; y < kViewport.height; ++y) {
+            for (int x = 0; x < kViewport.width; ++x) {
+                const Ray ray = pickRay(pose, kViewport, {x + 0.5, y + 0.5});
+                const double middle = -dot(ray.origin, ray.direction);
+                const Vec3 nearest = ray.at(middle);
+                const auto pixel = static_cast<std::size_t>(y * kViewport.width + x);
+                count +=
+                    middle > 0.0 && length(nearest) < kRadius + lowest_m && isSky(picture, pixel)
+                        ? 1U
+                        : 0U;
+            }
+        }
+        return count;
+    }
+};
+
+BodyCamera over(const Position& from)
+{
+    return {.target = {.longitude = Angle::degrees(77.4), .latitude = Angle::degrees(18.5)},
+            .height_m = 0.0,
+            .distance_m = from.distance_m,
+            .azimuth = Angle::degrees(30.0),
+            .tilt = Angle::degrees(from.tilt_deg)};
+}
+
+StepMap globe(const std::function<double(std::size_t, std::size_t)>& height_m)
+{
+    return {"+proj=longlat +R=3396190", 1440, 720, {-180, 0.25, 0, 90, 0, -0.25}, height_m};
+}
+
+double level(std::size_t, std::size_t)
+{
+    return 0.0;
+}
+
+bool isInCrater(std::size_t column, std::size_t row)
+{
+    return std::hypot(static_cast<double>(column) - 60.0, static_cast<double>(row) - 45.0) < 8.0;
+}
+
+TEST_F(BodyWalls, NoPixelIsSeenThroughTheStepAtAnEdge)
+{
+    const StepMap lower = globe(level);
+    for (const auto& [step_m, projection] :
+         {std::pair(200.0, "tmerc"), {-200.0, "stere"}, {2000.0, "stere"}, {-2000.0, "tmerc"}}) {
+        const StepMap upper(
+            fmt::format("+proj={} +lat_0=18.5 +lon_0=77.4 +R=3396190 +units=m", projection), 121,
+            101, {-12000, 200, 0, 10000, 0, -200}, [step = step_m](std::size_t c, std::size_t r) {
+                return isInCrater(c, r) ? kNaN : step;
+            });
+        for (const Position& from : kPositions) {
+            const OffscreenPicture picture = drawFrom({upper.layer(), lower.layer()}, over(from));
+            EXPECT_EQ(open(picture.colors, over(from), std::min(step_m, 0.0) - 200.0), 0U)
+                << projection << " at " << step_m << " m from " << from.distance_m << " m, "
+                << from.tilt_deg << "°";
+        }
+    }
+}
+
+// The map is smaller than a cell of the lower one, and near the eye its walls reach into pictures
+// in which none of their rims is.
+TEST_F(BodyWalls, NoPixelIsSeenThroughAroundAMapInACell)
+{
+    const StepMap lower = globe(level);
+    for (const auto& [step_m, from] : {std::pair{20.0, Position{500.0, 0.0}},
+                                       {-20.0, {2000.0, 75.0}},
+                                       {200.0, {500.0, 0.0}},
+                                       {-200.0, {500.0, 60.0}}}) {
+        const StepMap upper("+proj=tmerc +lat_0=18.5 +lon_0=77.4 +R=3396190 +units=m", 500, 400,
+                            {-1250, 5, 0, 1000, 0, -5},
+                            [step = step_m](std::size_t c, std::size_t r) {
+                                return isInCrater(c / 4, r / 4) ? kNaN : step;
+                            });
+        const OffscreenPicture picture = drawFrom({upper.layer(), lower.layer()}, over(from));
+        EXPECT_EQ(open(picture.colors, over(from), -500.0), 0U)
+            << step_m << " m from " << from.distance_m << " m, " << from.tilt_deg << "°";
+    }
+}
+
+// With relief, at every level of detail.
+TEST_F(BodyWalls, NoPixelIsSeenThroughBetweenMountains)
+{
+    Random random(5);
+    const auto wide = fractalHeights(random, 1440, 720, 3000.0, 0.5);
+    const StepMap lower = globe([&](std::size_t c, std::size_t r) { return wide[r * 1440 + c]; });
+    const auto local = fractalHeights(random, 500, 400, 400.0, 0.6);
+    const StepMap upper("+proj=tmerc +lat_0=18.5 +lon_0=77.4 +R=3396190 +units=m", 500, 400,
+                        {-12500, 50, 0, 10000, 0, -50}, [&](std::size_t c, std::size_t r) {
+                            return isInCrater(c / 4, r / 4) ? kNaN : local[r * 500 + c];
+                        });
+    for (const auto& [exaggeration, error_px] : {std::pair{1.0, 1.0}, {4.0, 5.0}}) {
+        for (const Position& from : kPositions) {
+            BodyCamera camera = over(from);
+            camera.height_m = exaggeration * 500.0;
+            const OffscreenPicture picture =
+                drawFrom({upper.layer(), lower.layer()}, camera, exaggeration,
+                         {.error_px = error_px, .texel_px = error_px > 1.0 ? 2.0 : 1.0});
+            EXPECT_EQ(open(picture.colors, camera, exaggeration * -3500.0), 0U)
+                << "from " << from.distance_m << " m, " << from.tilt_deg << "°, × " << exaggeration
+                << ", " << error_px << " px";
+        }
+    }
+}
+
+// Rays are followed in small steps to where they are below the uppermost map with data.
+TEST_F(BodyWalls, StandWhereTheUpperMapEnds)
+{
+    const StepMap lower = globe(level);
+    for (const double step_m : {2000.0, -2000.0}) {
+        const StepMap upper("+proj=stere +lat_0=18.5 +lon_0=77.4 +R=3396190 +units=m", 121, 101,
+                            {-12000, 200, 0, 10000, 0, -200}, [&](std::size_t c, std::size_t r) {
+                                return isInCrater(c, r) ? kNaN : step_m;
+                            });
+        const BodyCamera camera = over({1.5e4, 60.0});
+        const OffscreenPicture picture = drawFrom({upper.layer(), lower.layer()}, camera);
+        const CameraPose pose = poseOf(camera, {kRadius, kRadius});
+        const auto clearance = [&](const Ray& ray, double t) {
+            const BodyPlace place = placeOf(ray.at(t), {kRadius, kRadius});
+            const double above = upper.height(place.foot);
+            return place.height_m - (std::isnan(above) ? 0.0 : above);
+        };
+        const auto depth_of = [&](int x, int y) {
+            const Ray ray = pickRay(pose, kViewport, {x + 0.5, y + 0.5});
+            const double along = dot(ray.direction, pose.axes.forward);
+            for (double t = 5000.0; t < 60000.0; t += 100.0) {
+                if (clearance(ray, t) < 0.0) {
+                    double low = t - 100.0;
+                    for (double half = 50.0; half > 1.0; half *= 0.5) {
+                        low += clearance(ray, low + half) > 0.0 ? half : 0.0;
+                    }
+                    return low * along;
+                }
+            }
+            return std::numeric_limits<double>::infinity();
+        };
+        Random random(7);
+        std::size_t wrong = 0;
+        constexpr std::size_t kPixels = 200;
+        for (std::size_t i = 0; i < kPixels; ++i) {
+            const int x = 1 + static_cast<int>(random.uniform(0.0, kViewport.width - 2.0));
+            const int y = 1 + static_cast<int>(random.uniform(0.0, kViewport.height - 2.0));
+            const auto [low, high] =
+                std::minmax({depth_of(x, y), depth_of(x - 1, y), depth_of(x + 1, y),
+                             depth_of(x, y - 1), depth_of(x, y + 1)});
+            const double drawn =
+                picture.depths_m[static_cast<std::size_t>(y * kViewport.width + x)];
+            wrong += drawn > low - 50.0 && drawn < high + 50.0 ? 0U : 1U;
+        }
+        EXPECT_LE(wrong, kPixels / 100) << step_m << " m";
+    }
+}
+
+} // namespace
+} // namespace marsview::test
