@@ -1,6 +1,19 @@
 #include "haptics/terrain/ground_log.h"
 
 namespace marsview {
+namespace {
+
+GroundPart partOf(std::uint64_t serial, const Georeference& georeference, const SceneFrame& frame)
+{
+    const Body* body = georeference.body();
+    return {.part = serial,
+            .columns = georeference.columns(),
+            .rows = georeference.rows(),
+            .ellipsoid = body != nullptr ? body->ellipsoid : Ellipsoid{},
+            .frame = frame};
+}
+
+} // namespace
 
 std::optional<std::uint32_t>
 GroundLog::record(const ServoMap& map, bool was_notified, Queue& queue) noexcept
@@ -15,13 +28,10 @@ GroundLog::record(const ServoMap& map, bool was_notified, Queue& queue) noexcept
     };
     if (map.serial != serial_) {
         serial_ = map.serial;
-        const Georeference& georeference = map.frame.georeference();
-        const Body* body = georeference.body();
-        put(GroundPart{.part = map.serial,
-                       .columns = georeference.columns(),
-                       .rows = georeference.rows(),
-                       .ellipsoid = body != nullptr ? body->ellipsoid : Ellipsoid{},
-                       .frame = map.frame.frame()});
+        put(partOf(map.serial, map.frame.georeference(), map.frame.frame()));
+        for (const auto& below : map.below) {
+            put(GroundBelow{partOf(map.serial, *below, below->sceneFrame())});
+        }
     }
     if (map.map_id != map_id_) {
         map_id_ = map.map_id;

@@ -1,6 +1,7 @@
 // Reports to a recording which terrain is below the hand.
 #pragma once
 
+#include "core/body/layered_mesh.h"
 #include "haptics/sync/spsc_queue.h"
 #include "haptics/terrain/ground_record.h"
 #include "haptics/terrain/servo_map.h"
@@ -15,7 +16,7 @@ namespace marsview {
 /// Reports only changes since the last report. Servo thread only; does not allocate or wait.
 class GroundLog {
 public:
-    /// Room for 268 ticks with the maximum number of records. A recorder polls every 20 ms.
+    /// Room for 212 ticks with the maximum number of records. A recorder polls every 20 ms.
     using Queue = SpscQueue<GroundRecord, 1U << 15>;
 
     /// The next report starts from the beginning.
@@ -28,7 +29,7 @@ public:
 
 private:
     static constexpr std::size_t kMax = // per tick
-        2 + ResidentTerrain::kLevelsMax + ClipmapBlend::kTilesMax;
+        2 + LayeredMesh::kMapsMax + ResidentTerrain::kLevelsMax + ClipmapBlend::kTilesMax;
 
     std::uint64_t serial_ = 0;
     std::uint64_t map_id_ = 0;

@@ -13,7 +13,7 @@
 
 namespace marsview {
 
-/// A contact model begins: its map, and the map's place in its scene.
+/// A contact model begins: its map, the uppermost of several, and the map's place in its scene.
 struct GroundPart {
     std::uint64_t part = 0; // ServoMap's serial
     std::size_t columns = 0;
@@ -22,6 +22,13 @@ struct GroundPart {
     SceneFrame frame;
 
     bool operator==(const GroundPart&) const = default;
+};
+
+/// The next map below those of a part, which is joined with them to one surface on a body.
+struct GroundBelow {
+    GroundPart map;
+
+    bool operator==(const GroundBelow&) const = default;
 };
 
 /// From the next GroundFelt on, these tiles of a level are resident.
@@ -49,7 +56,7 @@ struct GroundFelt {
     bool operator==(const GroundFelt&) const = default;
 };
 
-using GroundRecord = std::variant<GroundPart, GroundLevel, GroundTile, GroundFelt>;
+using GroundRecord = std::variant<GroundPart, GroundBelow, GroundLevel, GroundTile, GroundFelt>;
 static_assert(std::is_trivially_copyable_v<GroundRecord>);
 
 } // namespace marsview

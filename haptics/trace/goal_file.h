@@ -36,13 +36,14 @@ struct GoalPart {
     ContactModelKind kind = kContactModelDefault;
     double radius_m = 1.0;
     double exaggeration = 1.0;
-    std::optional<GroundPart> ground{}; // if stored in the file
+    std::optional<GroundPart> ground{}; // if stored in the file; the uppermost of several maps
+    std::vector<GroundPart> below{};    // the maps joined with it, from above
 };
 
 /// Changes of the terrain before a goal.
 struct GoalGround {
     std::size_t goal = 0;
-    std::vector<GroundRecord> records; // in order, without GroundParts
+    std::vector<GroundRecord> records; // in order, without maps
 };
 
 /// The recorded result of a goal.

@@ -14,10 +14,12 @@ namespace marsview {
 namespace {
 
 struct Writer {
-    std::string operator()(const GroundPart& part) const
+    std::string operator()(const GroundPart& part) const { return mapText("part", part); }
+    std::string operator()(const GroundBelow& below) const { return mapText("below", below.map); }
+    static std::string mapText(const char* kind, const GroundPart& part)
     {
         const SceneFrame& frame = part.frame;
-        return fmt::format("part/{}/{}/{}/{}/{}/{}/{}/{}/{}/{}/{}", part.part, part.columns,
+        return fmt::format("{}/{}/{}/{}/{}/{}/{}/{}/{}/{}/{}/{}", kind, part.part, part.columns,
                            part.rows, asText(part.ellipsoid.equatorial_m),
                            asText(part.ellipsoid.polar_m), asText(frame.origin.column),
                            asText(frame.origin.row), asText(frame.east_per_column),
@@ -87,7 +89,7 @@ std::optional<GroundRecord> parseRecord(std::string_view word)
     Reader reader(word);
     const std::string_view kind = reader.text();
     GroundRecord record;
-    if (kind == "part") {
+    if (kind == "part" || kind == "below") {
         GroundPart part;
         SceneFrame& frame = part.frame;
         reader.take(part.part);
@@ -98,7 +100,7 @@ std::optional<GroundRecord> parseRecord(std::string_view word)
                               &frame.east_per_row, &frame.north_per_column, &frame.north_per_row}) {
             reader.take(*value);
         }
-        record = part;
+        record = kind == "part" ? GroundRecord(part) : GroundBelow{part};
         return reader.isDone() && frame.isSound() ? std::optional(record) : std::nullopt;
     } else if (kind == "level") {
         GroundLevel level;

@@ -16,11 +16,12 @@ inline constexpr std::string_view kGroundColumn = "ground";
 /// One word: numbers separated by slashes, exact to the bit:
 ///
 ///     part/PART/COLUMNS/ROWS/EQUATORIAL_M/POLAR_M/COLUMN/ROW/E_COLUMN/E_ROW/N_COLUMN/N_ROW
+///     below/ and the same
 ///     level/LEVEL/FIRST_COLUMN/FIRST_ROW/COLUMNS/ROWS/BITS     BITS in hexadecimal
 ///     tile/LEVEL/COLUMN/ROW/WEIGHT
 ///     felt/PART
 ///
-/// as GroundPart (with SceneFrame's terms), GroundLevel, GroundTile and GroundFelt.
+/// as GroundPart (with SceneFrame's terms), GroundBelow, GroundLevel, GroundTile and GroundFelt.
 std::string groundText(const GroundRecord& record);
 
 /// Parses a cell: words separated by blanks. Empty if a word has none of the above forms.

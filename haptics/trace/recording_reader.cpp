@@ -110,8 +110,9 @@ RecordingReader::read(const TableWords& words, std::size_t number, GoalRecording
     if (recording.parts.empty() || !isSamePart(recording.parts.back(), *part)) {
         part->first = recording.goals.size();
         part->line = number;
-        if (const auto ground = ground_parts_.find(part->part); ground != ground_parts_.end()) {
-            part->ground = ground->second;
+        if (const auto maps = maps_.find(part->part); maps != maps_.end()) {
+            part->ground = maps->second.uppermost;
+            part->below = maps->second.below;
         }
         recording.parts.push_back(*part);
     }
@@ -162,13 +163,15 @@ std::optional<RecordedUpdate> RecordingReader::updateIn(const TableWords& words)
     return RecordedUpdate{.is_in_contact = *contact != 0, .proxy = {*x, *y, *z}};
 }
 
-// Stores GroundParts with their parts, and all other records with the next goal.
+// Stores maps with their parts, and all other records with the next goal.
 void RecordingReader::addGround(const std::vector<GroundRecord>& records, GoalRecording& recording)
 {
     GoalGround ground{.goal = recording.goals.size(), .records = {}};
     for (const GroundRecord& record : records) {
         if (const auto* part = std::get_if<GroundPart>(&record)) {
-            ground_parts_[part->part] = *part;
+            maps_[part->part] = {.uppermost = *part, .below = {}};
+        } else if (const auto* below = std::get_if<GroundBelow>(&record)) {
+            maps_[below->map.part].below.push_back(below->map);
         } else {
             ground.records.push_back(record);
         }

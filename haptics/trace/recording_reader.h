@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace marsview {
 
@@ -45,7 +46,11 @@ private:
     std::optional<std::size_t> ground_at_;
     std::optional<std::size_t> motion_at_;
     std::size_t count_ = 0; // of all columns
-    std::map<std::uint64_t, GroundPart> ground_parts_;
+    struct Maps {
+        GroundPart uppermost;
+        std::vector<GroundPart> below;
+    };
+    std::map<std::uint64_t, Maps> maps_; // by part
 };
 
 } // namespace marsview

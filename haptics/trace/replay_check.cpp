@@ -26,6 +26,27 @@ bool isRecordedOn(const GroundPart& part, const Georeference& map) noexcept
     return part.columns == map.columns() && part.rows == map.rows() && part.ellipsoid == ellipsoid;
 }
 
+std::vector<std::size_t> mapsOf(const GoalPart& part,
+                                std::span<const std::shared_ptr<const Georeference>> maps)
+{
+    std::vector<std::size_t> found;
+    std::size_t next = 0;
+    const auto find = [&](const GroundPart& recorded) {
+        while (next < maps.size() && !isRecordedOn(recorded, *maps[next])) {
+            ++next;
+        }
+        if (next < maps.size()) {
+            found.push_back(next++);
+        }
+    };
+    if (part.ground) {
+        find(*part.ground);
+        std::for_each(part.below.begin(), part.below.end(), find);
+    }
+    return part.ground && found.size() == 1 + part.below.size() ? found
+                                                                : std::vector<std::size_t>();
+}
+
 const GoalPart* ReplayFit::otherThan(const TouchedGround& ground) const noexcept
 {
     constexpr double kSame = 1e-6; // radii are computed from the map's cells in more than one way
@@ -34,6 +55,14 @@ const GoalPart* ReplayFit::otherThan(const TouchedGround& ground) const noexcept
                                      std::abs(part.radius_m / ground.radius_m - 1.0) > kSame;
         return part.kind != ground.kind || part.exaggeration != ground.exaggeration ||
                is_other_sphere;
+    });
+    return other == parts.end() ? nullptr : &*other;
+}
+
+const GoalPart* ReplayFit::otherThan(std::size_t map_count) const noexcept
+{
+    const auto other = std::find_if(parts.begin(), parts.end(), [map_count](const GoalPart& part) {
+        return part.ground && 1 + part.below.size() != map_count;
     });
     return other == parts.end() ? nullptr : &*other;
 }
@@ -56,13 +85,20 @@ Result<ReplayFit> replayFit(const std::string& file,
                    std::none_of(maps.begin(), maps.end(),
                                 [&goal](const auto& map) { return isOn(*map, goal); });
         });
-    const auto other = std::find_if(
-        recording->parts.begin(), recording->parts.end(), [maps](const GoalPart& part) {
-            return part.ground && std::none_of(maps.begin(), maps.end(), [&part](const auto& map) {
-                       return isRecordedOn(*part.ground, *map);
-                   });
-        });
-    const auto other_map = other != recording->parts.end() ? other->ground : std::nullopt;
+    std::optional<GroundPart> other_map;
+    const auto look_for = [&](const GroundPart& recorded) {
+        if (!other_map && std::none_of(maps.begin(), maps.end(), [&recorded](const auto& map) {
+                return isRecordedOn(recorded, *map);
+            })) {
+            other_map = recorded;
+        }
+    };
+    for (const GoalPart& part : recording->parts) {
+        if (part.ground) {
+            look_for(*part.ground);
+            std::for_each(part.below.begin(), part.below.end(), look_for);
+        }
+    }
     return ReplayFit{.goal_count = recording->goals.size(),
                      .beside_count = static_cast<std::size_t>(beside),
                      .parts = std::move(recording->parts),

@@ -51,6 +51,23 @@ TEST(ReplayFit, DistinguishesTheMapsOfARecordingBySizeAndBody)
     const std::string of_none = recorded("part/7/40/30/0.0/0.0" + frame);
     EXPECT_FALSE(fit(of_none, {nowhere}).other_map);
     EXPECT_TRUE(fit(of_none, {mars}).other_map);
+    // Two maps that were joined to one surface, the uppermost first.
+    const auto joined = fit(recorded("part/7/40/30/3396190.0/3376200.0" + frame +
+                                     " below/7/41/30/3396190.0/3376200.0" + frame),
+                            {moon, mars, larger});
+    EXPECT_FALSE(joined.other_map);
+    using Indexes = std::vector<std::size_t>;
+    const std::vector<std::shared_ptr<const Georeference>> shown{moon, mars, mars, larger};
+    EXPECT_EQ(mapsOf(joined.parts.front(), shown), (Indexes{1, 3}));
+    const std::vector<std::shared_ptr<const Georeference>> turned{larger, mars};
+    EXPECT_EQ(mapsOf(joined.parts.front(), turned), Indexes{}) << "in another order";
+    EXPECT_EQ(joined.otherThan(2), nullptr);
+    EXPECT_NE(joined.otherThan(1), nullptr);
+    const ReplayFit lower_missing = fit(recorded("part/7/40/30/3396190.0/3376200.0" + frame +
+                                                 " below/7/41/30/3396190.0/3376200.0" + frame),
+                                        {moon, mars});
+    ASSERT_TRUE(lower_missing.other_map);
+    EXPECT_EQ(lower_missing.other_map->columns, 41U);
     // Older files do not record the map.
     EXPECT_FALSE(fit(recorded(""), {moon}).other_map);
 }
