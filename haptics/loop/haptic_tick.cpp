@@ -557,6 +557,8 @@ private:
             goOnAtProxy();
         } else if (map_->is_touched && (has_jumped_ || is_entering_ || !state_.has_touched)) {
             putStraightAbove(aimed);
+        } else if (isHeldByWall(aimed)) {
+            putStraightAbove(aimed);
         }
         update(aimed);
         state_.has_touched = true;
@@ -604,6 +606,13 @@ private:
             goals.are_in_contact[goals.count] = state_.contact.is_in_contact;
             ++goals.count;
         }
+    }
+
+    // A recording has the goals over the wall.
+    bool isHeldByWall(const TracePoint& goal) const noexcept
+    {
+        return input_.recorded == nullptr && !is_fresh_ && state_.contact.is_in_contact &&
+               map_->surface->isHeldByWall(state_.contact.proxy, goal);
     }
 
     // Moves above all terrain and over to the new place: the result depends only on the goals.

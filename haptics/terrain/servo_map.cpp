@@ -9,6 +9,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 namespace marsview {
@@ -74,6 +75,32 @@ private:
     Surface surface_;
 };
 
+// Whether a pull presses a proxy against a wall.
+bool isAgainstWall(const LayeredMesh& mesh, const ScenePoint& proxy, const Vec3& pull) noexcept
+{
+    constexpr double kReachM = 1e-4; // positions on a planet are known to a nanometer
+    const Vec3 around{kReachM, kReachM, kReachM};
+    bool is_against = false;
+    mesh.tree().inBox(proxy - around, proxy + around, [&](std::uint32_t face) {
+        if (is_against || !mesh.isWall(face)) {
+            return;
+        }
+        const auto corners = mesh.points(face);
+        TriangleTree::Bounds bounds;
+        for (const ScenePoint& corner : corners) {
+            bounds.add(corner - around);
+            bounds.add(corner + around);
+        }
+        const bool is_near = proxy.x >= bounds.low.x && proxy.x <= bounds.high.x &&
+                             proxy.y >= bounds.low.y && proxy.y <= bounds.high.y &&
+                             proxy.z >= bounds.low.z && proxy.z <= bounds.high.z;
+        const Vec3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
+        is_against = is_near && dot(pull, normal) < 0.0 &&
+                     std::abs(dot(proxy - corners[0], normal)) <= kReachM * length(normal);
+    });
+    return is_against;
+}
+
 template <typename Surface>
 class BodyTouch final : public TouchSurface {
 public:
@@ -126,6 +153,16 @@ public:
         }
         const TracePoint over = frame_.fromScene(normalized(between) * (3.0 * radius_m));
         return {.goals = {{begin, over, end}}, .count = 3};
+    }
+    bool isHeldByWall(const ScenePoint& proxy, const TracePoint& goal) const noexcept override
+    {
+        if constexpr (std::is_same_v<Surface, LayeredSurface>) {
+            const ScenePoint to = frame_.toScene(goal);
+            return isAgainstWall(*surface_.mesh(), proxy, to - proxy) &&
+                   -clearanceOver(surface_, to) < length(to - proxy);
+        } else {
+            return false;
+        }
     }
     const Ellipsoid* body() const noexcept override { return &frame_.ellipsoid(); }
 

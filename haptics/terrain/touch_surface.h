@@ -44,6 +44,15 @@ public:
     /// Leads from a proxy, above all of the terrain, to straight above a goal.
     virtual HighWay highWay(const ScenePoint& proxy, const TracePoint& goal) const noexcept = 0;
 
+    /// A wall between two maps holds a proxy in contact, although the surface straight above the
+    /// goal is nearer to the goal than the proxy is. Where the proxy goes over the wall then, a
+    /// pull against a step overcomes it, and the force turns without becoming stronger.
+    virtual bool isHeldByWall(const ScenePoint& /*proxy*/,
+                              const TracePoint& /*goal*/) const noexcept
+    {
+        return false;
+    }
+
     /// On which the map lies, around the origin of the scene; null in the plane.
     virtual const Ellipsoid* body() const noexcept = 0;
 

@@ -5,8 +5,14 @@
 #include "haptics/loop/camera_link.h"
 #include "haptics/loop/haptic_tick.h"
 #include "haptics/loop/rt_scope.h"
+#include "haptics/terrain/ground_log.h"
+#include "haptics/trace/goal_file.h"
+#include "haptics/trace/ground_text.h"
+#include "haptics/trace/replay_check.h"
 #include "tests/core/contact/nested_maps.h"
 #include "tests/haptics/loop/tick_fixture.h"
+#include "tests/support/map_maker.h"
+#include "tests/support/shared_data.h"
 
 #include <gtest/gtest.h>
 
@@ -15,6 +21,9 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <string>
+#include <variant>
 #include <vector>
 
 namespace marsview::test {
@@ -38,6 +47,24 @@ public:
 
     const Ellipsoid& body() const { return mesh_->ellipsoid(); }
     std::shared_ptr<ServoMap> servoMap() const { return makeServoMap(georeferences_, mesh_, {}); }
+    // Maps that are open, the uppermost first, on the ellipsoid of the lowest.
+    JoinedMaps(const std::vector<std::shared_ptr<const Map>>& maps, double exaggeration)
+    {
+        JobMonitor monitor;
+        for (const auto& map : maps) {
+            georeferences_.emplace_back(map, &map->georeference());
+            meshes_.push_back(BodyMesh::build(map->filled(), map->georeference(), exaggeration,
+                                              monitor,
+                                              *maps.back()->georeference().crs()->ellipsoid())
+                                  .value());
+        }
+        mesh_ = LayeredMesh::build(meshes_, monitor).value();
+    }
+
+    const std::vector<std::shared_ptr<const Georeference>>& georeferences() const
+    {
+        return georeferences_;
+    }
     GeographicPoint placeOn(std::size_t map, const GridPoint& at) const
     {
         return *georeferences_[map]->toGeographic(at);
@@ -86,6 +113,18 @@ public:
         }
         hand_.aimAt(aim_);
     }
+    // Across, with the aim of the grip so far below the surface that is below the hand.
+    void across(double x, double depth_m, double m_per_s = 0.05)
+    {
+        const int ticks = static_cast<int>(std::abs(x - aim_.x) / m_per_s / kTickS);
+        const double step_m = (x - aim_.x) / ticks;
+        for (int i = 0; i < ticks; ++i) {
+            aim_.x += step_m;
+            aim_.z = std::isfinite(last_.surface_z_m) ? last_.surface_z_m - depth_m : aim_.z;
+            hand_.aimAt(aim_);
+            tick();
+        }
+    }
     void rest(int ticks = 300)
     {
         for (int i = 0; i < ticks; ++i) {
@@ -97,6 +136,12 @@ public:
     double newtons() const { return length(last_.force_n); }
     double stepMaxN() const { return step_max_n_; }
     int mapChanges() const { return map_changes_; }
+    // As in a recording.
+    struct Goal {
+        TracePoint goal;
+        TracePoint proxy;
+    };
+    const std::vector<Goal>& goals() const { return goals_; }
     std::uint64_t allocations() const { return allocations_; }
     double rateNPerS() const { return options_.limits.rate_n_per_s_max; }
     const WorkspaceFrame& frame() const { return state_.frame; }
@@ -121,6 +166,9 @@ private:
             step_max_n_ = std::max(step_max_n_, length(last_.force_n - force_n));
         }
         map_changes_ += last_.has_changed_map ? 1 : 0;
+        for (std::size_t i = 0; i < last_.goals.count; ++i) {
+            goals_.push_back({last_.goals.goals[i], last_.goals.proxies[i]});
+        }
         hand_.push(last_.force_n);
         hand_.advance(kTickS);
         if (++ticks_ % 16 == 0) {
@@ -153,6 +201,7 @@ private:
     std::chrono::steady_clock::time_point now_{std::chrono::seconds(1)};
     double step_max_n_ = 0.0;
     int map_changes_ = 0;
+    std::vector<Goal> goals_;
     int ticks_ = 0;
     std::uint64_t allocations_ = 0;
 };
@@ -168,65 +217,239 @@ NestedMaps levelStepOfSmallCells()
              {{"Coarse", "+proj=longlat +R=3396190", 81, 81, {224, 0.05, 0, 20, 0, -0.05}, 0.0}}}};
 }
 
-// Pressed with a steady aim of the grip, 10 mm below the surface: a millimeter is 100 m. From
-// below, the step holds the hand until that is above it; from above it drops off.
-TEST(LayeredTick, AStepIsAWallFromBelowAndAnEdgeFromAbove)
-{
-    for (const double exaggeration : {1.0, 5.0}) {
-        const JoinedMaps maps(levelStepOfSmallCells(), exaggeration);
-        Stroke stroke(maps, maps.placeOn(0, {40.0, 16.0}), 1e5); // beside the eastern border
-        const double step_m = kStepM * exaggeration / 1e5;
-        // Cells of 3 km lie 0.66 m below their heights in the middle of their diagonals.
-        constexpr double kCellsM = 0.7 / 1e5;
-        const auto proxy = [&] { return stroke.frame().toWorkspace(stroke.last().contact.proxy); };
-        // The workspace is level, and the body is not, 3 km from its middle: by x² / 2R.
-        constexpr double kLevelM = 1.4 / 1e5;
-        stroke.to({0.03, 0.0, 0.02});
-        stroke.to({0.03, 0.0, -0.01});
-        stroke.rest();
-        EXPECT_NEAR(proxy().z, 0.0, kCellsM + kLevelM);
-        const double pressed_n = stroke.newtons();
-        EXPECT_NEAR(pressed_n, 150.0 * 400.0 / 550.0 * 0.01, 0.01); // of two springs
+// Of a grip whose aim is so far inside: two springs, and what they balance in between.
+constexpr double kShareOfAim = 150.0 / 550.0;
+constexpr double kNewtonsPerMeter = 400.0 * kShareOfAim;
 
-        stroke.to({-0.01, 0.0, -0.01});
-        stroke.rest();
-        EXPECT_NEAR(proxy().x, 0.0, 1e-6) << "the foot of the wall";
-        EXPECT_NEAR(proxy().z, 0.0, kCellsM);
-        EXPECT_NEAR(stroke.last().force_n.x, 150.0 * 400.0 / 550.0 * 0.01, 0.01);
-        EXPECT_NEAR(stroke.last().force_n.z, pressed_n, 0.01);
+class LayeredTick : public testing::TestWithParam<double> {
+protected:
+    // A millimeter is 100 m. Beside the eastern border of the upper map, x is 0.
+    static constexpr double kMetersPerMeter = 1e5;
+    // Cells of 3 km lie 0.66 m below their heights in the middle of their diagonals, and the
+    // surface 1.3 m below the level workspace at 3 km from its middle, by x² / 2R.
+    static constexpr double kLevelM = 2.1 / kMetersPerMeter;
 
-        // Raised, the hand takes the proxy up along the wall, to its own height.
-        int risen = 0;
-        stroke.each_tick = [&](const Stroke& now) {
-            const double height_m = now.last().hand.z;
-            if (height_m > 1e-4 && height_m < step_m - 1e-4 && now.last().hand.x < -1e-4) {
-                ++risen;
-                ASSERT_TRUE(now.last().contact.is_in_contact);
-                ASSERT_NEAR(proxy().x, 0.0, 1e-6);
-                ASSERT_NEAR(proxy().z, height_m, 2e-6);
-            }
-        };
-        stroke.to({-0.01, 0.0, step_m + 0.01});
-        EXPECT_GT(risen, 20);
-        stroke.each_tick = {};
-        stroke.rest();
-        EXPECT_FALSE(stroke.last().contact.is_in_contact) << "above the upper map";
-
-        stroke.to({-0.01, 0.0, step_m - 0.01});
-        stroke.rest();
-        EXPECT_NEAR(proxy().z, step_m, kCellsM + kLevelM);
-        EXPECT_NEAR(stroke.newtons(), pressed_n, 0.01);
-        stroke.to({0.02, 0.0, step_m - 0.01}, 0.1);
-        stroke.rest();
-        const double depth_m = 0.01 - step_m;
-        EXPECT_NEAR(stroke.newtons(), 150.0 * 400.0 / 550.0 * std::max(0.0, depth_m), 0.01);
-        EXPECT_NEAR(stroke.last().hand.z, depth_m > 0.0 ? -depth_m * 150.0 / 550.0 : step_m - 0.01,
-                    1e-4);
-        // One surface: no other map begins, and the force never changes faster than it may.
-        EXPECT_EQ(stroke.mapChanges(), 1);
-        EXPECT_LE(stroke.stepMaxN(), stroke.rateNPerS() * kTickS + 1e-9);
-        EXPECT_EQ(stroke.allocations(), 0U);
+    WorkspacePoint proxy() const
+    {
+        return stroke_.frame().toWorkspace(stroke_.last().contact.proxy);
     }
+    void expectOneSurfaceAndNoStep() const
+    {
+        EXPECT_EQ(stroke_.mapChanges(), 1) << "no other map begins";
+        EXPECT_LE(stroke_.stepMaxN(), stroke_.rateNPerS() * kTickS + 1e-9);
+        EXPECT_EQ(stroke_.allocations(), 0U);
+    }
+
+    const JoinedMaps maps_{levelStepOfSmallCells(), GetParam()};
+    const double step_m_ = kStepM * GetParam() / kMetersPerMeter;
+    Stroke stroke_{maps_, maps_.placeOn(0, {40.0, 16.0}), kMetersPerMeter};
+};
+
+TEST_P(LayeredTick, AStepHoldsTheHandUntilItIsRaisedAndDropsItFromAbove)
+{
+    stroke_.to({0.03, 0.0, 0.02});
+    stroke_.to({0.03, 0.0, -0.01});
+    stroke_.rest();
+    EXPECT_NEAR(proxy().z, 0.0, kLevelM);
+    const double pressed_n = stroke_.newtons();
+    EXPECT_NEAR(pressed_n, 0.01 * kNewtonsPerMeter, 0.01);
+
+    constexpr double kInsideM = 0.001;
+    stroke_.to({-kInsideM / kShareOfAim, 0.0, -0.01});
+    stroke_.rest();
+    EXPECT_NEAR(proxy().x, 0.0, 1e-6) << "the foot of the wall";
+    EXPECT_NEAR(proxy().z, 0.0, kLevelM);
+    EXPECT_NEAR(stroke_.last().force_n.x, 0.4, 0.01);
+    EXPECT_NEAR(stroke_.last().force_n.z, pressed_n, 0.01);
+
+    // Raised, the hand takes the proxy up along the wall, to its own height, until the upper map is
+    // nearer to the hand than the wall.
+    int risen = 0;
+    stroke_.each_tick = [&](const Stroke& now) {
+        const double height_m = now.last().hand.z;
+        const double left_m = step_m_ - height_m + now.last().hand.x; // until it is nearer
+        if (height_m > 1e-4 && std::abs(left_m) > 2e-4 && now.last().contact.is_in_contact) {
+            const bool is_on_wall = left_m > 0.0;
+            risen += is_on_wall ? 1 : 0;
+            ASSERT_NEAR(proxy().x, is_on_wall ? 0.0 : now.last().hand.x, 1e-5) << height_m;
+            ASSERT_NEAR(proxy().z, is_on_wall ? height_m : step_m_, kLevelM) << height_m;
+        }
+    };
+    stroke_.to({-kInsideM / kShareOfAim, 0.0, step_m_ + 0.01});
+    EXPECT_GT(risen, 10);
+    stroke_.each_tick = {};
+    stroke_.rest();
+    EXPECT_FALSE(stroke_.last().contact.is_in_contact) << "above the upper map";
+
+    stroke_.to({-0.01, 0.0, step_m_ - 0.01});
+    stroke_.rest();
+    EXPECT_NEAR(proxy().z, step_m_, kLevelM);
+    EXPECT_NEAR(stroke_.newtons(), pressed_n, 0.01);
+    stroke_.to({0.02, 0.0, step_m_ - 0.01}, 0.1);
+    stroke_.rest();
+    const double depth_m = std::max(0.0, 0.01 - step_m_);
+    EXPECT_NEAR(stroke_.newtons(), depth_m * kNewtonsPerMeter, 0.01);
+    expectOneSurfaceAndNoStep();
+}
+
+// With a depth of p, a push of d overcomes a step of h from d² = 2 p h + h² on: then the upper map
+// is as near to the hand as the foot of the step, and the force turns without a change of strength.
+TEST_P(LayeredTick, APushAcrossOvercomesAStepOnceTheUpperMapIsNearer)
+{
+    stroke_.to({0.01, 0.0, 0.02});
+    stroke_.to({0.01, 0.0, -0.01});
+    stroke_.rest();
+    const double depth_m = 0.01 * kShareOfAim;
+    const double push_m = std::sqrt(2.0 * depth_m * step_m_ + step_m_ * step_m_);
+    std::optional<double> held_m; // the largest push that did not overcome it
+    double before_m = 0.0;
+    double after_m = 0.0; // from the hand to the proxy
+    stroke_.each_tick = [&](const Stroke& now) {
+        const double distance_m = length(proxy() - now.last().hand);
+        if (proxy().z < 0.5 * step_m_) {
+            held_m = -now.last().hand.x;
+            before_m = distance_m;
+        } else if (after_m == 0.0) {
+            after_m = distance_m;
+        }
+    };
+    stroke_.to({-1.2 * push_m / kShareOfAim, 0.0, -0.01});
+    ASSERT_TRUE(held_m);
+    EXPECT_NEAR(*held_m, push_m, 0.02 * push_m + 1e-5);
+    EXPECT_NEAR(after_m, before_m, 0.02 * before_m);
+    EXPECT_NEAR(proxy().z, step_m_, kLevelM);
+    expectOneSurfaceAndNoStep();
+}
+
+INSTANTIATE_TEST_SUITE_P(Exaggeration,
+                         LayeredTick,
+                         testing::Values(1.0, 2.0),
+                         [](const auto& tested) {
+                             return "Times" + std::to_string(static_cast<int>(tested.param));
+                         });
+
+// What a recording has: the maps and the goals. On the same maps, joined again, they give the same
+// proxies to the bit, over the wall, too.
+TEST(LayeredTickRecorded, ItsGoalsGiveTheSameProxiesOnTheSameMaps)
+{
+    const NestedMaps nested = levelStepOfSmallCells();
+    const JoinedMaps maps(nested, 1.0);
+    Stroke stroke(maps, maps.placeOn(0, {40.0, 16.0}), 1e5);
+    for (const double x : {0.02, -0.03, 0.01, -0.02}) {
+        stroke.to({x, 0.1 * x, -0.01}, 0.2);
+    }
+    GroundLog log;
+    const auto records = std::make_unique<GroundLog::Queue>();
+    ASSERT_EQ(log.record(*maps.servoMap(), false, *records), 2U);
+    std::string file =
+        "lon,lat,z,map,part,model,radius_m,exaggeration,ground,contact,proxy_x,"
+        "proxy_y,proxy_z\n0,0,0,1,";
+    GroundRecord record;
+    std::string ground;
+    std::uint64_t part = 0;
+    while (records->take(record)) {
+        ground += (ground.empty() ? "" : " ") + groundText(record);
+        if (const auto* begins = std::get_if<GroundPart>(&record)) {
+            part = begins->part;
+        }
+    }
+    file += std::to_string(part) + ",continuous-walk,1,1," + ground + ",0,0,0,0\n";
+    const auto recording = readGoalRecording(file, "joined.csv", GoalColumns::Geographic);
+    ASSERT_TRUE(recording) << recording.error().message;
+    const auto found = mapsOf(recording->parts.front(), maps.georeferences());
+    EXPECT_EQ(found, (std::vector<std::size_t>{0, 1}));
+
+    const JoinedMaps again(nested, recording->parts.front().exaggeration);
+    const auto map = again.servoMap();
+    int on_upper = 0;
+    for (const Stroke::Goal& goal : stroke.goals()) {
+        const ContactState state = map->model->update(map->surface->toScene(goal.goal));
+        ASSERT_EQ(state.is_in_contact ? map->surface->fromScene(state.proxy) : goal.goal,
+                  goal.proxy);
+        on_upper += state.is_in_contact && goal.proxy.z > 0.9 * kStepM ? 1 : 0;
+    }
+    EXPECT_GT(on_upper, 100);
+    EXPECT_LT(on_upper, static_cast<int>(stroke.goals().size()) - 100);
+}
+
+// All of Mars in cells of 15 km, and a part of it in cells of 2 km in a projection of its own,
+// raised by 200 m: a stroke over its border and back, with a hand that follows the terrain.
+TEST(LayeredTickOnMars, AStrokeOntoAFinerMapAndBackChangesTheForceNoFasterThanItMay)
+{
+    const auto mars = loadedMap(bundledMars());
+    MapMaker maker;
+    const MapMaker::Place place{61,
+                                61,
+                                {-61000, 2000, 0, 61000, 0, -2000},
+                                "+proj=tmerc +lat_0=-9 +lon_0=-70 +a=3396190 +b=3376200 +units=m"};
+    const Georeference fine(61, 61, *GeoTransform::fromTerms(place.transform),
+                            *Crs::fromText(place.srs));
+    const auto raised = maker.make(place, [&](std::size_t column, std::size_t row) {
+        const auto at = fine.toGeographic({static_cast<double>(column), static_cast<double>(row)});
+        return mars->height(*at) + kStepM;
+    });
+    constexpr double kExaggeration = 5.0;
+    const JoinedMaps maps({raised, mars}, kExaggeration);
+    Stroke stroke(maps, maps.placeOn(0, {60.0, 30.0}), 1e6); // a millimeter is a kilometer
+    int on_upper = 0;
+    int on_lower = 0;
+    stroke.each_tick = [&](const Stroke& now) {
+        if (now.last().contact.is_in_contact) {
+            // Beside the border the two differ by the step, and by no more than a sample's height.
+            const TracePoint& proxy = now.last().proxy;
+            const double above_m = proxy.z - mars->height({.longitude = Angle::degrees(proxy.x),
+                                                           .latitude = Angle::degrees(proxy.y)});
+            on_upper += std::abs(above_m - kStepM) < 40.0 ? 1 : 0;
+            on_lower += std::abs(above_m) < 40.0 ? 1 : 0;
+        }
+    };
+    for (const double x : {0.04, -0.04, 0.04}) {
+        stroke.across(x, 0.0075);
+    }
+    EXPECT_GT(on_upper, 500);
+    EXPECT_GT(on_lower, 500);
+    EXPECT_EQ(stroke.mapChanges(), 1);
+    EXPECT_LE(stroke.stepMaxN(), stroke.rateNPerS() * kTickS + 1e-9);
+    EXPECT_EQ(stroke.allocations(), 0U);
+}
+
+// The upper map in cells of 10 km around the pole, the lower one in cells of half a degree: the
+// curvature makes steps of up to 33 m, a few micrometers in the workspace.
+TEST(LayeredTickOverAPole, NothingIsFeltOfStepsThatAreSmall)
+{
+    const JoinedMaps maps(
+        {"Pole",
+         {{{"Polar",
+            "+proj=stere +lat_0=90 +lon_0=0 +R=3396190 +units=m",
+            61,
+            61,
+            {-305000, 10000, 0, 305000, 0, -10000},
+            0.0}},
+          {{"Whole", "+proj=longlat +R=3396190", 360, 180, {0, 1, 0, 90, 0, -1}, 0.0}}}},
+        1.0);
+    Stroke stroke(maps, {.longitude = Angle(), .latitude = Angle::degrees(90.0)}, 1e7);
+    // A ball with a radius of 338 mm. 2.7 mm below its surface, from 80° N over the pole to 80° N.
+    const double radius_m = 3376200.0 / 1e7;
+    const auto along = [&](double x) {
+        return WorkspacePoint{x, 0.3 * x,
+                              std::sqrt(radius_m * radius_m - 1.09 * x * x) - radius_m - 0.01};
+    };
+    stroke.to(along(-0.06) + Vec3{0.0, 0.0, 0.02});
+    stroke.to(along(-0.06));
+    stroke.rest();
+    const double pressed_n = stroke.newtons();
+    int on_upper = 0;
+    stroke.each_tick = [&](const Stroke& now) {
+        ASSERT_TRUE(now.last().contact.is_in_contact);
+        ASSERT_NEAR(now.newtons(), pressed_n, 0.05);
+        on_upper += std::abs(now.last().hand.x) < 0.028 ? 1 : 0;
+    };
+    for (int i = -120; i <= 120; ++i) {
+        stroke.to(along(0.0005 * i));
+    }
+    EXPECT_GT(on_upper, 500);
+    EXPECT_EQ(stroke.mapChanges(), 1);
+    EXPECT_EQ(stroke.allocations(), 0U);
 }
 
 } // namespace
