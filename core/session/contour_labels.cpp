@@ -24,22 +24,27 @@ struct ContourHit {
     ScenePoint place{};
 };
 
+// The terrain that a ray of a picture meets.
+using TerrainCast = std::function<std::optional<ContourHit>(const Ray& ray)>;
+
 // Finds contours in one picture.
 class ContourSearch {
 public:
-    ContourSearch(const SceneSurface& ground,
-                  const OrbitCamera& camera,
+    // `maps` are those that hits have the indexes of.
+    ContourSearch(TerrainCast cast,
+                  const std::vector<const Map*>& maps,
+                  const CameraPose& pose,
                   const TerrainLook& look,
                   const ContourLabelOptions& options)
-        : ground_(ground)
-        , camera_(camera)
+        : cast_(std::move(cast))
+        , pose_(pose)
         , options_(options)
     {
-        const double pixel_m = metersPerPixel(camera, options.viewport);
-        for (const SceneMap& map : ground.maps()) {
+        const double pixel_m = metersPerPixel(pose, options.viewport);
+        for (const Map* map : maps) {
             intervals_m_.push_back(
-                contourInterval(look, map.map->heightfield().range().value_or(HeightRange{}),
-                                pixel_m, options.exaggeration));
+                contourInterval(look, map->heightfield().range().value_or(HeightRange{}), pixel_m,
+                                options.exaggeration));
         }
     }
 
@@ -47,15 +52,7 @@ public:
 
     std::optional<ContourHit> at(PixelPoint pixel) const
     {
-        const auto hit =
-            ground_.cast(pickRay(camera_, options_.viewport, pixel), options_.exaggeration);
-        if (!hit) {
-            return std::nullopt;
-        }
-        return ContourHit{.map = hit->index,
-                          .elevation_m = hit->height_m,
-                          .place = ground_.maps()[hit->index].frame.toScene(
-                              hit->grid, hit->height_m * options_.exaggeration)};
+        return cast_(pickRay(pose_, options_.viewport, pixel));
     }
 
     // Where the only index contour between two pixels is, if the terrain runs on between them.
@@ -146,8 +143,8 @@ public:
     }
 
 private:
-    const SceneSurface& ground_;
-    const OrbitCamera& camera_;
+    TerrainCast cast_;
+    CameraPose pose_;
     const ContourLabelOptions& options_;
     std::vector<double> intervals_m_; // of each map
 };
@@ -163,20 +160,12 @@ bool isInPicture(const LabelBox& box, const Viewport& viewport)
            box.bottom <= viewport.height;
 }
 
-} // namespace
-
-std::vector<ContourLabel> contourLabels(const SceneSurface& ground,
-                                        const OrbitCamera& camera,
-                                        const TerrainLook& look,
-                                        const ContourLabelOptions& options,
-                                        double height_px,
-                                        const std::function<double(double elevation_m)>& width_of)
+std::vector<ContourLabel> labelsBy(const ContourSearch& search,
+                                   const ContourLabelOptions& options,
+                                   double height_px,
+                                   const std::function<double(double elevation_m)>& width_of)
 {
     std::vector<ContourLabel> labels;
-    if (!look.has_contours || ground.isEmpty()) {
-        return labels;
-    }
-    const ContourSearch search(ground, camera, look, options);
     const double step = kGridPoints * options.pixels_per_point;
     const auto columns = static_cast<std::size_t>(options.viewport.width / step) + 1;
     const auto rows = static_cast<std::size_t>(options.viewport.height / step) + 1;
@@ -231,11 +220,67 @@ std::vector<ContourLabel> contourLabels(const SceneSurface& ground,
     return labels;
 }
 
-std::optional<ContourLabel>
-labelIn(ContourLabel label, const OrbitCamera& camera, const Viewport& viewport)
+} // namespace
+
+std::vector<ContourLabel> contourLabels(const SceneSurface& ground,
+                                        const OrbitCamera& camera,
+                                        const TerrainLook& look,
+                                        const ContourLabelOptions& options,
+                                        double height_px,
+                                        const std::function<double(double elevation_m)>& width_of)
 {
-    const auto from = project(camera, viewport, label.from);
-    const auto to = project(camera, viewport, label.to);
+    if (!look.has_contours || ground.isEmpty()) {
+        return {};
+    }
+    std::vector<const Map*> maps;
+    for (const SceneMap& map : ground.maps()) {
+        maps.push_back(map.map.get());
+    }
+    const auto cast = [&](const Ray& ray) -> std::optional<ContourHit> {
+        const auto hit = ground.cast(ray, options.exaggeration);
+        if (!hit) {
+            return std::nullopt;
+        }
+        return ContourHit{.map = hit->index,
+                          .elevation_m = hit->height_m,
+                          .place = ground.maps()[hit->index].frame.toScene(
+                              hit->grid, hit->height_m * options.exaggeration)};
+    };
+    return labelsBy(ContourSearch(cast, maps, CameraPose(camera), look, options), options,
+                    height_px, width_of);
+}
+
+std::vector<ContourLabel> contourLabels(const BodyScene& ground,
+                                        const CameraPose& pose,
+                                        const TerrainLook& look,
+                                        const ContourLabelOptions& options,
+                                        double height_px,
+                                        const std::function<double(double elevation_m)>& width_of)
+{
+    if (!look.has_contours || ground.isEmpty()) {
+        return {};
+    }
+    std::vector<const Map*> maps;
+    for (const BodyTerrain& map : ground.maps()) {
+        maps.push_back(map.map().get());
+    }
+    const auto cast = [&](const Ray& ray) -> std::optional<ContourHit> {
+        const auto point = ground.cast(ray, options.exaggeration);
+        if (!point) {
+            return std::nullopt;
+        }
+        return ContourHit{.map = point->index,
+                          .elevation_m = point->hit.height_m,
+                          .place = ray.at(point->hit.distance_m)};
+    };
+    return labelsBy(ContourSearch(cast, maps, pose, look, options), options, height_px, width_of);
+}
+
+std::optional<ContourLabel>
+labelIn(ContourLabel label, const CameraPose& pose, const Viewport& viewport)
+{
+    const auto from = project(pose, viewport, label.from);
+    const auto to = project(pose, viewport, label.to);
     if (!from || !to) {
         return std::nullopt;
     }

@@ -1,6 +1,7 @@
 // Which index contours a picture of the terrain labels, and where.
 #pragma once
 
+#include "core/session/body_terrain.h"
 #include "core/session/scene_surface.h"
 #include "core/view/label_placement.h"
 #include "core/view/terrain_look.h"
@@ -18,7 +19,7 @@ inline constexpr int kIndexContour = 5;
 /// A label that lies on a contour, along it.
 struct ContourLabel {
     double elevation_m = 0.0;
-    ScenePoint from{}; // points of the contour on either side of the label's middle
+    ScenePoint from{}; // points of the contour on either side of the label's middle, in the scene
     ScenePoint to{};
     PixelPoint middle{};    // in the picture
     double angle_rad = 0.0; // of the text, clockwise, within a quarter turn: never upside down
@@ -43,8 +44,16 @@ std::vector<ContourLabel> contourLabels(const SceneSurface& ground,
                                         double height_px,
                                         const std::function<double(double elevation_m)>& width_of);
 
+/// The same for maps on their body. The labels' points are in the body-fixed frame.
+std::vector<ContourLabel> contourLabels(const BodyScene& ground,
+                                        const CameraPose& pose,
+                                        const TerrainLook& look,
+                                        const ContourLabelOptions& options,
+                                        double height_px,
+                                        const std::function<double(double elevation_m)>& width_of);
+
 /// The same label in the picture of another camera; empty if it is not in it.
 std::optional<ContourLabel>
-labelIn(ContourLabel label, const OrbitCamera& camera, const Viewport& viewport);
+labelIn(ContourLabel label, const CameraPose& pose, const Viewport& viewport);
 
 } // namespace marsview

@@ -77,6 +77,10 @@ std::vector<QPolygonF> outlineOf(const Georeference& georeference)
                                            GridPoint{0.0, 0.0}};
     std::vector<QPolygonF> pieces(1);
     for (std::size_t side = 0; side + 1 < corners.size(); ++side) {
+        if (georeference.wrapsAround() && side % 2 == 1) {
+            pieces.emplace_back(); // a seam, not an end
+            continue;
+        }
         for (int i = 0; i <= kOutlineSteps; ++i) {
             const double share = static_cast<double>(i) / kOutlineSteps;
             const GridPoint& from = corners[side];

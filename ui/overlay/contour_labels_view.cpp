@@ -1,7 +1,5 @@
 #include "ui/overlay/contour_labels_view.h"
 
-#include "ui/canvas/terrain_view.h"
-
 #include <QEvent>
 #include <QFontMetricsF>
 #include <QPainter>
@@ -21,24 +19,21 @@ const QColor kLetterHalo(255, 255, 255, 205);
 
 } // namespace
 
-ContourLabelsView::ContourLabelsView(TerrainView& view)
+ContourLabelsView::ContourLabelsView(QWidget& view, ContourView contours)
     : QWidget(&view)
-    , view_(view)
+    , contours_(std::move(contours))
 {
     setAttribute(Qt::WA_TransparentForMouseEvents);
     setFocusPolicy(Qt::NoFocus);
     setAccessibleName(tr("Elevations of contour lines"));
     setGeometry(view.rect());
     view.installEventFilter(this);
-    connect(&view, &TerrainView::pictureCompleted, this, &ContourLabelsView::find);
-    connect(&view, &TerrainView::sightChanged, this, &ContourLabelsView::follow);
-    const auto clear = [this] {
-        found_.clear();
-        follow();
-    };
-    connect(&view, &TerrainView::layersChanged, this, clear);
-    connect(&view, &TerrainView::lookChanged, this, clear);
-    connect(&view, &TerrainView::exaggerationChanged, this, clear);
+}
+
+void ContourLabelsView::clear()
+{
+    found_.clear();
+    follow();
 }
 
 void ContourLabelsView::setHeightUnit(HeightUnit unit)
@@ -76,21 +71,20 @@ double ContourLabelsView::lineHeight() const
 void ContourLabelsView::find()
 {
     found_.clear();
-    if (view_.map() && view_.look().has_contours && isVisible()) {
-        const double scale = view_.devicePixelRatioF();
+    if (isVisible()) {
+        const double scale = devicePixelRatioF();
         std::vector<LabelBox> boxes;
         for (const QRectF& box : obstacles_ ? obstacles_() : std::vector<QRectF>{}) {
             boxes.push_back(
                 {box.left() * scale, box.top() * scale, box.right() * scale, box.bottom() * scale});
         }
-        found_ = contourLabels(view_.ground(), view_.camera(), view_.look(),
-                               {.viewport = view_.viewport(),
-                                .pixels_per_point = scale,
-                                .exaggeration = view_.exaggeration(),
-                                .obstacles = boxes},
-                               lineHeight() * scale, [this, scale](double elevation_m) {
-                                   return widthOf(elevation_m) * scale;
-                               });
+        found_ = contours_.labels({.viewport = contours_.viewport(),
+                                   .pixels_per_point = scale,
+                                   .exaggeration = contours_.exaggeration(),
+                                   .obstacles = boxes},
+                                  lineHeight() * scale, [this, scale](double elevation_m) {
+                                      return widthOf(elevation_m) * scale;
+                                  });
         shown_ = found_;
         update();
         return;
@@ -103,7 +97,7 @@ void ContourLabelsView::follow()
     const bool had_any = !shown_.empty();
     shown_.clear();
     for (const ContourLabel& label : found_) {
-        if (const auto here = labelIn(label, view_.camera(), view_.viewport())) {
+        if (const auto here = contours_.follow(label)) {
             shown_.push_back(*here);
         }
     }
@@ -137,7 +131,7 @@ void ContourLabelsView::paintEvent(QPaintEvent* /*event*/)
     }
     QPainter painter(this);
     for (const ContourLabel& label : shown_) {
-        draw(painter, label, view_.devicePixelRatioF());
+        draw(painter, label, devicePixelRatioF());
     }
 }
 
@@ -149,14 +143,11 @@ bool ContourLabelsView::eventFilter(QObject* watched, QEvent* event)
     return QWidget::eventFilter(watched, event);
 }
 
-std::vector<PicturePart> ContourLabelsView::partsFor(const OrbitCamera& camera,
+std::vector<PicturePart> ContourLabelsView::partsFor(const decltype(ContourView::labels)& labels_of,
                                                      const QSize& size,
                                                      const std::vector<QRect>& obstacles) const
 {
     std::vector<PicturePart> parts;
-    if (!view_.map() || !view_.look().has_contours) {
-        return parts;
-    }
     const double scale = static_cast<double>(size.height()) / height();
     std::vector<LabelBox> boxes;
     for (const QRect& box : obstacles) {
@@ -164,14 +155,13 @@ std::vector<PicturePart> ContourLabelsView::partsFor(const OrbitCamera& camera,
                          static_cast<double>(box.left() + box.width()),
                          static_cast<double>(box.top() + box.height())});
     }
-    const auto labels = contourLabels(view_.ground(), camera, view_.look(),
-                                      {.viewport = {.width = size.width(), .height = size.height()},
-                                       .pixels_per_point = scale,
-                                       .exaggeration = view_.exaggeration(),
-                                       .obstacles = boxes},
-                                      lineHeight() * scale, [this, scale](double elevation_m) {
-                                          return widthOf(elevation_m) * scale;
-                                      });
+    const auto labels = labels_of({.viewport = {.width = size.width(), .height = size.height()},
+                                   .pixels_per_point = scale,
+                                   .exaggeration = contours_.exaggeration(),
+                                   .obstacles = boxes},
+                                  lineHeight() * scale, [this, scale](double elevation_m) {
+                                      return widthOf(elevation_m) * scale;
+                                  });
     for (const ContourLabel& label : labels) {
         const QPoint corner(static_cast<int>(std::floor(label.box.left)),
                             static_cast<int>(std::floor(label.box.top)));

@@ -10,6 +10,7 @@
 #include "ui/overlay/annotation_marks.h"
 #include "ui/overlay/body_overview.h"
 #include "ui/overlay/compass.h"
+#include "ui/overlay/contour_labels_view.h"
 #include "ui/overlay/crosshair.h"
 #include "ui/overlay/focus_frame.h"
 #include "ui/overlay/force_meter.h"
@@ -55,6 +56,28 @@ ScenePoint inDegrees(const GeographicPoint& place)
     return {std::remainder(place.longitude.degrees(), 360.0), place.latitude.degrees(), 0.0};
 }
 
+ContourView contoursOf(GlobeView& globe)
+{
+    const auto pose = [&globe] { return poseOf(globe.camera(), globe.scene().ellipsoid()); };
+    const auto labels = [&globe, pose](const ContourLabelOptions& options, double height_px,
+                                       const ContourView::Widths& width_of) {
+        return globe.scene().isEmpty() ? std::vector<ContourLabel>{}
+                                       : contourLabels(globe.scene(), pose(), globe.look(), options,
+                                                       height_px, width_of);
+    };
+    const auto follow = [&globe, pose](const ContourLabel& label) -> std::optional<ContourLabel> {
+        if (globe.scene().isEmpty()) {
+            return std::nullopt;
+        }
+        const bool is_behind = dot(label.from, pose().eye - label.from) < 0.0; // the horizon
+        return is_behind ? std::nullopt : labelIn(label, pose(), globe.viewport());
+    };
+    return {.labels = labels,
+            .follow = follow,
+            .viewport = [&globe] { return globe.viewport(); },
+            .exaggeration = [&globe] { return globe.exaggeration(); }};
+}
+
 QImage seenPicture(const BodySight& sight)
 {
     QImage picture(static_cast<int>(sight.columns), static_cast<int>(sight.rows),
@@ -75,6 +98,7 @@ GlobeOverlays::GlobeOverlays(GlobeView& globe, MapOverlays& flat)
     : QObject(&globe)
     , globe_(globe)
     , flat_(flat)
+    , contour_labels_(new ContourLabelsView(globe, contoursOf(globe)))
     , minimap_(new Minimap(&globe))
     , compass_(new Compass(&globe))
     , labels_(new GlobeLabels(globe))
@@ -107,6 +131,7 @@ GlobeOverlays::GlobeOverlays(GlobeView& globe, MapOverlays& flat)
     place_mark_->lower();
     crosshair_->lower();
     labels_->lower();
+    contour_labels_->lower();
     // A pin does not cover the name that it marks.
     labels_->setObstacles(
         {minimap_, compass_, scale_bar_, legend_, hint_, force_meter_, place_mark_});
@@ -135,6 +160,25 @@ void GlobeOverlays::connectParts()
     connect(&globe_, &GlobeView::stylusMoved, this, &GlobeOverlays::showTouch);
     connect(&globe_, &GlobeView::crosshairChanged, crosshair_, &QWidget::setVisible);
     connect(&globe_, &GlobeView::gestureMade, hint_, &GestureHint::markDone);
+    connect(&globe_, &GlobeView::pictureCompleted, contour_labels_, &ContourLabelsView::find);
+    connect(&globe_, &GlobeView::sightChanged, contour_labels_, &ContourLabelsView::follow);
+    connect(&globe_, &GlobeView::sceneChanged, contour_labels_, &ContourLabelsView::clear);
+    contour_labels_->setObstacles([this] {
+        std::vector<QRectF> boxes;
+        for (const QWidget* plate : std::initializer_list<const QWidget*>{
+                 minimap_, compass_, scale_bar_, legend_, hint_, force_meter_}) {
+            if (plate->isVisible()) {
+                boxes.emplace_back(plate->geometry());
+            }
+        }
+        for (const GlobeLabels::Label& label : labels_->labels()) {
+            boxes.push_back(label.box);
+        }
+        for (const GlobeLabels::Label& label : labels_->graticuleLabels()) {
+            boxes.push_back(label.box);
+        }
+        return boxes;
+    });
     connect(minimap_, &Minimap::placeRequested, this, &GlobeOverlays::lookAt);
     connect(compass_, &Compass::northRequested, &globe_, &GlobeView::turnNorthUp);
     connect(hint_, &GestureHint::dismissed, this, [this] {
@@ -169,6 +213,7 @@ void GlobeOverlays::addMarks(MeasureMarks& measurements,
         });
     }
     labels_->lower(); // names give way
+    contour_labels_->lower();
     showSettings();
 }
 
@@ -193,6 +238,7 @@ void GlobeOverlays::showSettings()
         return true;
     };
     layout_->setCovered(flat_.coveredHeight());
+    contour_labels_->setHeightUnit(flat_.heightUnit());
     labels_->setNamesShown(is_on("names"));
     labels_->setGraticuleShown(is_on("graticule"));
     if (measure_marks_ != nullptr) {

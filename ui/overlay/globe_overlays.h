@@ -19,6 +19,7 @@ namespace marsview {
 
 class AnnotationMarks;
 class Compass;
+class ContourLabelsView;
 class Crosshair;
 class DrawnMarks;
 class FocusFrame;
@@ -54,6 +55,7 @@ public:
     GestureHint* hint() const noexcept { return hint_; }
     Crosshair* crosshair() const noexcept { return crosshair_; }
     GlobeLabels* labels() const noexcept { return labels_; }
+    ContourLabelsView* contourLabels() const noexcept { return contour_labels_; }
     FocusFrame* focusFrame() const noexcept { return focus_frame_; }
     PlaceMark* placeMark() const noexcept { return place_mark_; }
 
@@ -92,6 +94,7 @@ private:
     MapOverlays& flat_;
     MeasureMarks* measure_marks_ = nullptr;
     AnnotationMarks* annotation_marks_ = nullptr;
+    ContourLabelsView* contour_labels_ = nullptr; // below all others
     Minimap* minimap_ = nullptr;
     Compass* compass_ = nullptr;
     GlobeLabels* labels_ = nullptr;  // below those that follow

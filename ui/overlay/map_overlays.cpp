@@ -40,12 +40,29 @@ namespace {
 constexpr std::chrono::milliseconds kProbeAfter{150};
 constexpr PictureProbes kProbes{.columns = 24, .rows = 16};
 
+ContourView contoursOf(TerrainView& view)
+{
+    const auto labels = [&view](const ContourLabelOptions& options, double height_px,
+                                const ContourView::Widths& width_of) {
+        return view.map() ? contourLabels(view.ground(), view.camera(), view.look(), options,
+                                          height_px, width_of)
+                          : std::vector<ContourLabel>{};
+    };
+    return {.labels = labels,
+            .follow =
+                [&view](const ContourLabel& label) {
+                    return labelIn(label, view.camera(), view.viewport());
+                },
+            .viewport = [&view] { return view.viewport(); },
+            .exaggeration = [&view] { return view.exaggeration(); }};
+}
+
 } // namespace
 
 MapOverlays::MapOverlays(TerrainView& view)
     : QObject(&view)
     , view_(view)
-    , contour_labels_(new ContourLabelsView(view))
+    , contour_labels_(new ContourLabelsView(view, contoursOf(view)))
     , labels_(new MapLabels(view))
     , minimap_(new Minimap(&view))
     , compass_(new Compass(&view))
@@ -87,6 +104,11 @@ MapOverlays::MapOverlays(TerrainView& view)
     crosshair_->lower();
     labels_->lower();
     contour_labels_->lower();
+    connect(&view_, &TerrainView::pictureCompleted, contour_labels_, &ContourLabelsView::find);
+    connect(&view_, &TerrainView::sightChanged, contour_labels_, &ContourLabelsView::follow);
+    connect(&view_, &TerrainView::layersChanged, contour_labels_, &ContourLabelsView::clear);
+    connect(&view_, &TerrainView::lookChanged, contour_labels_, &ContourLabelsView::clear);
+    connect(&view_, &TerrainView::exaggerationChanged, contour_labels_, &ContourLabelsView::clear);
     contour_labels_->setObstacles([this] {
         std::vector<QRectF> boxes;
         for (const QWidget* plate : plates()) {

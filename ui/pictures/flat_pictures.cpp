@@ -92,7 +92,13 @@ FlatPictures::partsFor(const SceneCamera& camera, const QSize& picture, const Pi
     }
     if (parts.has_labels) {
         append(made, overlays_.labels()->partsFor(at, picture, placesOf(made)));
-        append(made, overlays_.contourLabels()->partsFor(at, picture, placesOf(made)));
+        const auto contours = [&](const ContourLabelOptions& options, double height_px,
+                                  const ContourView::Widths& width_of) {
+            return view_.map() ? contourLabels(view_.ground(), at, view_.look(), options, height_px,
+                                               width_of)
+                               : std::vector<ContourLabel>{};
+        };
+        append(made, overlays_.contourLabels()->partsFor(contours, picture, placesOf(made)));
     }
     if (parts.has_marks) {
         for (const DrawnMarks* marks : marks_) {

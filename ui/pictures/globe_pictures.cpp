@@ -4,6 +4,7 @@
 #include "ui/globe/globe_view.h"
 #include "ui/overlay/annotation_marks.h"
 #include "ui/overlay/compass.h"
+#include "ui/overlay/contour_labels_view.h"
 #include "ui/overlay/globe_overlays.h"
 #include "ui/overlay/legend.h"
 #include "ui/overlay/measure_marks.h"
@@ -90,8 +91,16 @@ GlobePictures::partsFor(const SceneCamera& camera, const QSize& picture, const P
         append(made, platesFor(globe_, {overlays_.compass(), overlays_.scaleBar()}, picture));
     }
     if (parts.has_labels) {
-        append(made,
-               overlays_.labels()->partsFor(std::get<BodyCamera>(camera), picture, placesOf(made)));
+        const auto& at = std::get<BodyCamera>(camera);
+        append(made, overlays_.labels()->partsFor(at, picture, placesOf(made)));
+        const auto contours = [&](const ContourLabelOptions& options, double height_px,
+                                  const ContourView::Widths& width_of) {
+            const BodyScene& scene = globe_.scene();
+            return scene.isEmpty() ? std::vector<ContourLabel>{}
+                                   : contourLabels(scene, poseOf(at, scene.ellipsoid()),
+                                                   globe_.look(), options, height_px, width_of);
+        };
+        append(made, overlays_.contourLabels()->partsFor(contours, picture, placesOf(made)));
     }
     if (parts.has_marks) {
         for (const DrawnMarks* marks : overlays_.marks()) {

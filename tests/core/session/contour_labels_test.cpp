@@ -1,3 +1,4 @@
+#include "core/globe/body_camera.h"
 #include "core/session/contour_labels.h"
 #include "tests/support/map_maker.h"
 #include "tests/support/random.h"
@@ -5,8 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 #include <vector>
 
 namespace marsview::test {
@@ -146,6 +149,46 @@ TEST_F(ContourLabelsTest, NeverOverlapOnRealTerrainFromAnySide)
         count += found.size();
     }
     EXPECT_GT(count, 300U);
+}
+
+// On a planet, at its equator and at a pole.
+TEST(BodyContourLabels, LieOnTheirContours)
+{
+    MapMaker maker;
+    using Transform = std::array<double, 6>;
+    const double radius_m = 3396190.0;
+    for (const auto& [srs, latitude_deg, terms] :
+         {std::tuple("+proj=longlat +R=3396190", 0.0, Transform{136.9, 0.001, 0, 0.1, 0, -0.001}),
+          {"+proj=stere +lat_0=90 +R=3396190", 90.0, Transform{-6000, 60, 0, 6000, 0, -60}}}) {
+        const auto map =
+            maker.make({.columns = 200, .rows = 200, .transform = terms, .srs = srs},
+                       [](std::size_t c, std::size_t r) {
+                           return 3000.0 - 15.0 * std::hypot(static_cast<double>(c) - 100.0,
+                                                             static_cast<double>(r) - 100.0);
+                       });
+        JobMonitor monitor;
+        const BodyScene scene({{map, BodyGrid::make(map->georeference(), monitor).value()}});
+        const CameraPose pose = poseOf({.target = {.longitude = Angle::degrees(137.0),
+                                                   .latitude = Angle::degrees(latitude_deg)},
+                                        .height_m = 2.0 * 2500.0,
+                                        .distance_m = 14000.0,
+                                        .tilt = Angle::degrees(40.0)},
+                                       scene.ellipsoid());
+        const auto labels = contourLabels(
+            scene, pose, {.has_contours = true, .contour_interval_m = 50.0},
+            {.viewport = kPicture, .exaggeration = 2.0}, 14.0, [](double) { return 40.0; });
+        EXPECT_GE(labels.size(), 4U) << srs;
+        for (const ContourLabel& label : labels) {
+            EXPECT_EQ(std::remainder(label.elevation_m, 250.0), 0.0);
+            for (const ScenePoint& end : {label.from, label.to}) {
+                EXPECT_NEAR((length(end) - radius_m) / 2.0, label.elevation_m, 0.4 * 50.0);
+            }
+            const auto same = labelIn(label, pose, kPicture);
+            ASSERT_TRUE(same);
+            EXPECT_NEAR(same->middle.x, label.middle.x, 3.0);
+            EXPECT_NEAR(same->middle.y, label.middle.y, 3.0);
+        }
+    }
 }
 
 } // namespace marsview::test

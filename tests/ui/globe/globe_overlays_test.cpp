@@ -2,8 +2,11 @@
 #include "core/globe/body_sight.h"
 #include "core/measure/ground.h"
 #include "tests/ui/globe/globe_window.h"
+#include "ui/controllers/session_controller.h"
 #include "ui/globe/globe_labels.h"
+#include "ui/overlay/body_overview.h"
 #include "ui/overlay/compass.h"
+#include "ui/overlay/contour_labels_view.h"
 #include "ui/overlay/crosshair.h"
 #include "ui/overlay/gesture_hint.h"
 #include "ui/overlay/globe_overlays.h"
@@ -132,6 +135,27 @@ TEST_F(GlobeOverlaysTest, NamesLieOnTheGlobeAndTheActionOfTheFlatMapHidesThem)
     EXPECT_TRUE(has("Olympus Mons"));
 }
 
+TEST_F(GlobeOverlaysTest, IndexContoursHaveTheirElevations)
+{
+    ASSERT_TRUE(showGlobe());
+    globe().setCamera({.target = {.longitude = Angle::degrees(-134.0), // Olympus Mons
+                                  .latitude = Angle::degrees(18.7)},
+                       .height_m = 2e4,
+                       .distance_m = 1.2e6,
+                       .tilt = Angle::degrees(30.0)});
+    const ContourLabelsView& labels = *overlays().contourLabels();
+    window_->controller().setContours(true);
+    ASSERT_TRUE(waitFor([&] { return globe().isPictureComplete() && !labels.labels().empty(); }));
+    for (const ContourLabel& label : labels.labels()) {
+        const double scale = globe().devicePixelRatioF();
+        const auto hit = globe().hitAt({label.middle.x / scale, label.middle.y / scale});
+        ASSERT_TRUE(hit);
+        EXPECT_NEAR(hit->height_m, label.elevation_m, 100.0);
+    }
+    window_->controller().setContours(false);
+    EXPECT_TRUE(labels.labels().empty());
+}
+
 TEST_F(GlobeOverlaysTest, TheScaleBarIsALengthOnTheGroundInTheMiddle)
 {
     ASSERT_TRUE(showGlobe());
@@ -195,6 +219,15 @@ TEST_F(GlobeOverlaysTest, TheOverviewShowsTheWholeBodyAndLeadsToAnyPlace)
     QTest::keyClick(&map, Qt::Key_Right);
     EXPECT_NEAR(std::remainder(globe().camera().target.longitude.degrees() + 163.0, 360.0), 0.0,
                 0.5);
+}
+
+TEST_F(GlobeOverlaysTest, TheOutlineOfAMapAroundTheBodyHasNoSeam)
+{
+    for (const QPolygonF& piece : outlineOf(view().map()->georeference())) {
+        for (const QPointF& point : piece) {
+            EXPECT_GT(std::abs(point.y()), 89.0) << point.x();
+        }
+    }
 }
 
 TEST_F(GlobeOverlaysTest, APinMarksAPlaceWhereItIsSeen)
