@@ -95,7 +95,7 @@ SafetyOutput limitForce(const SafetyLimits& limits,
                         SafetyState& state,
                         double dt_s) noexcept
 {
-    SafetyOutput output{.force_n = {}, .reason = input.reason, .is_bounded = false};
+    SafetyOutput output{.force_n = {}, .reason = input.reason};
     const bool is_time = std::isfinite(dt_s) && dt_s >= 0.0;
     if (output.reason == ForceOffReason::None &&
         (!is_time || !isFinite(input.force_n) || !isFinite(input.yielding_n))) {
@@ -143,7 +143,6 @@ SafetyOutput limitForce(const SafetyLimits& limits,
                                         ? shortened(input.yielding_n, kForceMeantNMax)
                                         : input.yielding_n;
             wanted_n = shortened(sumWithin(kept_n, yielding_n, warm_n_max), warm_n_max);
-            output.is_bounded = true;
         }
         wanted_n = wanted_n * state.gain;
     }
@@ -153,7 +152,6 @@ SafetyOutput limitForce(const SafetyLimits& limits,
     const Vec3 change_n = wanted_n - state.force_n;
     if (safeLength(change_n) > change_n_max) {
         wanted_n = state.force_n + shortened(change_n, change_n_max);
-        output.is_bounded = true;
     }
     if (safeLength(wanted_n) > force_n_max) {
         wanted_n = shortened(wanted_n, force_n_max);

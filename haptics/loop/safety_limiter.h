@@ -63,7 +63,6 @@ struct SafetyState {
 struct SafetyOutput {
     Vec3 force_n{};
     ForceOffReason reason = ForceOffReason::None;
-    bool is_bounded = false; // by magnitude, heat or rate
 };
 
 /// A longer step is a pause, during which the hand may have moved anywhere: after it the limiter

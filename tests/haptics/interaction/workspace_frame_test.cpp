@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 namespace marsview::test {
 namespace {
@@ -146,6 +147,76 @@ TEST(WorkspaceFrame, AFrameOnABodyAfterItsMotionToAnotherIsThatOne)
     // Motions of the other scene are none of this one.
     const WorkspaceFrame frame = on_body();
     EXPECT_EQ(frame.after({.to = {1.0, 2.0, 3.0}, .turn_rad = 1.0}), frame);
+}
+
+// Another frame of the same scene: what was one meter east of the motion's point is two meters
+// north of where that point is then, turned by a quarter and twice as far.
+TEST(WorkspaceFrame, AMotionMovesEveryPlaceOfItsScene)
+{
+    SceneMotion motion{.from = {1.0, 2.0, 3.0},
+                       .to = {10.0, 20.0, 30.0},
+                       .scale = 2.0,
+                       .turn_rad = Angle::degrees(90.0).radians()};
+    WorkspaceFrame frame{.place = {2.0, 2.0, 3.5}, .scene_per_meter = 5.0};
+    const auto expectMoved = [](const WorkspaceFrame& after) {
+        EXPECT_NEAR(length(after.place - ScenePoint{10.0, 22.0, 31.0}), 0.0, 1e-12);
+        EXPECT_NEAR(length(after.toScene({1.0, 0.0, 0.0}) - after.place - Vec3{0.0, 10.0, 0.0}),
+                    0.0, 1e-12);
+    };
+    expectMoved(frame.after(motion));
+    motion.body_turn_rad = Vec3{0.0, 0.0, motion.turn_rad};
+    motion.turn_rad = 0.0;
+    frame.body_axes = Rotation{};
+    expectMoved(frame.after(motion));
+}
+
+TEST(WorkspaceFrame, OnlyFiniteFramesWithAScaleAreSound)
+{
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+    WorkspaceFrame frame;
+    EXPECT_TRUE(frame.isSound());
+    for (const double scale : {0.0, -1.0, kNan, std::numeric_limits<double>::infinity()}) {
+        EXPECT_FALSE(WorkspaceFrame{.scene_per_meter = scale}.isSound()) << scale;
+    }
+    EXPECT_FALSE((WorkspaceFrame{.anchor = {0.0, kNan, 0.0}}.isSound()));
+    EXPECT_FALSE((WorkspaceFrame{.place = {0.0, 0.0, kNan}}.isSound()));
+    EXPECT_FALSE(WorkspaceFrame{.turn = Angle::radians(kNan)}.isSound());
+    frame.body_axes = Rotation{};
+    EXPECT_TRUE(frame.isSound());
+    for (Vec3 Rotation::*axis : {&Rotation::x, &Rotation::y, &Rotation::z}) {
+        WorkspaceFrame broken = frame;
+        ((*broken.body_axes).*axis).y = kNan;
+        EXPECT_FALSE(broken.isSound());
+    }
+    frame.anchor.x = kNan;
+    EXPECT_FALSE(frame.isSound());
+}
+
+TEST(WorkspaceFrame, AMapLiesInTheMiddleOfTheReach)
+{
+    const SceneBox box{{10.0, 100.0, -1.0}, {14.0, 103.0, 1.0}};
+    const WorkspaceFrame frame = frameForMap(box, {{-0.06, -0.05, -0.02}, {0.10, 0.05, 0.06}});
+    EXPECT_NEAR(frame.scene_per_meter, 30.0, 1e-12); // 3 m in 100 mm
+    EXPECT_NEAR(length(frame.toScene({0.02, 0.0, 0.02}) - ScenePoint{12.0, 101.5, 0.0}), 0.0,
+                1e-12);
+    // A reach without an extent along an axis is filled along the others.
+    EXPECT_NEAR(frameForMap(box, {{-8.0, 0.0, 0.0}, {8.0, 0.0, 0.0}}).scene_per_meter, 0.25, 1e-12);
+    const SceneBox point{{10.0, 100.0, 1.0}, {10.0, 100.0, 1.0}};
+    EXPECT_EQ(frameForMap(point, {{-8.0, 0.0, 0.0}, {8.0, 0.0, 0.0}}).scene_per_meter, 1.0);
+}
+
+TEST(WorkspaceFrame, WithoutAMapInSightItCoversTheCamerasSurroundings)
+{
+    const MapPlan map{.frame = northUpFrame(1000, 800, 100.0), .columns = 1000, .rows = 800};
+    const SceneBox box{{-5e4, -4e4, -30.0}, {5e4, 4e4, 50.0}};
+    const OrbitCamera camera{.target = {4e5, -3e5, 10.0},
+                             .distance_m = 3000.0,
+                             .azimuth = Angle::degrees(90.0),
+                             .tilt = Angle::degrees(10.0)};
+    const WorkspaceFrame frame =
+        frameForView(camera, {1200, 800}, map, box, {{-0.10, -0.06, -0.06}, {0.10, 0.06, 0.06}});
+    EXPECT_NEAR(frame.scene_per_meter, 3000.0 / 0.12, 1e-6);
+    EXPECT_NEAR(length(frame.toScene({}) - ScenePoint{4e5, -3e5, 10.0}), 0.0, 1e-6);
 }
 
 TEST(WorkspaceFrame, TheHandReachesWhatTheCameraSees)

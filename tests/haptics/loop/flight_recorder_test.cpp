@@ -27,6 +27,12 @@ TEST(FlightRecorder, KeepsTheLastOfThemInOrder)
     EXPECT_FALSE(flight.isEmpty());
 }
 
+TEST(FlightRecorder, ItsMemoryHoldsOneTickMoreThanItKeeps)
+{
+    const FlightRecorder flight(10);
+    EXPECT_EQ(flight.memory().bytes, 11 * sizeof(SeqLock<TickRecord>));
+}
+
 // 2026-11-22: after another map was opened, the file still ended with the previous one.
 TEST(FlightRecorder, ContinuesWhenTickNumbersRestart)
 {

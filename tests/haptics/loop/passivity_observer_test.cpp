@@ -34,6 +34,51 @@ TEST(PassivityObserver, CountsTheWorkOfTheHand)
     EXPECT_NEAR(state.energy_j, 0.006 - 0.001, 1e-12);
 }
 
+// What a spring has stored may come back at any time: only a surplus is forgotten.
+TEST(PassivityObserver, LeavesASpringThatReturnsItsEnergyLaterAlone)
+{
+    PassivityState state;
+    const Vec3 force_n{0.0, 0.0, 1.0};
+    const PassivityInput held{.force_n = force_n, .shift_m = {}, .stored_j = 1e-3};
+    PassivityInput pressed = held;
+    pressed.shift_m = {0.0, 0.0, -1e-3};
+    PassivityInput released = held;
+    released.shift_m = {0.0, 0.0, 1e-3};
+    noteWritten(state, force_n);
+    keepPassive({}, pressed, state, kDt);
+    EXPECT_NEAR(state.energy_j, 1e-3, 1e-15);
+    for (int i = 0; i < 2000; ++i) {
+        keepPassive({}, held, state, kDt);
+    }
+    EXPECT_NEAR(state.energy_j, 1e-3, 1e-15);
+    EXPECT_EQ(keepPassive({}, released, state, kDt).force_n, force_n);
+    EXPECT_NEAR(state.energy_j, 0.0, 1e-15);
+}
+
+TEST(PassivityObserver, AStepWithoutATimeChangesNothing)
+{
+    for (const double dt_s : {0.0, -1.0, std::numeric_limits<double>::infinity(), std::nan("")}) {
+        PassivityState state;
+        noteWritten(state, {1.0, 0.0, 0.0});
+        const PassivityStep step =
+            keepPassive({}, {.force_n = {2.0, 0.0, 0.0}, .shift_m = {1e-4, 0.0, 0.0}}, state, dt_s);
+        EXPECT_EQ(step.force_n, (Vec3{2.0, 0.0, 0.0})) << dt_s;
+        EXPECT_EQ(state.energy_j, 0.0);
+        EXPECT_EQ(state.velocity_m_per_s, Vec3{});
+    }
+}
+
+// The hand has just been pushed, and is pushed no longer.
+TEST(PassivityObserver, NoForceIsNotDamped)
+{
+    PassivityState state;
+    noteWritten(state, {1.0, 0.0, 0.0});
+    const PassivityStep step = keepPassive({}, {.shift_m = {1e-4, 0.0, 0.0}}, state, kDt);
+    EXPECT_LT(state.energy_j, 0.0);
+    EXPECT_EQ(step.force_n, Vec3{});
+    EXPECT_EQ(step.damping_n_s_per_m, 0.0);
+}
+
 TEST(PassivityObserver, DampsAnActivePort)
 {
     PassivityState state;
