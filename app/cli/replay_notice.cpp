@@ -58,6 +58,10 @@ Result<std::string> replayNotice(const std::string& uri, const LoopMap& map)
         remarks.push_back(otherMapText(*fit->other_map));
     }
     const ServoMap& touched = *map.map;
+    if (const GoalPart* other = fit->otherThan(1 + touched.below.size())) {
+        remarks.push_back(
+            fmt::format("was recorded on {} maps on top of each other", 1 + other->below.size()));
+    }
     const double exaggeration = touched.frame.exaggeration();
     if (const GoalPart* other = fit->otherThan(
             {.kind = touched.kind, .radius_m = touched.radius_m, .exaggeration = exaggeration})) {

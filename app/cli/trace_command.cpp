@@ -56,6 +56,12 @@ touchesOf(const TraceOptions& options, const GoalRecording& recording, const Tra
     }
     std::vector<TraceTouch> touches;
     for (const GoalPart& part : recording.parts) {
+        if (!part.below.empty()) {
+            return Error{ErrorCode::Invalid,
+                         fmt::format("{}: was recorded on {} maps on top of each other from line "
+                                     "{} on; replay it in the window",
+                                     options.goals, 1 + part.below.size(), part.line)};
+        }
         if (part.map != recording.parts.front().map) {
             return Error{ErrorCode::Invalid,
                          fmt::format("{}: is a recording of another map from line {} on; split "

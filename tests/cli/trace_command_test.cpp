@@ -612,6 +612,25 @@ TEST(TraceCommand, UsesTheContactSettingsOfARecording)
         << refused.err;
 }
 
+// 2026-11: it would slide over the lower map alone.
+TEST(TraceCommand, ARecordingOverJoinedMapsIsNotTracedOnOne)
+{
+    const TempFolder folder;
+    const std::string frame = "/3396190/3376200/0/0/1000/0/0/-1000";
+    const std::string goals = folder.write("joined.csv",
+                                           "lon,lat,z,map,part,model,radius_m,exaggeration,ground\n"
+                                           "10,60,0,1,7,god-object,1,1,part/7/41/33" +
+                                               frame + " below/7/1440/720" + frame + "\n");
+    const ProgramOutput refused =
+        runCli({"trace", "--scene", "body", bundledMars(), "--goals", goals});
+    EXPECT_EQ(refused.exit_status, 1);
+    EXPECT_NE(
+        refused.err.find("joined.csv: was recorded on 2 maps on top of each other from line 2 "
+                         "on; replay it in the window"),
+        std::string::npos)
+        << refused.err;
+}
+
 // On the body the surface has no border at 0°: the proxy follows a goal around the whole of Mars at
 // 60° N, once in each direction, and arrives where it began. Distances are those of the sphere.
 TEST(TraceCommand, OnTheBodyTheProxyGoesAroundWithoutASeam)
