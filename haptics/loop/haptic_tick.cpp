@@ -106,7 +106,6 @@ private:
         state_.period_s = state_.period_s > 0.0
                               ? state_.period_s + kShare * (dt_s_ - state_.period_s)
                               : std::max(dt_s_, options_.period_s);
-        result_.stiffness_n_per_m = 0.0;
     }
 
     void takeFrame() noexcept

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -273,10 +274,13 @@ TEST(HapticTick, ASurfaceAboveTheWorkspaceSinksToItsTop)
     Rig rig;
     rig.settings.frame.place.z = -70.0;
     rig.at({});
+    const auto surface_z = [&rig] { return rig.state.frame.toWorkspace({0.0, 0.0, 10.0}).z; };
     for (int i = 0; i < 3000; ++i) {
+        const double before = surface_z();
         ASSERT_TRUE(rig.at({0.0, 0.0, 0.01}).contact.is_in_contact);
+        ASSERT_LE(before - surface_z(), 20.001e-6); // 20 mm in a second
     }
-    EXPECT_NEAR(rig.state.frame.toWorkspace({0.0, 0.0, 10.0}).z, 0.06, 1e-6);
+    EXPECT_NEAR(surface_z(), 0.06, 1e-6);
     EXPECT_EQ(rig.state.seen_frame, rig.settings.frame); // the camera stays
 }
 
@@ -670,6 +674,21 @@ TEST(HapticTick, PansAndZoomsByTheButton)
     EXPECT_EQ(rig.at({0.03, 0.0, 0.011}).mode, StylusMode::Zoom);
     rig.to({0.03, 0.0, 0.041});
     EXPECT_NEAR(rig.state.frame.scene_per_meter, 500.0, 1e-6);
+}
+
+// From 3.1 to -3.1 radians a stylus turns on, by what is missing from a whole turn.
+TEST(HapticTick, AStylusTurnsOnOverHalfATurn)
+{
+    Rig rig;
+    rig.settings.is_grabbing = true;
+    rig.input.sample.twist_rad = 3.1;
+    EXPECT_EQ(rig.at({}).mode, StylusMode::Zoom);
+    const WorkspaceFrame before = rig.state.frame;
+    rig.input.sample.twist_rad = -3.1;
+    rig.at({});
+    // Counterclockwise in the workspace, so the workspace turns clockwise in the scene.
+    EXPECT_NEAR((rig.state.frame.turn + -before.turn).radians(), 6.2 - 2.0 * std::numbers::pi,
+                1e-12);
 }
 
 TEST(HapticTick, TheFirstButtonSetsPointsForATool)
