@@ -34,6 +34,12 @@ public:
         count_.store(number + 1, std::memory_order_release);
     }
 
+    /// Servo thread: shortly before add().
+    void prefetchNext() const noexcept
+    {
+        ring_[count_.load(std::memory_order_relaxed) % (size_ + 1)].prefetch();
+    }
+
     bool isEmpty() const noexcept { return count_.load(std::memory_order_acquire) == 0; }
 
     /// Any other thread. The oldest tick comes first. After a pause of the loop, tick numbers

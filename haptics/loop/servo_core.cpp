@@ -137,6 +137,10 @@ void ServoCore::prepareTurn() noexcept
     input.sample.position = sample_.position + shift_m_;
     input.sample.time = now;
     rehearse(options_.tick, input, tick_, period_s);
+    // What publish() writes.
+    state_.prefetch();
+    flight_.prefetchNext();
+    records_.prefetchNext();
 }
 
 LoopOutcome ServoCore::turn(LoopTime begin, bool has_missed_deadline) noexcept

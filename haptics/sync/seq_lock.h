@@ -1,6 +1,8 @@
 // A small value that one thread writes and other threads read; the writer never waits.
 #pragma once
 
+#include "haptics/sync/prefetch.h"
+
 #include <array>
 #include <atomic>
 #include <cstddef>
@@ -38,6 +40,9 @@ public:
         }
         number_.store(number + 2, std::memory_order_release);
     }
+
+    /// The writing thread: shortly before write().
+    void prefetch() const noexcept { prefetchForWriting(this, sizeof *this); }
 
     /// Empty if a write overlapped the read. Any thread; wait-free.
     std::optional<T> tryRead() const noexcept

@@ -1,6 +1,8 @@
 // Passes values from one thread to another, in order; neither thread waits.
 #pragma once
 
+#include "haptics/sync/prefetch.h"
+
 #include <array>
 #include <atomic>
 #include <cstddef>
@@ -37,6 +39,12 @@ public:
         (*values_)[end % Capacity] = value;
         end_.store(end + 1, std::memory_order_release);
         return true;
+    }
+    /// Producer thread: shortly before put().
+    void prefetchNext() const noexcept
+    {
+        const std::size_t end = end_.load(std::memory_order_relaxed);
+        prefetchForWriting(&(*values_)[end % Capacity], sizeof(T));
     }
     /// Producer thread: a lower bound of the number of values that can be put.
     std::size_t room() const noexcept
