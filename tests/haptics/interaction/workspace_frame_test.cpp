@@ -195,9 +195,9 @@ TEST(WorkspaceFrame, OnlyFiniteFramesWithAScaleAreSound)
 TEST(WorkspaceFrame, AMapLiesInTheMiddleOfTheReach)
 {
     const SceneBox box{{10.0, 100.0, -1.0}, {14.0, 103.0, 1.0}};
-    const WorkspaceFrame frame = frameForMap(box, {{-0.06, -0.05, -0.02}, {0.10, 0.05, 0.06}});
-    EXPECT_NEAR(frame.scene_per_meter, 30.0, 1e-12); // 3 m in 100 mm
-    EXPECT_NEAR(length(frame.toScene({0.02, 0.0, 0.02}) - ScenePoint{12.0, 101.5, 0.0}), 0.0,
+    const WorkspaceFrame frame = frameForMap(box, {{-0.06, -0.05, -0.02}, {0.10, 0.07, 0.06}});
+    EXPECT_NEAR(frame.scene_per_meter, 25.0, 1e-12); // 3 m in 120 mm
+    EXPECT_NEAR(length(frame.toScene({0.02, 0.01, 0.02}) - ScenePoint{12.0, 101.5, 0.0}), 0.0,
                 1e-12);
     // A reach without an extent along an axis is filled along the others.
     EXPECT_NEAR(frameForMap(box, {{-8.0, 0.0, 0.0}, {8.0, 0.0, 0.0}}).scene_per_meter, 0.25, 1e-12);
