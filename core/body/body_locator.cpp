@@ -75,7 +75,7 @@ std::optional<GridPoint> BodyLocator::find(const Vec3& point,
     const double turn = grid_->closes() ? last_column : 0.0;
     // A grid without the repeated column goes on behind its last one, half a cell further.
     const double longest = turn > 0.0 ? 0.125 * turn : last_column;
-    GridPoint from = start.value_or(guess(point));
+    GridPoint from = start ? *start : guess(point); // a guess looks at many samples
     GridPoint result = from;
     for (int i = 0; i < kStepsMax; ++i) {
         const double whole = turn > 0.0
