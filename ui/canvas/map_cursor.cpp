@@ -10,6 +10,20 @@
 namespace marsview {
 namespace {
 
+CursorShape shapeOf(const StylusPose& pose)
+{
+    switch (pose.mode) {
+    case StylusMode::Pan:
+        return CursorShape::FlatSphere;
+    case StylusMode::Zoom:
+        return CursorShape::LongSphere;
+    case StylusMode::Hover:
+    case StylusMode::Press:
+        break;
+    }
+    return pose.is_in_contact ? CursorShape::Cone : CursorShape::Sphere;
+}
+
 constexpr int kRotateSide = 24; // points
 
 // An arrow around an upright axis: black on white, seen over any terrain.
@@ -90,18 +104,12 @@ QCursor cursorOf(MapCursor cursor)
     return Qt::ArrowCursor;
 }
 
-CursorShape shapeOf(const StylusPose& pose)
+CursorPicture stylusCursor(const StylusPose& pose, const CursorAxes& axes)
 {
-    switch (pose.mode) {
-    case StylusMode::Pan:
-        return CursorShape::FlatSphere;
-    case StylusMode::Zoom:
-        return CursorShape::LongSphere;
-    case StylusMode::Hover:
-    case StylusMode::Press:
-        break;
-    }
-    return pose.is_in_contact ? CursorShape::Cone : CursorShape::Sphere;
+    return {.shape = shapeOf(pose),
+            .position = pose.proxy,
+            .axes = axes,
+            .goal = pose.is_in_contact ? std::optional(pose.goal) : std::nullopt};
 }
 
 } // namespace marsview

@@ -24,7 +24,7 @@ MapCursor mapCursor(const PointerState& state);
 
 QCursor cursorOf(MapCursor cursor);
 
-/// How a stylus is drawn on the terrain.
-CursorShape shapeOf(const StylusPose& pose);
+/// How a stylus is drawn: upright along `axes`, in contact with the spring to the hand.
+CursorPicture stylusCursor(const StylusPose& pose, const CursorAxes& axes);
 
 } // namespace marsview

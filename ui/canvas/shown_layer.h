@@ -3,7 +3,9 @@
 
 #include "core/session/map.h"
 #include "core/view/color_ramp.h"
+#include "ui/render/terrain_layer.h"
 
+#include <memory>
 #include <optional>
 
 namespace marsview {
@@ -26,6 +28,15 @@ inline HeightRange colorRangeOf(const ShownLayer& layer)
 inline SlopeRange slopeRangeOf(const ShownLayer& layer)
 {
     return layer.slope_range.value_or(layer.map->slopeRange());
+}
+
+/// As it is drawn where its grid lies in the scene as `frame` says.
+inline TerrainLayer terrainLayer(const ShownLayer& layer, const SceneFrame& frame)
+{
+    TerrainLayer drawn = terrainLayer(layer.map, frame, *layer.ramp);
+    drawn.tint_range = colorRangeOf(layer);
+    drawn.slope_range = slopeRangeOf(layer);
+    return drawn;
 }
 
 } // namespace marsview

@@ -1,15 +1,12 @@
 #include "ui/canvas/terrain_canvas.h"
 
-#include "ui/canvas/map_cursor.h"
-#include "ui/render/cursor_solids.h"
+#include "ui/canvas/view_projection.h"
 #include "ui/render/offscreen_picture.h"
 
 #include <QOpenGLWidget>
 #include <QRect>
 
-#include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numbers>
 #include <utility>
 
@@ -20,26 +17,11 @@ namespace {
 constexpr double kShadowPoints = 9.0;
 constexpr int kShadowSides = 24;
 
-// Around the place below the stylus, on the terrain.
-std::vector<ScenePoint> shadowOf(const ScenePoint& place, double radius_m, const ShownScene& scene)
-{
-    std::vector<ScenePoint> shadow;
-    for (int i = 0; i < kShadowSides; ++i) {
-        const double around = 2.0 * std::numbers::pi * i / kShadowSides;
-        const double x = place.x + radius_m * std::cos(around);
-        const double y = place.y + radius_m * std::sin(around);
-        const double z = scene.groundHeight(x, y);
-        if (std::isfinite(z)) {
-            shadow.push_back({x, y, z});
-        }
-    }
-    return shadow;
-}
-
 } // namespace
 
-TerrainCanvas::TerrainCanvas(const CanvasParts& parts)
-    : parts_(parts)
+TerrainCanvas::TerrainCanvas(QOpenGLWidget& view, const CanvasScene& scene)
+    : view_(view)
+    , scene_(scene)
 {
     still_timer_.setSingleShot(true);
     connect(&still_timer_, &QTimer::timeout, this, &TerrainCanvas::refineWhenStill);
@@ -74,12 +56,12 @@ std::optional<Error> TerrainCanvas::initialize()
 void TerrainCanvas::release()
 {
     if (renderer_) {
-        parts_.view.makeCurrent();
+        view_.makeCurrent();
         picture_.reset();
         line_painter_.reset();
         cursor_.reset();
         renderer_.reset();
-        parts_.view.doneCurrent();
+        view_.doneCurrent();
     }
 }
 
@@ -94,14 +76,8 @@ void TerrainCanvas::sendLayers()
     if (std::exchange(are_layers_sent_, true)) {
         return;
     }
-    std::vector<TerrainLayer> layers;
-    for (std::size_t i = 0; i < parts_.scene.layers().size(); ++i) {
-        const ShownLayer& shown = parts_.scene.layers()[i];
-        layers.push_back(
-            terrainLayer(shown.map, parts_.scene.ground().maps()[i].frame, *shown.ramp));
-        layers.back().tint_range = colorRangeOf(shown);
-        layers.back().slope_range = slopeRangeOf(shown);
-    }
+    const std::vector<TerrainLayer> layers = scene_.terrainLayers();
+    is_empty_ = layers.empty();
     renderer_->setLayers(layers);
 }
 
@@ -124,27 +100,27 @@ void TerrainCanvas::setFrameTarget(std::chrono::milliseconds target)
 void TerrainCanvas::setLines(std::vector<DrapedLine> lines, LineSet set)
 {
     if (lines_.set(std::move(lines), set)) {
-        parts_.view.update();
+        view_.update();
     }
 }
 
 void TerrainCanvas::setDots(DotSet dots, LineSet set)
 {
     if (lines_.setDots(std::move(dots), set)) {
-        parts_.view.update();
+        view_.update();
     }
 }
 
 QImage TerrainCanvas::terrainPicture()
 {
     is_cursor_shown_ = false;
-    QImage picture = parts_.view.grabFramebuffer();
+    QImage picture = view_.grabFramebuffer();
     is_cursor_shown_ = true;
-    parts_.view.update(); // the grabbed frame, without the cursor, may reach the screen
+    view_.update(); // the grabbed frame, without the cursor, may reach the screen
     return picture;
 }
 
-Result<bool> TerrainCanvas::drawPart(const OrbitCamera& camera,
+Result<bool> TerrainCanvas::drawPart(const CanvasCamera& camera,
                                      const DrawStyle& style,
                                      const QRect& part,
                                      PictureLines lines,
@@ -154,16 +130,17 @@ Result<bool> TerrainCanvas::drawPart(const OrbitCamera& camera,
         return Error{ErrorCode::Unsupported,
                      "cannot draw a picture: no graphics context; install the graphics driver"};
     }
-    parts_.view.makeCurrent();
+    view_.makeCurrent();
     sendLayers();
     Result<bool> drawn = marsview::drawPart(
         {.terrain = *renderer_,
          .line_renderer = lines == PictureLines::Drawn ? &line_painter_->lines() : nullptr,
          .lines = lines_,
-         .view_height = static_cast<double>(parts_.view.height()),
+         .view_height = static_cast<double>(view_.height()),
          .has_antialiasing = has_antialiasing_},
-        {.camera = camera, .viewport = {}}, style, part, picture);
-    parts_.view.doneCurrent();
+        {.camera = camera.camera, .viewport = {}, .body_pose = camera.body_pose}, style, part,
+        picture);
+    view_.doneCurrent();
     return drawn;
 }
 
@@ -172,9 +149,9 @@ int TerrainCanvas::pictureSideMax()
     if (!renderer_) {
         return 0;
     }
-    parts_.view.makeCurrent();
+    view_.makeCurrent();
     const int side_max = offscreenSideMax();
-    parts_.view.doneCurrent();
+    view_.doneCurrent();
     return side_max;
 }
 
@@ -187,21 +164,26 @@ void TerrainCanvas::paint()
     if (is_new) {
         paintTerrain();
     }
-    paintLines(is_new ? TerrainPicture::New : TerrainPicture::Same);
-    paintCursor();
+    if (!is_empty_) {
+        paintLines(is_new ? TerrainPicture::New : TerrainPicture::Same);
+        paintCursor();
+    } else if (!is_new) {
+        renderer_->present(view_.defaultFramebufferObject());
+    }
 }
 
 void TerrainCanvas::paintTerrain()
 {
     sendLayers();
-    const DrawReport report =
-        picture_->paint({.camera = parts_.camera.camera(),
-                         .viewport = viewportOf(parts_.view),
-                         .stage = stage_,
-                         .last_stage = lastStage(),
-                         .is_touching = parts_.touch.isTouching(),
-                         .is_kept = true},
-                        parts_.scene.style, parts_.view.defaultFramebufferObject());
+    CanvasCamera camera = scene_.canvasCamera();
+    const DrawReport report = picture_->paint({.camera = camera.camera,
+                                               .viewport = viewportOf(view_),
+                                               .stage = stage_,
+                                               .last_stage = lastStage(),
+                                               .is_touching = scene_.isTouching(),
+                                               .is_kept = true,
+                                               .body_pose = std::move(camera.body_pose)},
+                                              scene_.style(), view_.defaultFramebufferObject());
     last_paint_ = std::chrono::steady_clock::now();
     is_terrain_current_ = true;
     this->report(report);
@@ -235,37 +217,44 @@ void TerrainCanvas::report(const DrawReport& report)
 
 void TerrainCanvas::paintLines(TerrainPicture terrain)
 {
-    const OrbitCamera& camera = parts_.camera.camera();
+    const CameraPose pose = scene_.canvasCamera().pose();
     line_painter_->paint(lines_, *renderer_, terrain,
-                         {.camera = camera,
-                          .viewport = viewportOf(parts_.view),
-                          .clip = renderer_->clip(camera, parts_.scene.style.exaggeration),
-                          .pixels_per_point = parts_.projection.pixelsPerPoint()},
-                         parts_.view.defaultFramebufferObject());
+                         {.camera = pose,
+                          .viewport = viewportOf(view_),
+                          .clip = renderer_->clip(pose, scene_.style().exaggeration),
+                          .pixels_per_point = view_.devicePixelRatioF()},
+                         view_.defaultFramebufferObject());
 }
 
 void TerrainCanvas::paintCursor()
 {
-    const auto& pose = parts_.touch.shown();
-    if (!pose || !is_cursor_shown_) {
+    std::optional<CursorPicture> cursor = is_cursor_shown_ ? scene_.canvasCursor() : std::nullopt;
+    if (!cursor) {
         return;
     }
-    const OrbitCamera& camera = parts_.camera.camera();
-    const Viewport size = viewportOf(parts_.view);
-    CursorPicture cursor{.shape = shapeOf(*pose),
-                         .position = pose->proxy,
-                         .goal = std::nullopt,
-                         .shadow = {},
-                         .pixels_per_point = parts_.projection.pixelsPerPoint()};
-    if (pose->is_in_contact) {
-        cursor.goal = pose->goal;
-    } else {
-        const double radius_m = kShadowPoints * parts_.projection.metersPerPoint(pose->proxy);
-        cursor.shadow = shadowOf(pose->proxy, radius_m, parts_.scene);
+    const CameraPose pose = scene_.canvasCamera().pose();
+    const Viewport size = viewportOf(view_);
+    cursor->pixels_per_point = view_.devicePixelRatioF();
+    if (!cursor->goal) {
+        cursor->shadow = shadowOf(*cursor, kShadowPoints * cursor->pixels_per_point *
+                                               metersPerPixel(pose, size, cursor->position));
     }
-    renderer_->presentDepth(parts_.view.defaultFramebufferObject(),
-                            areaOfCursor(cursor, camera, size));
-    cursor_->draw(cursor, camera, size, renderer_->clip(camera, parts_.scene.style.exaggeration));
+    renderer_->presentDepth(view_.defaultFramebufferObject(), areaOfCursor(*cursor, pose, size));
+    cursor_->draw(*cursor, pose, size, renderer_->clip(pose, scene_.style().exaggeration));
+}
+
+// Around the place below the stylus, on the terrain.
+std::vector<ScenePoint> TerrainCanvas::shadowOf(const CursorPicture& cursor, double radius_m) const
+{
+    std::vector<ScenePoint> shadow;
+    for (int i = 0; i < kShadowSides; ++i) {
+        const double around = 2.0 * std::numbers::pi * i / kShadowSides;
+        if (const auto ground = scene_.groundUnderCursor(cursor, radius_m * std::cos(around),
+                                                         radius_m * std::sin(around))) {
+            shadow.push_back(*ground);
+        }
+    }
+    return shadow;
 }
 
 void TerrainCanvas::redraw()
@@ -274,7 +263,7 @@ void TerrainCanvas::redraw()
     still_timer_.stop();
     is_terrain_current_ = false;
     is_completion_reported_ = false;
-    parts_.view.update();
+    view_.update();
 }
 
 // Missing shading has arrived.
@@ -286,7 +275,7 @@ void TerrainCanvas::redrawWithNews()
     const bool is_due = std::chrono::steady_clock::now() - last_paint_ >= kNewsInterval;
     if (stage_ == PictureStage::Moving || is_due || !renderer_->isLoading()) {
         is_terrain_current_ = false;
-        parts_.view.update();
+        view_.update();
     }
 }
 
@@ -297,13 +286,13 @@ PictureStage TerrainCanvas::lastStage() const
 
 void TerrainCanvas::refineWhenStill()
 {
-    if (parts_.camera.isMoving()) {
+    if (scene_.isMoving()) {
         return; // the next frame starts the timer again
     }
     if (stage_ == PictureStage::Moving) {
         stage_ = PictureStage::Sharp;
         is_terrain_current_ = false;
-        parts_.view.update();
+        view_.update();
     }
 }
 
@@ -316,7 +305,7 @@ void TerrainCanvas::finishStage()
     if (stage_ != lastStage()) {
         stage_ = lastStage();
         is_terrain_current_ = false;
-        parts_.view.update();
+        view_.update();
         return;
     }
     is_completion_reported_ = true;

@@ -1,16 +1,12 @@
-// Paints the view: the terrain in stages, from ready in time to as fine as can be, with lines and
-// the cursor of a stylus over it.
+// Paints a view: the terrain in stages, from ready in time to as fine as can be, with lines and the
+// cursor of a stylus over it.
 #pragma once
 
 #include "core/base/result.h"
-#include "haptics/interaction/stylus.h"
-#include "ui/canvas/camera_controller.h"
+#include "core/view/camera.h"
 #include "ui/canvas/line_painter.h"
 #include "ui/canvas/line_sets.h"
 #include "ui/canvas/part_drawing.h"
-#include "ui/canvas/shown_scene.h"
-#include "ui/canvas/touch_tool.h"
-#include "ui/canvas/view_projection.h"
 #include "ui/render/cursor_renderer.h"
 #include "ui/render/governed_picture.h"
 #include "ui/render/terrain_renderer.h"
@@ -21,6 +17,7 @@
 #include <QTimer>
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -30,13 +27,34 @@ class QRect;
 
 namespace marsview {
 
-/// The parts of the view that are drawn. All outlive the canvas.
-struct CanvasParts {
-    QOpenGLWidget& view; // has the graphics context
-    const ShownScene& scene;
-    const CameraController& camera;
-    const ViewProjection& projection;
-    const TouchTool& touch;
+/// From where a picture is drawn.
+struct CanvasCamera {
+    OrbitCamera camera{};
+    std::optional<CameraPose> body_pose{}; // replaces `camera` where layers lie on their body
+
+    CameraPose pose() const { return body_pose ? *body_pose : CameraPose(camera); }
+};
+
+/// What a canvas draws: the flat map, or layers on their body. Asked when a picture is painted.
+class CanvasScene {
+public:
+    /// The uppermost first.
+    virtual std::vector<TerrainLayer> terrainLayers() const = 0;
+    /// The exaggeration and look of now.
+    virtual const DrawStyle& style() const noexcept = 0;
+    virtual CanvasCamera canvasCamera() const = 0;
+    virtual bool isMoving() const noexcept = 0;
+    /// See FrameRequest.
+    virtual bool isTouching() const noexcept = 0;
+    /// The stylus in the picture, without its shadow; nothing for none.
+    virtual std::optional<CursorPicture> canvasCursor() const = 0;
+    /// The terrain straight below a cursor, moved by these meters along its axes; nothing without
+    /// terrain there.
+    virtual std::optional<ScenePoint>
+    groundUnderCursor(const CursorPicture& cursor, double right_m, double ahead_m) const = 0;
+
+protected:
+    ~CanvasScene() = default;
 };
 
 /// Draws only when something changed: the terrain when it, its look or the camera did, otherwise
@@ -45,7 +63,8 @@ class TerrainCanvas final : public QObject {
     Q_OBJECT
 
 public:
-    explicit TerrainCanvas(const CanvasParts& parts);
+    /// Both outlive the canvas; the view has the graphics context.
+    TerrainCanvas(QOpenGLWidget& view, const CanvasScene& scene);
 
     /// With the context current. The error if it does not suit.
     std::optional<Error> initialize();
@@ -75,7 +94,7 @@ public:
     /// A part of the picture of any size that `camera` has, into `picture`, RGB888 of that size.
     /// False, and nothing drawn, while pieces of it are missing: they are on their way. Lines are
     /// as wide as in the view where the picture is as high.
-    Result<bool> drawPart(const OrbitCamera& camera,
+    Result<bool> drawPart(const CanvasCamera& camera,
                           const DrawStyle& style,
                           const QRect& part,
                           PictureLines lines,
@@ -96,13 +115,15 @@ private:
     void paintTerrain();
     void paintLines(TerrainPicture terrain);
     void paintCursor();
+    std::vector<ScenePoint> shadowOf(const CursorPicture& cursor, double radius_m) const;
     void report(const DrawReport& report);
     void redrawWithNews();
     void refineWhenStill();
     void finishStage();
     PictureStage lastStage() const;
 
-    CanvasParts parts_;
+    QOpenGLWidget& view_;
+    const CanvasScene& scene_;
     std::unique_ptr<TerrainRenderer> renderer_;
     std::unique_ptr<GovernedPicture> picture_;
     std::unique_ptr<CursorRenderer> cursor_;
@@ -111,6 +132,7 @@ private:
     std::chrono::milliseconds frame_target_{33};
     bool has_antialiasing_ = true;
     bool are_layers_sent_ = true;
+    bool is_empty_ = true; // no layers were sent
 
     PictureStage stage_ = PictureStage::Moving;
     bool is_terrain_current_ = false; // the picture that was kept is of now

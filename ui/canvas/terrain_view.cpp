@@ -1,6 +1,7 @@
 #include "ui/canvas/terrain_view.h"
 
 #include "core/view/exaggeration.h"
+#include "ui/canvas/map_cursor.h"
 #include "ui/widgets/elided_label.h"
 
 #include <QChildEvent>
@@ -12,6 +13,7 @@
 #include <QVBoxLayout>
 #include <QWheelEvent>
 
+#include <cmath>
 #include <utility>
 
 namespace marsview {
@@ -32,11 +34,7 @@ TerrainView::TerrainView(QWidget* parent)
               .projection = projection_,
               .touch = touch_,
               .reader = reader_})
-    , canvas_({.view = *this,
-               .scene = scene_,
-               .camera = camera_,
-               .projection = projection_,
-               .touch = touch_})
+    , canvas_(*this, *this)
     , empty_hint_(new ElidedLabel({}, this)) // names of files may be long
 {
     setAccessibleName(tr("Map"));
@@ -139,6 +137,30 @@ void TerrainView::setLayers(const std::vector<ShownLayer>& top_first,
             },
             Qt::QueuedConnection);
     }
+}
+
+std::vector<TerrainLayer> TerrainView::terrainLayers() const
+{
+    std::vector<TerrainLayer> layers;
+    for (std::size_t i = 0; i < scene_.layers().size(); ++i) {
+        layers.push_back(terrainLayer(scene_.layers()[i], scene_.ground().maps()[i].frame));
+    }
+    return layers;
+}
+
+std::optional<CursorPicture> TerrainView::canvasCursor() const
+{
+    const auto& pose = shownStylus();
+    return pose ? std::optional(stylusCursor(*pose, {})) : std::nullopt;
+}
+
+std::optional<ScenePoint>
+TerrainView::groundUnderCursor(const CursorPicture& cursor, double right_m, double ahead_m) const
+{
+    const double x = cursor.position.x + right_m;
+    const double y = cursor.position.y + ahead_m;
+    const double z = scene_.groundHeight(x, y);
+    return std::isfinite(z) ? std::optional(ScenePoint{x, y, z}) : std::nullopt;
 }
 
 void TerrainView::replacePreview(const std::shared_ptr<const Map>& preview,

@@ -26,7 +26,7 @@ namespace marsview {
 
 /// Joins the scene, the camera, the canvas that draws them, and the tools; passes events on to
 /// them.
-class TerrainView final : public QOpenGLWidget, public SteeredView {
+class TerrainView final : public QOpenGLWidget, public SteeredView, private CanvasScene {
     Q_OBJECT
 
 public:
@@ -162,7 +162,7 @@ public:
     /// The picture of the terrain alone, without cursor.
     QImage terrainPicture() { return canvas_.terrainPicture(); }
     /// The exaggeration and look of now.
-    const DrawStyle& style() const noexcept { return scene_.style; }
+    const DrawStyle& style() const noexcept override { return scene_.style; }
     /// A part of the picture of any size that `camera` has, into `picture`, RGB888 of that size.
     /// False, and nothing drawn, while pieces of it are missing: they are on their way.
     Result<bool> drawPart(const OrbitCamera& camera,
@@ -171,7 +171,7 @@ public:
                           PictureLines lines,
                           QImage& picture)
     {
-        return canvas_.drawPart(camera, style, part, lines, picture);
+        return canvas_.drawPart({.camera = camera}, style, part, lines, picture);
     }
     /// Pixels a side that the graphics driver draws; 0 without a graphics context.
     int pictureSideMax() { return canvas_.pictureSideMax(); }
@@ -228,6 +228,12 @@ protected:
     void leaveEvent(QEvent* event) override;
 
 private:
+    std::vector<TerrainLayer> terrainLayers() const override;
+    CanvasCamera canvasCamera() const override { return {.camera = camera_.camera()}; }
+    bool isTouching() const noexcept override { return touch_.isTouching(); }
+    std::optional<CursorPicture> canvasCursor() const override;
+    std::optional<ScenePoint>
+    groundUnderCursor(const CursorPicture& cursor, double right_m, double ahead_m) const override;
     void connectParts();
     void reportUnavailable(const QString& reason);
     void releaseGraphics() { canvas_.release(); }

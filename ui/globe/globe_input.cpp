@@ -19,7 +19,6 @@ namespace {
 using std::chrono::milliseconds;
 
 // As in the flat map.
-constexpr double kFlyFactor = 0.3; // of the distance, when flying nearer
 constexpr Angle kTurnPerPixel = Angle::degrees(0.3);
 constexpr double kWheelNotch = 120.0;
 constexpr double kWheelFactor = 0.8;
@@ -85,8 +84,9 @@ std::optional<RayHit> GlobeView::onTopmost(const ScenePoint& place) const
 {
     const auto ground = groundBelow(place);
     const auto grid =
-        ground ? layers_.front().map->georeference().toGrid(placeOf(place, scene_.ellipsoid()).foot)
-               : std::nullopt;
+        ground
+            ? layers().front().map->georeference().toGrid(placeOf(place, ground_.ellipsoid()).foot)
+            : std::nullopt;
     return grid ? std::optional(RayHit{.grid = ground->index == 0 ? ground->hit.grid : *grid,
                                        .height_m = ground->hit.height_m,
                                        .t = ground->hit.distance_m})
@@ -128,10 +128,10 @@ void GlobeView::notePointer(QPointF position)
 
 void GlobeView::mousePressEvent(QMouseEvent* event)
 {
-    if (scene_.isEmpty() || drag_ != MapAction::None) {
+    if (ground_.isEmpty() || drag_ != MapAction::None) {
         return;
     }
-    motion_.stop();
+    camera_.stop();
     drag_button_ = event->button();
     drag_position_ = event->position();
     notePointer(event->position());
@@ -146,9 +146,9 @@ void GlobeView::mousePressEvent(QMouseEvent* event)
         actionOf(Gesture::Click, event->button(), event->modifiers(), tool_) != MapAction::None;
     drag_ = actionOf(Gesture::Drag, event->button(), event->modifiers(), tool_);
     if (drag_ == MapAction::Pan) {
-        held_ = heldAtPosition(event->position());
+        held_ = camera_.hold(pixelAt(event->position()));
     } else if (drag_ == MapAction::Orbit && !may_be_click_) {
-        motion_.jumpTo(onGround(motion_.camera()));
+        camera_.aimAtGround();
     }
     touch_.setPressing(drag_ == MapAction::Touch);
     followTouch();
@@ -169,7 +169,7 @@ void GlobeView::mouseMoveEvent(QMouseEvent* event)
         }
         may_be_click_ = false; // a drag after all, from where it began
         if (drag_ == MapAction::Orbit) {
-            motion_.jumpTo(onGround(motion_.camera()));
+            camera_.aimAtGround();
         }
     }
     if (drag_ == MapAction::MovePoint) {
@@ -179,10 +179,9 @@ void GlobeView::mouseMoveEvent(QMouseEvent* event)
         report();
     } else if (drag_ == MapAction::Pan && held_ && !moved.isNull()) {
         held_->pixel = pixelAt(event->position());
-        motion_.jumpTo(heldAt(motion_.camera(), scene_.ellipsoid(), viewport(), *held_));
+        camera_.pull(*held_);
     } else if (drag_ == MapAction::Orbit && !moved.isNull()) {
-        motion_.jumpTo(
-            orbited(motion_.camera(), kTurnPerPixel * moved.x(), kTurnPerPixel * -moved.y()));
+        camera_.orbit(kTurnPerPixel * moved.x(), kTurnPerPixel * -moved.y());
     } else {
         if (!moveByGrab(drag_position_, event->position())) {
             followTouch();
@@ -232,7 +231,7 @@ void GlobeView::endDrag()
 void GlobeView::contextMenuEvent(QContextMenuEvent* event)
 {
     event->accept();
-    if (event->reason() != QContextMenuEvent::Mouse && !scene_.isEmpty()) {
+    if (event->reason() != QContextMenuEvent::Mouse && !ground_.isEmpty()) {
         Q_EMIT menuRequested(QRectF(rect()).center());
     }
 }
@@ -247,7 +246,7 @@ void GlobeView::keyPressEvent(QKeyEvent* event)
         return;
     }
     if (event->key() == Qt::Key_F10 && event->modifiers() == Qt::ShiftModifier) {
-        if (!scene_.isEmpty()) { // the other key of the context menu, which Qt leaves out on X11
+        if (!ground_.isEmpty()) { // the other key of the context menu, which Qt leaves out on X11
             Q_EMIT menuRequested(QRectF(rect()).center());
         }
         return;
@@ -270,7 +269,7 @@ void GlobeView::grab()
     touch_.setGrabbing(true);
     const auto& pose = touch_.pose();
     grabbed_ = pose && pose->mode == StylusMode::Pan && pointer_
-                   ? std::optional(heldAtPosition(*pointer_))
+                   ? std::optional(camera_.hold(pixelAt(*pointer_)))
                    : std::nullopt;
     showCursor();
 }
@@ -296,16 +295,11 @@ bool GlobeView::moveByGrab(QPointF from, QPointF to)
     }
     if (pose->mode == StylusMode::Pan && grabbed_) {
         grabbed_->pixel = pixelAt(to);
-        motion_.jumpTo(heldAt(motion_.camera(), scene_.ellipsoid(), viewport(), *grabbed_));
+        camera_.pull(*grabbed_);
         return true;
     }
     if (pose->mode == StylusMode::Zoom) {
-        const double factor = std::exp((to.y() - from.y()) / kGrabZoomPoints);
-        const BodyCamera camera = factor < 1.0 ? onGround(motion_.camera()) : motion_.camera();
-        const auto pixel = project(poseOf(camera, scene_.ellipsoid()), viewport(), pose->proxy);
-        if (pixel) {
-            motion_.jumpTo(zoomed(camera, factor, viewport(), {pose->proxy, *pixel}, limits()));
-        }
+        camera_.zoomAtOnce(std::exp((to.y() - from.y()) / kGrabZoomPoints), pose->proxy);
         return true;
     }
     return false;
@@ -322,14 +316,12 @@ void GlobeView::followTouch()
         touch_.follow(std::nullopt, 1.0);
         return;
     }
-    const Ellipsoid& ellipsoid = scene_.ellipsoid();
-    const CameraPose pose = poseOf(motion_.camera(), ellipsoid);
-    const ScenePoint point =
-        pickRay(pose, viewport(), pixelAt(*pointer_)).at(ground->hit.distance_m);
+    const Ellipsoid& ellipsoid = ground_.ellipsoid();
+    const ScenePoint point = camera_.rayThrough(pixelAt(*pointer_)).at(ground->hit.distance_m);
     touch_.follow(BodyAim{.index = ground->index,
                           .point = point,
                           .up = localAxes(ellipsoid, placeOf(point, ellipsoid).foot).up},
-                  devicePixelRatioF() * metersPerPixel(pose, viewport(), point));
+                  devicePixelRatioF() * metersPerPixel(camera_.pose(), viewport(), point));
 }
 
 void GlobeView::showCursor()
@@ -356,24 +348,17 @@ void GlobeView::mouseDoubleClickEvent(QMouseEvent* event)
     if (!ground) {
         return;
     }
-    const auto place = layers_[ground->index].map->georeference().toGeographic(ground->hit.grid);
+    const auto place = layers()[ground->index].map->georeference().toGeographic(ground->hit.grid);
     if (place) {
         flyNearer(*place);
         Q_EMIT gestureMade(MapAction::FlyThere);
     }
 }
 
-void GlobeView::flyNearer(const GeographicPoint& place)
-{
-    if (!scene_.isEmpty()) {
-        flyTo(place, onGround(motion_.goal()).distance_m * kFlyFactor);
-    }
-}
-
 void GlobeView::wheelEvent(QWheelEvent* event)
 {
     const double notches = event->angleDelta().y() / kWheelNotch;
-    if (scene_.isEmpty() || notches == 0.0) {
+    if (ground_.isEmpty() || notches == 0.0) {
         return;
     }
     event->accept();
@@ -384,7 +369,8 @@ void GlobeView::wheelEvent(QWheelEvent* event)
         followTouch();
     } else {
         const double factor = action == MapAction::ZoomFinely ? kWheelFactorFine : kWheelFactor;
-        zoom(std::pow(factor, notches), event->position(), kWheelDuration);
+        camera_.zoom(std::pow(factor, notches), camera_.hold(pixelAt(event->position())),
+                     kWheelDuration);
     }
     Q_EMIT gestureMade(action);
 }

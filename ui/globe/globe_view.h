@@ -1,30 +1,20 @@
 // The globe: layers on their body, with a camera from space to the ground.
 #pragma once
 
-#include "core/base/job_monitor.h"
-#include "core/globe/body_motion.h"
-#include "core/globe/body_navigation.h"
-#include "core/session/body_terrain.h"
 #include "core/terrain/ray_cast.h"
-#include "ui/canvas/camera_controller.h"
 #include "ui/canvas/gestures.h"
 #include "ui/canvas/grab_key.h"
-#include "ui/canvas/line_painter.h"
-#include "ui/canvas/line_sets.h"
 #include "ui/canvas/map_cursor.h"
-#include "ui/canvas/part_drawing.h"
 #include "ui/canvas/place_reader.h"
 #include "ui/canvas/place_tool.h"
-#include "ui/canvas/shown_layer.h"
 #include "ui/canvas/steered_view.h"
+#include "ui/canvas/terrain_canvas.h"
 #include "ui/canvas/tool.h"
-#include "ui/controllers/detached_jobs.h"
+#include "ui/globe/globe_camera.h"
+#include "ui/globe/globe_ground.h"
+#include "ui/globe/globe_layers.h"
 #include "ui/globe/globe_meshes.h"
-#include "ui/globe/globe_motion.h"
 #include "ui/globe/globe_touch.h"
-#include "ui/render/cursor_solids.h"
-#include "ui/render/governed_picture.h"
-#include "ui/render/terrain_renderer.h"
 
 #include <QOpenGLWidget>
 #include <QPointF>
@@ -40,9 +30,9 @@ class QLabel;
 
 namespace marsview {
 
-/// Shows layers where they lie on their body. Placing a layer takes place on a worker thread: until
-/// then the view says so. GUI thread.
-class GlobeView final : public QOpenGLWidget, public SteeredView {
+/// Joins the layers, the camera, the canvas that draws them, and the tools. Placing a layer takes
+/// place on a worker thread: until then the view says so. GUI thread.
+class GlobeView final : public QOpenGLWidget, public SteeredView, private CanvasScene {
     Q_OBJECT
 
 public:
@@ -53,28 +43,31 @@ public:
     /// ellipsoid of the lowest one. The camera stays if the layers before were of the same body.
     void setLayers(const std::vector<ShownLayer>& top_first);
     /// Those that have been placed, and their terrain.
-    const std::vector<ShownLayer>& layers() const noexcept { return layers_; }
-    const BodyScene& scene() const noexcept { return scene_; }
+    const std::vector<ShownLayer>& layers() const noexcept { return layers_.shown(); }
+    const BodyScene& scene() const noexcept { return ground_.scene; }
     /// The topmost one; null until a layer is placed.
     const BodyTerrain* terrain() const noexcept
     {
-        return scene_.isEmpty() ? nullptr : &scene_.maps().front();
+        return ground_.isEmpty() ? nullptr : &ground_.scene.maps().front();
     }
     /// Keeps the camera over its ground.
     void setExaggeration(double exaggeration);
-    double exaggeration() const noexcept { return style_.exaggeration; }
+    double exaggeration() const noexcept { return ground_.style.exaggeration; }
     void setLook(const TerrainLook& look);
-    const TerrainLook& look() const noexcept { return style_.look; }
-    void setAntialiasing(bool is_wanted);
-    void setFrameTarget(std::chrono::milliseconds target);
+    const TerrainLook& look() const noexcept { return ground_.style.look; }
+    void setAntialiasing(bool is_wanted) { canvas_.setAntialiasing(is_wanted); }
+    void setFrameTarget(std::chrono::milliseconds target) { canvas_.setFrameTarget(target); }
     /// What a drag with the left button does. A drag that is under way ends.
     void setTool(Tool tool);
     /// Hears of clicks, drags and keys while `tool` is chosen. Null for none; otherwise it outlives
     /// the view or is taken back before.
     void setPlaceTool(Tool tool, PlaceTool* place_tool) { place_tools_[tool] = place_tool; }
     /// Lines on the terrain in the body-fixed frame, drawn over every picture.
-    void setLines(std::vector<DrapedLine> lines, LineSet set);
-    void setDots(DotSet dots, LineSet set);
+    void setLines(std::vector<DrapedLine> lines, LineSet set)
+    {
+        canvas_.setLines(std::move(lines), set);
+    }
+    void setDots(DotSet dots, LineSet set) { canvas_.setDots(std::move(dots), set); }
     /// What moves the stylus' proxy.
     void setContactModel(ContactModelKind model) { touch_.setModel(model); }
     /// The stylus of the mouse, in the body-fixed frame; nothing while it is lifted or another tool
@@ -95,30 +88,33 @@ public:
     void pressStylus(const ScenePoint& place);
     void releaseStylus();
 
-    const BodyCamera& camera() const noexcept { return motion_.camera(); }
-    const BodyCamera& cameraGoal() const noexcept { return motion_.goal(); }
-    bool isMoving() const noexcept override { return motion_.isMoving(); }
+    const BodyCamera& camera() const noexcept { return camera_.camera(); }
+    const BodyCamera& cameraGoal() const noexcept { return camera_.goal(); }
+    bool isMoving() const noexcept override { return camera_.isMoving(); }
     /// Within the limits; before a layer is placed, when it is.
     void setCamera(const BodyCamera& camera);
     /// At once, or when a layer is placed.
     void setHomeCamera();
     Viewport viewport() const;
-    BodyLimits limits() const;
+    BodyLimits limits() const { return ground_.limits(); }
 
-    void step(NavigationStep step);
-    void steer(const CapRates& rates, double seconds) override;
-    void goHome() override;
-    void turnNorthUp();
+    void step(NavigationStep step) { camera_.step(step); }
+    void steer(const CapRates& rates, double seconds) override { camera_.steer(rates, seconds); }
+    void goHome() override { camera_.goHome(); }
+    void turnNorthUp() { camera_.turnNorthUp(); }
     /// Flies along a great circle; `distance_m` of 0 keeps the distance.
-    void flyTo(const GeographicPoint& place, double distance_m);
+    void flyTo(const GeographicPoint& place, double distance_m)
+    {
+        camera_.flyTo(place, distance_m);
+    }
     void flyTo(const BodyCamera& camera);
     /// Flies there, and much nearer.
-    void flyNearer(const GeographicPoint& place);
+    void flyNearer(const GeographicPoint& place) { camera_.flyNearer(place); }
     /// Flies to where all of a layer is in sight, or does so when it is placed. False if the layer
     /// is not among those to show.
     bool flyToLayer(const std::shared_ptr<const Map>& map);
     /// Looks at a place at once, from the same side and distance.
-    void lookAt(const GeographicPoint& place);
+    void lookAt(const GeographicPoint& place) { camera_.lookAt(place); }
 
     /// The terrain under a position of the widget: the layer, and where it is on its grid.
     std::optional<BodyScenePoint> groundAt(QPointF position) const;
@@ -146,9 +142,9 @@ public:
     double metersPerPointInMiddle() const;
 
     /// There is a graphics context.
-    bool isReady() const noexcept { return renderer_ != nullptr; }
+    bool isReady() const noexcept { return canvas_.isReady(); }
     /// The exaggeration and look of now.
-    const DrawStyle& style() const noexcept { return style_; }
+    const DrawStyle& style() const noexcept override { return ground_.style; }
     /// A part of the picture of any size that `camera` has, into `picture`, RGB888 of that size.
     /// False, and nothing drawn, while pieces of it are missing: they are on their way. With
     /// terrain only.
@@ -158,10 +154,13 @@ public:
                           PictureLines lines,
                           QImage& picture);
     /// Pixels a side that the graphics driver draws; 0 without a graphics context.
-    int pictureSideMax();
+    int pictureSideMax() { return canvas_.pictureSideMax(); }
 
     /// True when the picture shows all there is, as well as can be, and nothing moves.
-    bool isPictureComplete() const { return is_complete_ && !placing_ && !isMoving(); }
+    bool isPictureComplete() const
+    {
+        return canvas_.isComplete() && !layers_.isPlacing() && !isMoving();
+    }
 
 Q_SIGNALS:
     void readingChanged(const std::optional<BodyScenePoint>& ground);
@@ -206,33 +205,19 @@ protected:
     void focusOutEvent(QFocusEvent* event) override;
 
 private:
-    // A map on its body, or why it has no place there.
-    struct Placed {
-        std::shared_ptr<const Map> map;
-        std::shared_ptr<const BodyGrid> grid;
-        QString problem;
-    };
-
-    std::optional<Ellipsoid> sceneEllipsoid() const;
-    const Placed* placedOf(const ShownLayer& layer) const;
-    void placeNext();
-    void showPlaced();
+    std::vector<TerrainLayer> terrainLayers() const override;
+    CanvasCamera canvasCamera() const override;
+    bool isTouching() const noexcept override;
+    std::optional<CursorPicture> canvasCursor() const override;
+    std::optional<ScenePoint>
+    groundUnderCursor(const CursorPicture& cursor, double right_m, double ahead_m) const override;
+    void connectParts();
+    void showLayers(bool is_other_body);
     void showMissing();
-    void sendLayers();
-    void releaseGraphics();
-    void redraw();
-    void refine();
-    void report();
-    BodyCamera bounded(const BodyCamera& camera) const;
-    BodyCamera onGround(const BodyCamera& camera) const;
-    HeldPoint heldAtPosition(QPointF position) const;
-    PixelPoint pixelAt(QPointF position) const;
-    BodyLimits limitsOf(const BodyTerrain& map) const;
-    BodyCamera homeView() const;
-    BodyCamera viewOf(const BodyTerrain& map) const;
     void flyToAwaited();
-    void fly(const BodyCamera& goal, std::chrono::milliseconds duration);
-    void zoom(double factor, QPointF position, std::chrono::milliseconds duration);
+    void releaseGraphics() { canvas_.release(); }
+    void report();
+    PixelPoint pixelAt(QPointF position) const;
     PlaceTool* placeTool() const;
     void endDrag();
     void followTouch();
@@ -244,24 +229,14 @@ private:
     void notePointer(QPointF position);
     bool isStylusRead() const { return device_ && !lead_timer_.isActive(); }
     void showCursor();
-    void paintOver(TerrainPicture terrain);
-    void paintLines(TerrainPicture terrain);
-    void paintCursor();
-    std::vector<ScenePoint> shadowAt(const StylusPose& pose, double radius_m) const;
 
-    std::vector<ShownLayer> wanted_; // top first
-    std::vector<Placed> placed_;
-    std::vector<ShownLayer> layers_; // of those the ones that are shown
-    BodyScene scene_;                // of these
-    std::shared_ptr<JobMonitor> placing_;
-    DetachedJobs jobs_;
-    DrawStyle style_;
+    GlobeLayers layers_;
+    GlobeGround ground_;
+    GlobeCamera camera_;
     std::optional<BodyCamera> first_camera_; // when a layer is placed
     std::weak_ptr<const Map> awaited_;       // to fly to when it is placed
-    GlobeMotion motion_;
     Tool tool_ = Tool::Pan;
     std::map<Tool, PlaceTool*> place_tools_;
-    LineSets lines_;
 
     MapAction drag_ = MapAction::None;
     Qt::MouseButton drag_button_ = Qt::NoButton;
@@ -271,9 +246,6 @@ private:
     bool is_over_terrain_ = false; // the pointer
     std::optional<HeldPoint> held_;
     std::optional<QPointF> pointer_;
-    CapRates cap_;           // that moved the camera last
-    double zoom_left_ = 1.0; // the whole factor of the zoom in progress
-    bool is_zooming_ = false;
 
     GlobeMeshes meshes_;
     GlobeTouch touch_{meshes_};
@@ -282,19 +254,7 @@ private:
     std::optional<HeldPoint> grabbed_; // by the stylus of the mouse, in contact
     QTimer lead_timer_; // runs while the pointer is read in place of the device's stylus
     MapCursor cursor_ = MapCursor::Arrow;
-    std::unique_ptr<TerrainRenderer> renderer_;
-    std::unique_ptr<GovernedPicture> picture_;
-    std::unique_ptr<LinePainter> line_painter_;
-    std::unique_ptr<CursorSolids> cursor_solids_;
-    std::chrono::milliseconds frame_target_{33};
-    bool has_antialiasing_ = true;
-    bool are_layers_sent_ = true;
-    PictureStage stage_ = PictureStage::Moving;
-    bool is_current_ = false; // the picture that was kept is of now
-    bool is_complete_ = false;
-    bool is_loading_ = false;
-    QString problem_;
-    QTimer still_timer_;
+    TerrainCanvas canvas_;
     QTimer sample_timer_;
     QLabel* note_ = nullptr;
     QLabel* wait_ = nullptr;

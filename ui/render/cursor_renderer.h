@@ -24,13 +24,21 @@ enum class CursorShape {
     LongSphere, // while the map is zoomed
 };
 
-/// All in scene coordinates. Sizes stay the same on screen.
+/// The directions of a cursor, of length 1 and perpendicular to each other, right-handed.
+struct CursorAxes {
+    Vec3 right{1.0, 0.0, 0.0};
+    Vec3 ahead{0.0, 1.0, 0.0};
+    Vec3 up{0.0, 0.0, 1.0};
+};
+
+/// All in coordinates of the scene. Sizes stay the same on screen.
 struct CursorPicture {
     CursorShape shape = CursorShape::Sphere;
-    ScenePoint position;            // the middle of a sphere, the tip of the cone
-    std::optional<ScenePoint> goal; // where the hand is, when the ground keeps it from there
-    std::vector<ScenePoint> shadow; // a ring on the ground, counterclockwise; may be empty
-    double pixels_per_point = 1.0;  // of the screen
+    ScenePoint position; // the middle of a sphere, the tip of the cone
+    CursorAxes axes{};
+    std::optional<ScenePoint> goal{}; // where the hand is, when the ground keeps it from there
+    std::vector<ScenePoint> shadow{}; // a ring on the ground, counterclockwise; may be empty
+    double pixels_per_point = 1.0;    // of the screen
 };
 
 /// Every call needs the context current in which it was created, the destructor included. Leaves no
@@ -45,7 +53,7 @@ public:
     /// Draws over a picture of the terrain in the bound frame buffer. Terrain in front of the
     /// cursor hides it; the spring and the goal show through the terrain.
     void draw(const CursorPicture& cursor,
-              const OrbitCamera& camera,
+              const CameraPose& camera,
               const Viewport& viewport,
               const ClipRange& clip);
 
@@ -55,5 +63,8 @@ private:
 
     std::unique_ptr<Impl> impl_;
 };
+
+/// Where the terrain may hide a cursor, or its shadow.
+PixelArea areaOfCursor(const CursorPicture& cursor, const CameraPose& camera, const Viewport& size);
 
 } // namespace marsview

@@ -1,0 +1,75 @@
+// The layers of a globe: those to show, and where they lie on their body.
+#pragma once
+
+#include "core/base/job_monitor.h"
+#include "core/session/body_terrain.h"
+#include "ui/canvas/shown_layer.h"
+#include "ui/controllers/detached_jobs.h"
+
+#include <QObject>
+#include <QString>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace marsview {
+
+/// Places layers on a worker thread, one after the other, on the ellipsoid of the lowest one. A
+/// layer is shown as soon as it is placed. GUI thread.
+class GlobeLayers final : public QObject {
+    Q_OBJECT
+
+public:
+    /// A layer that has no place on the body.
+    struct Missing {
+        std::shared_ptr<const Map> map;
+        QString problem;
+    };
+
+    explicit GlobeLayers(QObject* parent = nullptr);
+    ~GlobeLayers() override;
+
+    /// The layers to show, top first, all of one body; none for an empty globe.
+    void set(const std::vector<ShownLayer>& top_first);
+    bool isWanted(const std::shared_ptr<const Map>& map) const;
+    /// Those that are placed, and their terrain.
+    const std::vector<ShownLayer>& shown() const noexcept { return shown_; }
+    const BodyScene& scene() const noexcept { return scene_; }
+    bool isPlacing() const noexcept { return placing_ != nullptr; }
+    /// Of those that were tried.
+    std::vector<Missing> missing() const;
+
+Q_SIGNALS:
+    /// The look of a layer.
+    void lookChanged();
+    void placingStarted();
+    /// shown(), by another list or when a layer was placed. On another body, or without layers,
+    /// nothing stays of what was shown.
+    void shownChanged(bool is_other_body);
+    /// Nothing is left to be placed.
+    void placingFinished();
+
+private:
+    // A map on its body, or why it has no place there.
+    struct Placed {
+        std::shared_ptr<const Map> map;
+        std::shared_ptr<const BodyGrid> grid;
+        QString problem;
+    };
+
+    std::optional<Ellipsoid> ellipsoid() const;
+    const Placed* placedOf(const ShownLayer& layer) const;
+    void cancel();
+    void placeNext();
+    void showPlaced(bool is_other_body);
+
+    std::vector<ShownLayer> wanted_; // top first
+    std::vector<Placed> placed_;
+    std::vector<ShownLayer> shown_; // of those that are wanted
+    BodyScene scene_;               // of these
+    std::shared_ptr<JobMonitor> placing_;
+    DetachedJobs jobs_;
+};
+
+} // namespace marsview
