@@ -360,7 +360,7 @@ void MainWindow::showActive()
     const QString file = map ? QString::fromStdString(map->spec().path) : QString();
     setWindowFilePath(commands_->project.file().isEmpty() ? file : commands_->project.file());
     showTitle();
-    georeferencing_->setMap(map);
+    georeferencing_->setMap(map, active != nullptr && controller_->isNodataAssumed(*active));
     showPreparation();
     // Positions are on what the view shows, heights are those of the active layer if it is there.
     const std::vector<const Layer*> shown = shownLayers(session());

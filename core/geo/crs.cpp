@@ -534,9 +534,11 @@ Result<Crs> Crs::onEllipsoid(const Ellipsoid& ellipsoid, const std::string& body
     }
     if (!(ellipsoid.polar_m > 0.0) || !(ellipsoid.equatorial_m >= ellipsoid.polar_m) ||
         !std::isfinite(ellipsoid.equatorial_m)) {
-        return Error{ErrorCode::OutOfRange,
-                     fmt::format("radii {} m and {} m are not those of an oblate ellipsoid",
-                                 ellipsoid.equatorial_m, ellipsoid.polar_m)};
+        return Error{
+            ErrorCode::OutOfRange,
+            fmt::format("an equatorial radius of {} m and a polar radius of {} m are impossible; "
+                        "give a polar radius above 0 and not above the equatorial one",
+                        ellipsoid.equatorial_m, ellipsoid.polar_m)};
     }
     OGRSpatialReference srs = impl_->srs;
     const bool is_centric =

@@ -165,10 +165,12 @@ bool areRadiiOf(const Body& body, const Ellipsoid& ellipsoid)
 Status applyBody(RasterInfo& info, const RasterOverrides& overrides)
 {
     if (overrides.ellipsoid && !isOblate(*overrides.ellipsoid)) {
-        return refusal(OverrideField::Radii,
-                       fmt::format("{} m and {} m are not those of an oblate ellipsoid",
-                                   overrides.ellipsoid->equatorial_m, overrides.ellipsoid->polar_m),
-                       ErrorCode::OutOfRange);
+        return refusal(
+            OverrideField::Radii,
+            fmt::format("an equatorial radius of {} m and a polar radius of {} m are impossible; "
+                        "give a polar radius above 0 and not above the equatorial one",
+                        overrides.ellipsoid->equatorial_m, overrides.ellipsoid->polar_m),
+            ErrorCode::OutOfRange);
     }
     if (!overrides.body && !overrides.ellipsoid) {
         return Done{};

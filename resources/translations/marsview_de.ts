@@ -261,6 +261,38 @@
 <context>
     <name>CoreMessage</name>
     <message>
+        <source>an equatorial radius of %1 m and a polar radius of %2 m are impossible; give a polar radius above 0 and not above the equatorial one</source>
+        <translation>ein Äquatorradius von %1 m und ein Polradius von %2 m sind unmöglich; geben Sie einen Polradius über 0 an, der nicht über dem Äquatorradius liegt</translation>
+    </message>
+    <message>
+        <source>&quot;%1&quot; is not understood; write for example 18.65 N 226.2 E</source>
+        <translation>„%1“ ist nicht verständlich; schreiben Sie zum Beispiel 18,65 N 226,2 O</translation>
+    </message>
+    <message>
+        <source>a latitude and a longitude are needed; write for example 18.65 N 226.2 E</source>
+        <translation>Breite und Länge sind nötig; schreiben Sie zum Beispiel 18,65 N 226,2 O</translation>
+    </message>
+    <message>
+        <source>%1 and %2 are the same direction; write for example 18.65 N 226.2 E</source>
+        <translation>%1 und %2 sind dieselbe Richtung; schreiben Sie zum Beispiel 18,65 N 226,2 O</translation>
+    </message>
+    <message>
+        <source>%1 is too large; minutes and seconds must be below 60</source>
+        <translation>%1 ist zu groß; Minuten und Sekunden liegen unter 60</translation>
+    </message>
+    <message>
+        <source>latitude %1 is beyond 90 degrees</source>
+        <translation>die Breite %1 liegt jenseits von 90 Grad</translation>
+    </message>
+    <message>
+        <source>longitude %1 is beyond 360 degrees</source>
+        <translation>die Länge %1 liegt jenseits von 360 Grad</translation>
+    </message>
+    <message>
+        <source>enter two numbers, x and then y</source>
+        <translation>geben Sie zwei Zahlen ein, erst x und dann y</translation>
+    </message>
+    <message>
         <source>does not exist</source>
         <translation>gibt es nicht</translation>
     </message>
@@ -4186,12 +4218,33 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
         <translation>&amp;Höhenmaßstab</translation>
     </message>
     <message>
-        <source>No measurement is selected</source>
-        <translation>Keine Messung ist ausgewählt</translation>
+        <source>New: %1</source>
+        <extracomment>%1 is a kind of measurement, as in the Measure menu</extracomment>
+        <translation>Neu: %1</translation>
     </message>
     <message>
-        <source>Click on the map to begin, or choose another measurement in the Measure menu.</source>
-        <translation>Klicken Sie auf die Karte, um zu beginnen, oder wählen Sie im Menü Messen eine andere Messung.</translation>
+        <source>Click points along a line; double-click to finish.</source>
+        <translation>Klicken Sie Punkte entlang einer Linie an; Doppelklick beendet sie.</translation>
+    </message>
+    <message>
+        <source>Click the corners of an area; double-click to finish.</source>
+        <translation>Klicken Sie die Ecken einer Fläche an; Doppelklick beendet sie.</translation>
+    </message>
+    <message>
+        <source>Click the ends and bends of a profile; double-click to finish.</source>
+        <translation>Klicken Sie Enden und Knicke eines Profils an; Doppelklick beendet es.</translation>
+    </message>
+    <message>
+        <source>Click three or more points of one rock layer; double-click to finish.</source>
+        <translation>Klicken Sie drei oder mehr Punkte einer Gesteinsschicht an; Doppelklick beendet die Messung.</translation>
+    </message>
+    <message>
+        <source>Click three or more points on the rim; double-click to finish.</source>
+        <translation>Klicken Sie drei oder mehr Punkte auf dem Rand an; Doppelklick beendet die Messung.</translation>
+    </message>
+    <message>
+        <source>Click a place to measure its slope.</source>
+        <translation>Klicken Sie eine Stelle an, um ihre Neigung zu messen.</translation>
     </message>
     <message>
         <source>Click to place one more point; Backspace removes the last one.</source>

@@ -18,6 +18,7 @@
 #include <QActionGroup>
 #include <QApplication>
 #include <QDockWidget>
+#include <QImage>
 #include <QMenu>
 #include <QMenuBar>
 #include <QMultiMap>
@@ -92,6 +93,23 @@ TEST_F(AccessibilityTest, TheTabKeyReachesEveryControlOfTheWindow)
     window_->docks()->reveal(*window_->docks()->haptics());
     window_->hapticsPanel()->setFocus();
     expectReached(*window_);
+}
+
+TEST_F(AccessibilityTest, EveryStopOfTheTabKeyShowsThatItHasTheFocus)
+{
+    ASSERT_TRUE(focusMap());
+    QTest::keyClick(&view(), Qt::Key_Tab);
+    int stops = 0;
+    for (QWidget* now = QApplication::focusWidget(); now != &view();
+         now = QApplication::focusWidget()) {
+        ASSERT_NE(now, nullptr);
+        ASSERT_LT(++stops, 200) << "the map is never reached again";
+        const QImage with_focus = now->grab().toImage();
+        QTest::keyClick(now, Qt::Key_Tab);
+        EXPECT_TRUE(with_focus != now->grab().toImage())
+            << describe(*now).toStdString() << " of " << now->width() << " x " << now->height();
+    }
+    EXPECT_GT(stops, 10);
 }
 
 TEST_F(AccessibilityTest, TheTabKeyReachesEveryControlOfTheDialogs)

@@ -39,6 +39,7 @@
 #include <GeographicLib/Geodesic.hpp>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -289,6 +290,13 @@ TEST_F(MeasureTest, TheListNamesShowsAndRemoves)
     const auto* note = panel().findChild<QLabel*>(QStringLiteral("measureNote"));
     const auto* results = panel().findChild<QTableWidget*>(QStringLiteral("measureResults"));
     EXPECT_TRUE(results->isHidden()) << "an empty table";
+    measuring().rename(measuring().state().current, QStringLiteral("a <i>b</i> & c"));
+    const auto labels = panel().findChildren<QLabel*>();
+    const auto title = std::find_if(labels.begin(), labels.end(), [](const QLabel* label) {
+        return label->text() == QStringLiteral("a <i>b</i> & c");
+    });
+    ASSERT_NE(title, labels.end());
+    EXPECT_EQ((*title)->textFormat(), Qt::PlainText);
     EXPECT_EQ(note->text(),
               QStringLiteral("Click to place 2 more points; Backspace removes the last one."));
     click(at(0.05, 0.0));

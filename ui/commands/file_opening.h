@@ -47,6 +47,10 @@ public:
 
     RecentFiles* recentFiles() const noexcept { return recent_; }
 
+Q_SIGNALS:
+    /// open() begins.
+    void asked();
+
 private:
     static QStringList rasterFilters();
     void openMaps(QStringList maps);

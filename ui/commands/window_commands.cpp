@@ -137,7 +137,7 @@ WindowCommands::WindowCommands(const WindowParts& parts, const WindowOptions& op
            .scenes = parts.scenes,
            .measuring = parts.measuring,
            .annotating = parts.annotating,
-           .project = [this] { return QFileInfo(project.file()).completeBaseName(); },
+           .project = [this] { return project.file(); },
            .session = [&session = parts.session]() -> const Session& { return session.session(); },
            .unit = [this] { return preferences.preferences().height_unit; },
            .format = [this] { return preferences.preferences().coordinates; }})
@@ -249,6 +249,9 @@ void WindowCommands::showMessages(WindowMessages& messages)
     const auto report_as = [&messages](const QString& title) {
         return [&messages, title](const QString& problem) { messages.report(title, problem); };
     };
+    QObject::connect(&files, &FileOpening::asked, &messages, &WindowMessages::forgetFailures);
+    QObject::connect(&project_menu, &ProjectMenu::asked, &messages,
+                     &WindowMessages::forgetFailures);
     QObject::connect(&project, &ProjectController::written, &messages,
                      [&messages](const QStringList& written) {
                          QStringList shown;

@@ -138,8 +138,9 @@ std::vector<ReadAs> readingsOn(const RasterInfo& info, const CoordinateFormat& f
 }
 
 Result<FoundPlace>
-placeOnMap(const Map& map, const CoordinateFormat& format, ReadAs read_as, const QString& text)
+placeOnMap(const Map& map, const CoordinateFormat& format, ReadAs read_as, const QString& typed)
 {
+    const QString text = withPlainDirections(typed);
     const RasterInfo& info = map.info();
     const Georeference& georeference = map.georeference();
     const std::string written = text.toStdString();

@@ -106,6 +106,7 @@ void DrawnList::showItems()
         model_->follow();
     }
     viewport()->update();
+    fitColumns();
     restoreSelection(selected);
 }
 

@@ -47,6 +47,8 @@ protected:
     virtual QVariant cell(const DrawnItem& item, int column, int role) const = 0;
     /// Whether item `a` comes before `b` where the list is sorted by `column`.
     virtual bool isBefore(const DrawnItem& a, const DrawnItem& b, int column) const = 0;
+    /// The texts of cells may have changed.
+    virtual void fitColumns() {}
     /// What the context menu offers for items, besides what all kinds have.
     virtual void addActions(QMenu& /*menu*/, const std::vector<std::uint32_t>& /*ids*/) {}
 

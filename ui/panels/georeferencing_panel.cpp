@@ -11,7 +11,6 @@
 #include "ui/widgets/elided_label.h"
 #include "ui/widgets/scroll_area.h"
 
-#include <QFormLayout>
 #include <QLabel>
 #include <QLocale>
 #include <QPushButton>
@@ -23,6 +22,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace marsview {
 namespace {
@@ -85,11 +85,8 @@ void GeoreferencingPanel::makeFactsPage()
     QScrollArea* scroll = facts_page_;
     auto* content = new QWidget(scroll);
     auto* layout = new QVBoxLayout(content);
-    facts_ = new QFormLayout;
-    facts_->setLabelAlignment(Qt::AlignLeft | Qt::AlignTop);
-    facts_->setHorizontalSpacing(12);
-    facts_->setVerticalSpacing(0);
-    facts_->setRowWrapPolicy(QFormLayout::WrapAllRows);
+    facts_ = new QVBoxLayout;
+    facts_->setSpacing(0);
     // What is unusual is seen without scrolling.
     notices_ = new QVBoxLayout;
     notices_->setContentsMargins(0, 0, 0, 6);
@@ -118,9 +115,13 @@ void GeoreferencingPanel::makeForm()
     pages_->addWidget(form_);
 }
 
-void GeoreferencingPanel::setMap(const std::shared_ptr<const Map>& map)
+void GeoreferencingPanel::setMap(const std::shared_ptr<const Map>& map, bool is_nodata_assumed)
 {
+    const bool was_assumed = std::exchange(is_nodata_assumed_, is_nodata_assumed);
     if (map == map_) {
+        if (is_nodata_assumed != was_assumed) {
+            fillFacts();
+        }
         return;
     }
     // A preview that is replaced by its map closes no form.
@@ -204,8 +205,9 @@ void GeoreferencingPanel::setCoordinateFormat(const CoordinateFormat& format)
 
 void GeoreferencingPanel::fillFacts()
 {
-    while (facts_->rowCount() > 0) {
-        facts_->removeRow(0);
+    while (QLayoutItem* item = facts_->takeAt(0)) {
+        delete item->widget();
+        delete item;
     }
     while (QLayoutItem* item = notices_->takeAt(0)) {
         item->widget()->deleteLater();
@@ -232,28 +234,33 @@ void GeoreferencingPanel::addNotice(const QString& text)
     notices_->addWidget(label);
 }
 
-// The name is above its value because a narrow panel cannot fit them in one line.
-QLabel* GeoreferencingPanel::addFact(const QString& name, const QString& value)
+// Above its value because a narrow panel cannot fit them in one line.
+void GeoreferencingPanel::addCaption(const QString& name)
 {
     QLabel* caption = makeCaption(name, this);
-    caption->setContentsMargins(0, facts_->rowCount() == 0 ? 0 : 6, 0, 0);
+    caption->setContentsMargins(0, facts_->isEmpty() ? 0 : 6, 0, 0);
+    facts_->addWidget(caption);
+}
+
+QLabel* GeoreferencingPanel::addFact(const QString& name, const QString& value)
+{
+    addCaption(name);
     QLabel* fact = makeFact(this);
     QStringList lines = value.split(QLatin1Char('\n'));
     std::transform(lines.begin(), lines.end(), lines.begin(), isolated);
     fact->setText(lines.join(QLatin1Char('\n')));
     fact->setAccessibleName(name);
-    facts_->addRow(caption, fact);
+    facts_->addWidget(fact);
     return fact;
 }
 
 // A value that may be longer than the panel is wide: on one line, to be read whole in its tool tip.
 void GeoreferencingPanel::addLongFact(const QString& name, const QString& value)
 {
-    QLabel* caption = makeCaption(name, this);
-    caption->setContentsMargins(0, facts_->rowCount() == 0 ? 0 : 6, 0, 0);
+    addCaption(name);
     auto* fact = new ElidedLabel(value, this);
     fact->setAccessibleName(name);
-    facts_->addRow(caption, fact);
+    facts_->addWidget(fact);
 }
 
 void GeoreferencingPanel::addPlaceFacts(const Map& map)
@@ -357,9 +364,14 @@ void GeoreferencingPanel::addSampleFacts(const Map& map)
         addFact(tr("Scale, offset"),
                 tr("%1, %2 %3").arg(number(info.scale), number(info.offset), unit));
     }
-    addFact(tr("Nodata"), info.nodata ? sampleText(*info.nodata) : tr("none"));
+    const QString nodata = info.nodata ? sampleText(*info.nodata) : tr("none");
+    addFact(tr("Nodata"), is_nodata_assumed_ ? tr("%1, assumed").arg(nodata) : nodata);
     addFact(tr("Format"), QString::fromStdString(info.driver));
-    const QStringList changed = overriddenNames(map.spec().overrides);
+    RasterOverrides set_by_user = map.spec().overrides;
+    if (is_nodata_assumed_) {
+        set_by_user.nodata.reset();
+    }
+    const QStringList changed = overriddenNames(set_by_user);
     if (!changed.isEmpty()) {
         addFact(tr("Set by you"), QLocale().createSeparatedList(changed));
     }

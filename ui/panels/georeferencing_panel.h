@@ -9,7 +9,6 @@
 
 #include <memory>
 
-class QFormLayout;
 class QLabel;
 class QPushButton;
 class QScrollArea;
@@ -28,9 +27,10 @@ class GeoreferencingPanel final : public QWidget {
 public:
     explicit GeoreferencingPanel(QWidget* parent = nullptr);
 
-    /// The map in effect; null for none. Fills both pages; the form stays open for as long as it is
-    /// the same file with the same overrides.
-    void setMap(const std::shared_ptr<const Map>& map);
+    /// The map in effect; null for none. `is_nodata_assumed`: its nodata value is neither the
+    /// file's nor the user's. Fills both pages; the form stays open for as long as it is the same
+    /// file with the same overrides.
+    void setMap(const std::shared_ptr<const Map>& map, bool is_nodata_assumed = false);
     void setHeightUnit(HeightUnit unit);
     void setCoordinateFormat(const CoordinateFormat& format);
 
@@ -48,6 +48,7 @@ private:
     void makeFactsPage();
     void makeForm();
     void fillFacts();
+    void addCaption(const QString& name);
     QLabel* addFact(const QString& name, const QString& value);
     void addLongFact(const QString& name, const QString& value);
     void addNotice(const QString& text);
@@ -56,12 +57,13 @@ private:
     void addSampleFacts(const Map& map);
 
     std::shared_ptr<const Map> map_;
+    bool is_nodata_assumed_ = false;
     HeightUnit unit_of_heights_ = HeightUnit::Meters;
     CoordinateFormat coordinates_;
     QStackedWidget* pages_ = nullptr;
     QScrollArea* facts_page_ = nullptr;
     OverrideForm* form_ = nullptr;
-    QFormLayout* facts_ = nullptr;
+    QVBoxLayout* facts_ = nullptr;
     QVBoxLayout* notices_ = nullptr; // one label for each
     QPushButton* override_button_ = nullptr;
 };

@@ -30,6 +30,12 @@ void MeasureList::setHeightUnit(HeightUnit unit)
     showItems();
 }
 
+// The header looks at the cells only when their rows change.
+void MeasureList::fitColumns()
+{
+    horizontalHeader()->setSectionResizeMode(ResultColumn, QHeaderView::ResizeToContents);
+}
+
 bool MeasureList::isBefore(const DrawnItem& a, const DrawnItem& b, int column) const
 {
     if (column == ResultColumn) {

@@ -20,6 +20,7 @@ public:
     void setHeightUnit(HeightUnit unit);
 
 protected:
+    void fitColumns() override;
     QVariant cell(const DrawnItem& item, int column, int role) const override;
     /// Results sort by what they measure, then by size.
     bool isBefore(const DrawnItem& a, const DrawnItem& b, int column) const override;

@@ -88,6 +88,7 @@ MeasurePanel::MeasurePanel(MeasureController& controller, QWidget* parent)
     hint_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
     layout->addWidget(hint_);
     connect(&controller_, &MeasureController::changed, this, &MeasurePanel::showItems);
+    connect(&controller_, &MeasureController::kindChanged, this, &MeasurePanel::showResult);
     connect(&controller_, &MeasureController::measured, this, &MeasurePanel::showItems);
     connect(&controller_, &MeasureController::lineHovered, plot_, &ProfilePlot::setCursorAt);
     connect(plot_, &ProfilePlot::cursorMoved, &controller_, &MeasureController::setProfileCursor);
@@ -115,6 +116,7 @@ void MeasurePanel::makeResults()
     results_side_->setMaximumWidth(kResultsWidthMax);
     title_ = makeCaption({}, results_side_);
     title_->setWordWrap(true);
+    title_->setTextFormat(Qt::PlainText); // names are the user's
     title_->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Maximum);
     results_ = new QTableWidget(results_side_);
     results_->setObjectName(QStringLiteral("measureResults"));
@@ -259,8 +261,9 @@ void MeasurePanel::showResult()
     QString note;
     QString hint;
     if (item == nullptr) {
-        title_->setText(tr("No measurement is selected"));
-        note = tr("Click on the map to begin, or choose another measurement in the Measure menu.");
+        //: %1 is a kind of measurement, as in the Measure menu
+        title_->setText(tr("New: %1").arg(measurementName(controller_.kind())));
+        note = firstStepText(controller_.kind());
     } else {
         title_->setText(item->name);
         const MeasureOutcome& outcome = controller_.outcome(item->id);
@@ -329,6 +332,26 @@ void MeasurePanel::showResult()
     results_->setVisible(!rows.empty()); // otherwise the note has its room
     note_->setText(note);
     note_->setVisible(!note.isEmpty());
+}
+
+// Short: a taller panel would move the map under the pointer.
+QString MeasurePanel::firstStepText(MeasurementKind kind)
+{
+    switch (kind) {
+    case MeasurementKind::Distance:
+        return tr("Click points along a line; double-click to finish.");
+    case MeasurementKind::Area:
+        return tr("Click the corners of an area; double-click to finish.");
+    case MeasurementKind::Profile:
+        return tr("Click the ends and bends of a profile; double-click to finish.");
+    case MeasurementKind::Attitude:
+        return tr("Click three or more points of one rock layer; double-click to finish.");
+    case MeasurementKind::Crater:
+        return tr("Click three or more points on the rim; double-click to finish.");
+    case MeasurementKind::Slope:
+        return tr("Click a place to measure its slope.");
+    }
+    return {};
 }
 
 // What the mouse and the keys can do with a measurement that has all the points it needs.

@@ -65,6 +65,7 @@ private:
     void makeHypsometry();
     void showItems();
     void showResult();
+    static QString firstStepText(MeasurementKind kind);
     static QString nextStepText(const MeasureItem& item);
     void addPoints(std::vector<MeasureRow>& rows,
                    const MeasureItem& item,

@@ -443,6 +443,7 @@ void OverrideForm::apply()
         return;
     }
     clearProblems();
+    checkCrs(); // what it says stays beside what is wrong with the numbers
     const std::optional<RasterOverrides> overrides = entered();
     if (!overrides) {
         return;

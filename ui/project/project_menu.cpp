@@ -62,8 +62,10 @@ ProjectMenu::ProjectMenu(const Parts& parts, QObject* parent)
     recent_ =
         new RecentFiles(*recent_menu_, parts_.memory, this, QStringLiteral("projects/recent"));
 
-    connect(new_, &QAction::triggered, this,
-            [this] { saveThen([this] { parts_.project.startNew(); }); });
+    connect(new_, &QAction::triggered, this, [this] {
+        Q_EMIT asked();
+        saveThen([this] { parts_.project.startNew(); });
+    });
     connect(open_, &QAction::triggered, this, &ProjectMenu::chooseProject);
     connect(save_, &QAction::triggered, this,
             [this] { parts_.project.file().isEmpty() ? saveAs({}) : parts_.project.save(); });
@@ -168,6 +170,7 @@ void ProjectMenu::chooseProject()
 
 void ProjectMenu::open(const QString& project, const QStringList& maps)
 {
+    Q_EMIT asked();
     parts_.project.read(project, [this, maps](const ReadProject& read) {
         saveThen([this, maps, read] {
             parts_.project.open(read);

@@ -54,6 +54,10 @@ public:
     QAction* saveProjectAs() const noexcept { return save_as_; }
     QMenu* recentProjects() const noexcept { return recent_menu_; }
 
+Q_SIGNALS:
+    /// A new project, or one to open, is asked for.
+    void asked();
+
 private:
     void chooseProject();
     void saveAs(const std::function<void()>& next);

@@ -79,7 +79,7 @@ void ReportExporter::ask()
     const auto shown = shownLayers(parts_.session());
     const Layer* active = activeLayer(parts_.session());
     const Layer* named = active != nullptr ? active : shown.empty() ? nullptr : shown.front();
-    const QString project = parts_.project();
+    const QString project = QFileInfo(parts_.project()).completeBaseName();
     title->setText(!project.isEmpty() ? project
                    : named != nullptr
                        ? QFileInfo(QString::fromStdString(named->name)).completeBaseName()
@@ -142,8 +142,10 @@ void ReportExporter::ask()
 void ReportExporter::chooseFile(const ReportChoice& choice)
 {
     const QString documents = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation);
+    const QString project = parts_.project();
     auto* dialog = new QFileDialog(&parts_.window, tr("Export Report"),
                                    !folder_.isEmpty()             ? folder_
+                                   : !project.isEmpty()           ? QFileInfo(project).path()
                                    : QFileInfo(documents).isDir() ? documents
                                                                   : QDir::homePath());
     dialog->setObjectName(QStringLiteral("reportFileDialog"));

@@ -39,7 +39,7 @@ public:
         PictureScenes scenes;
         const MeasureController& measuring;
         const AnnotationController& annotating;
-        std::function<QString()> project; // its name; empty if it was never saved
+        std::function<QString()> project; // its file; empty if it was never saved
         std::function<const Session&()> session;
         std::function<HeightUnit()> unit;
         std::function<CoordinateFormat()> format;

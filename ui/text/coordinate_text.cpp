@@ -4,6 +4,7 @@
 
 #include <QCoreApplication>
 #include <QLocale>
+#include <QRegularExpression>
 
 #include <algorithm>
 #include <array>
@@ -131,6 +132,21 @@ int mapDecimals(const Georeference& georeference, double screen_pixel_m)
 }
 
 } // namespace
+
+QString withPlainDirections(QString typed)
+{
+    for (const char direction : {'N', 'S', 'E', 'W'}) {
+        const QString letter = letterOf(direction);
+        if (letter != QLatin1Char(direction)) {
+            typed.replace(QRegularExpression(QStringLiteral("(?<!\\p{L})%1(?!\\p{L})")
+                                                 .arg(QRegularExpression::escape(letter)),
+                                             QRegularExpression::CaseInsensitiveOption |
+                                                 QRegularExpression::UseUnicodePropertiesOption),
+                          QString(QLatin1Char(direction)));
+        }
+    }
+    return typed;
+}
 
 PositionSystem systemOn(const CoordinateFormat& format, const RasterInfo& info)
 {

@@ -29,6 +29,10 @@ QString latitudeKindName(LatitudeKind kind, const RasterInfo& info);
 /// What positions are counted in, in a few words: the kind of latitude, or the CRS.
 QString formatName(const CoordinateFormat& format, const RasterInfo& info);
 
+/// A typed position with N, S, E and W in place of the letters that positionText() writes in the
+/// user's language, such as O for east in German.
+QString withPlainDirections(QString typed);
+
 /// "18.65° N, 226.20° E", "18° 39′ 00″ N, 133° 48′ 00″ W", or "562,345, 5,117,890 m". Resolves a
 /// tenth of a sample, or of a pixel on screen where that is larger (`screen_pixel_m` meters; 0 for
 /// none). Empty where the position has no such coordinates.

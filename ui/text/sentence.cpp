@@ -56,6 +56,19 @@ constexpr std::array kMessages{
     QT_TRANSLATE_NOOP("CoreMessage", "\"%1\" is unknown; use m, km, ft or \"US survey ft\""),
     QT_TRANSLATE_NOOP("CoreMessage",
                       "%1 cannot scale elevations; use a finite number other than 0"),
+    QT_TRANSLATE_NOOP("CoreMessage",
+                      "an equatorial radius of %1 m and a polar radius of %2 m are impossible; "
+                      "give a polar radius above 0 and not above the equatorial one"),
+    // A position cannot be read.
+    QT_TRANSLATE_NOOP("CoreMessage", "\"%1\" is not understood; write for example 18.65 N 226.2 E"),
+    QT_TRANSLATE_NOOP("CoreMessage",
+                      "a latitude and a longitude are needed; write for example 18.65 N 226.2 E"),
+    QT_TRANSLATE_NOOP("CoreMessage",
+                      "%1 and %2 are the same direction; write for example 18.65 N 226.2 E"),
+    QT_TRANSLATE_NOOP("CoreMessage", "%1 is too large; minutes and seconds must be below 60"),
+    QT_TRANSLATE_NOOP("CoreMessage", "latitude %1 is beyond 90 degrees"),
+    QT_TRANSLATE_NOOP("CoreMessage", "longitude %1 is beyond 360 degrees"),
+    QT_TRANSLATE_NOOP("CoreMessage", "enter two numbers, x and then y"),
     // Notices of a map.
     QT_TRANSLATE_NOOP("CoreMessage",
                       "no CRS: map units are read as meters; set its CRS or body to get longitude "

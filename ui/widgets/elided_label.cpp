@@ -49,6 +49,7 @@ void ElidedLabel::paintEvent(QPaintEvent*)
     if (hasFocus()) {
         QStyleOptionFocusRect option;
         option.initFrom(this);
+        option.state |= QStyle::State_KeyboardFocusChange; // else some styles draw nothing
         style()->drawPrimitive(QStyle::PE_FrameFocusRect, &option, &painter, this);
     }
 }

@@ -2,11 +2,15 @@
 
 #include <QAction>
 #include <QApplication>
+#include <QChildEvent>
 #include <QDockWidget>
 #include <QMainWindow>
+#include <QPushButton>
 #include <QScopedValueRollback>
 #include <QSettings>
 #include <QStyle>
+#include <QTabBar>
+#include <QToolButton>
 
 #include <algorithm>
 #include <array>
@@ -22,14 +26,17 @@ constexpr int kDockWidthMin = 200;
 constexpr int kDockWidthAloneMin = 260; // where a third of the window is wider
 constexpr int kDockWidthMax = 300;
 
-// The control of a panel that had the focus last; at first the first one; null if there is none.
+// The control of a panel that had the focus last; the first one at first, and where that was a
+// button, which a key would press at once. Null if there is none.
 QWidget* focusTargetIn(const QWidget& panel)
 {
     const auto can_take = [&panel](const QWidget* widget) {
         return panel.isAncestorOf(widget) && widget->isVisible() && widget->isEnabled() &&
                (widget->focusPolicy() & Qt::TabFocus) == Qt::TabFocus;
     };
-    if (QWidget* last = panel.focusWidget(); last != nullptr && can_take(last)) {
+    if (QWidget* last = panel.focusWidget(); last != nullptr && can_take(last) &&
+                                             qobject_cast<QPushButton*>(last) == nullptr &&
+                                             qobject_cast<QToolButton*>(last) == nullptr) {
         return last;
     }
     QWidget* const start = panel.nextInFocusChain();
@@ -54,6 +61,7 @@ WindowDocks::WindowDocks(QMainWindow& window, const DockContents& contents)
     : QObject(&window)
     , window_(window)
 {
+    window_.installEventFilter(this);
     makeDock(datasets_, tr("Layers"), QStringLiteral("datasetDock"), contents.datasets);
     makeDock(views_, tr("Views"), QStringLiteral("viewsDock"), contents.views);
     makeDock(georeferencing_, tr("Georeferencing"), QStringLiteral("georeferencingDock"),
@@ -156,6 +164,17 @@ void WindowDocks::moveFocus(QWidget& map, FocusStep step)
             return;
         }
     }
+}
+
+// The window makes them when panels become tabs. F6 goes through the panels.
+bool WindowDocks::eventFilter(QObject* watched, QEvent* event)
+{
+    if (watched == &window_ && event->type() == QEvent::ChildPolished) {
+        if (auto* tabs = qobject_cast<QTabBar*>(static_cast<QChildEvent*>(event)->child())) {
+            tabs->setFocusPolicy(Qt::NoFocus);
+        }
+    }
+    return QObject::eventFilter(watched, event);
 }
 
 void WindowDocks::fold(Dock& dock, bool is_folded)

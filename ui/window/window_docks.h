@@ -50,7 +50,7 @@ public:
     void reveal(QDockWidget& dock);
     /// Moves the keyboard focus among the map and the open panels, in a circle: map, layers,
     /// saved views, georeferencing, haptics, measurements, annotations. A panel gets the focus
-    /// where it was last, and comes to the front of its tabs.
+    /// where it was last, unless that is a button, and comes to the front of its tabs.
     void moveFocus(QWidget& map, FocusStep step);
     /// To be called whenever the window has another width.
     void fit();
@@ -60,6 +60,9 @@ public:
     void restore(const QSettings& settings);
     /// To be called when a panel below the map has something to show.
     void showRestored(QDockWidget& dock);
+
+    /// Takes the tabs of panels, which show no focus, out of the way of the Tab key.
+    bool eventFilter(QObject* watched, QEvent* event) override;
 
 private:
     struct Dock {

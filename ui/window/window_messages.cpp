@@ -50,4 +50,10 @@ void WindowMessages::report(const QString& title, const QString& problem)
     notices_.setNotices(NoticeSource::Failure, reported_);
 }
 
+void WindowMessages::forgetFailures()
+{
+    reported_.clear();
+    notices_.setNotices(NoticeSource::Failure, reported_);
+}
+
 } // namespace marsview

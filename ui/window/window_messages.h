@@ -28,6 +28,8 @@ public:
     /// In a notice that stays until the user closes it, and by the signal. The title says what was
     /// not done, the problem why.
     void report(const QString& title, const QString& problem);
+    /// Something else is asked for: notices of what failed before are no longer news.
+    void forgetFailures();
 
 Q_SIGNALS:
     void reported(const QString& problem);

@@ -1,3 +1,4 @@
+#include "ui/text/coordinate_text.h"
 #include "ui/text/language.h"
 
 #include <QCoreApplication>
@@ -59,6 +60,17 @@ TEST_F(LanguageTest, WritesNumbersAsInTheLanguageUnlessTheRegionDoes)
     useNumbersOf(QStringLiteral("de"));
     EXPECT_EQ(QLocale().territory(), QLocale::Switzerland);
     QLocale::setDefault(before);
+}
+
+TEST_F(LanguageTest, ReadsTheLettersOfDirectionsThatItWrites)
+{
+    const QString german = QStringLiteral("18,65 N 226,2 O");
+    EXPECT_EQ(withPlainDirections(german), german);
+    const auto translator = translateTo(QStringLiteral("de"));
+    EXPECT_EQ(withPlainDirections(german), QStringLiteral("18,65 N 226,2 E"));
+    EXPECT_EQ(withPlainDirections(QStringLiteral("18° 39′ s, 226°o")),
+              QStringLiteral("18° 39′ s, 226°E"));
+    EXPECT_EQ(withPlainDirections(QStringLiteral("Olympus")), QStringLiteral("Olympus"));
 }
 
 } // namespace
