@@ -60,7 +60,7 @@ protected:
                                       .latitude = Angle::degrees(latitude_deg)},
                            .distance_m = distance_m});
         const auto number = settings().frame_number;
-        return waitFor([&] { return state().frame_number == number; });
+        return waitFor([&] { return state().frame_number >= number; });
     }
     bool pressDown()
     {
