@@ -43,6 +43,11 @@ constexpr std::array kStretches{
     Named<StretchKind>{StretchKind::Fixed, "fixed"},
 };
 
+constexpr std::array kOrders{
+    Named<LayerOrder>{LayerOrder::Listed, "listed"},
+    Named<LayerOrder>{LayerOrder::FinestFirst, "finest first"},
+};
+
 constexpr std::array kScenes{
     Named<SceneChoice>{SceneChoice::Automatic, "automatic"},
     Named<SceneChoice>{SceneChoice::Flat, "flat map"},
@@ -491,9 +496,9 @@ private:
     std::size_t position_;
 };
 
-constexpr std::array kKnownMembers{"format", "version",      "active",       "look",
-                                   "camera", "scene",        "globe_camera", "layers",
-                                   "views",  "measurements", "annotations",  "overlays"};
+constexpr std::array kKnownMembers{
+    "format", "version", "active",       "look",        "camera",   "scene",      "globe_camera",
+    "layers", "views",   "measurements", "annotations", "overlays", "layer_order"};
 
 } // namespace
 
@@ -529,6 +534,7 @@ Project projectOf(const Session& session)
     project.overlays = session.overlays;
     project.views = projectViews(session.views, projectOrder(session));
     project.look = session.look;
+    project.order = session.order;
     return project;
 }
 
@@ -544,6 +550,9 @@ textOf(const Project& project, const ProjectFolders& folders, JobMonitor& monito
         json["active"] = *project.active;
     }
     json["look"] = lookJson(project.look);
+    if (project.order != LayerOrder::Listed) {
+        json["layer_order"] = nameIn(kOrders, project.order);
+    }
     if (project.camera) {
         json["camera"] = cameraJson(*project.camera);
     }
@@ -685,6 +694,7 @@ Result<Project> projectIn(std::string_view text,
                  });
     project.annotations = taker.take(project.layers.size(), fault);
     members.object("look", [&](Members& look) { project.look = lookFrom(look); });
+    members.choice("layer_order", kOrders, project.order);
     members.object("camera", [&](Members& camera) { project.camera = cameraFrom(camera); });
     members.choice("scene", kScenes, project.scene);
     members.object("globe_camera",

@@ -79,6 +79,7 @@ struct Project {
     std::optional<std::size_t> active{};   // an index of `layers`
     std::vector<VectorOverlay> overlays{}; // in the order of Session::overlays
     TerrainLook look{};
+    LayerOrder order = LayerOrder::Listed;
     std::optional<ProjectCamera> camera{}; // of the flat map
     SceneChoice scene = SceneChoice::Automatic;
     std::optional<ViewCamera> globe_camera{}; // its target is on the body

@@ -49,6 +49,20 @@ LayerState stateBeside(const Map& scene, const Map& map)
                                                                        : LayerState::OtherCrs;
 }
 
+// `layers` is in the order of the list.
+std::vector<const Layer*> inOrder(std::vector<const Layer*> layers, LayerOrder order)
+{
+    if (order == LayerOrder::FinestFirst) {
+        const auto pixel_m2 = [](const Layer* layer) {
+            const Georeference& georeference = layer->map->georeference();
+            return georeference.pixelWidthMeters() * georeference.pixelHeightMeters();
+        };
+        std::stable_sort(layers.begin(), layers.end(),
+                         [&](const Layer* a, const Layer* b) { return pixel_m2(a) < pixel_m2(b); });
+    }
+    return layers;
+}
+
 bool isShownIn(const std::vector<const Layer*>& shown, LayerId id)
 {
     return std::any_of(shown.begin(), shown.end(),
@@ -238,6 +252,12 @@ Session withMap(Session session, LayerId id, std::shared_ptr<const Map> map)
     });
 }
 
+Session withOrder(Session session, LayerOrder order)
+{
+    session.order = order;
+    return session;
+}
+
 Session withLook(Session session, const TerrainLook& look)
 {
     session.look = look;
@@ -333,7 +353,21 @@ std::vector<const Layer*> shownLayers(const Session& session)
             shown.push_back(&session.layers[i]);
         }
     }
-    return shown;
+    return inOrder(std::move(shown), session.order);
+}
+
+std::vector<const Layer*> layersOnBody(const Session& session)
+{
+    const Body* body = nullptr;
+    std::vector<const Layer*> layers;
+    for (const Layer& layer : session.layers) {
+        const Body* own = layer.map->info().body;
+        if (layer.is_visible && own != nullptr && (body == nullptr || own == body)) {
+            body = own;
+            layers.push_back(&layer);
+        }
+    }
+    return inOrder(std::move(layers), session.order);
 }
 
 double exaggerationOf(const Session& session)

@@ -74,6 +74,12 @@ struct VectorOverlay {
     bool operator==(const VectorOverlay&) const = default;
 };
 
+/// Which layer covers the others where several have data.
+enum class LayerOrder : std::uint8_t {
+    Listed,      // the upper one in the list
+    FinestFirst, // the one with the smallest pixels; of equal ones, the upper one
+};
+
 struct Session {
     std::vector<Layer> layers;             // top first
     std::vector<MissingLayer> missing{};   // by index, ascending
@@ -82,6 +88,7 @@ struct Session {
     /// The layer that panels and the status bar describe; None only without layers.
     LayerId active = LayerId::None;
     TerrainLook look;
+    LayerOrder order = LayerOrder::Listed;
     std::uint32_t next_id = 1;
     std::uint32_t next_view_id = 1;
 
@@ -133,6 +140,7 @@ Session withName(Session session, LayerId id, std::string name);
 /// A layer whose exaggeration suited the old map gets the one that suits the new map.
 Session withMap(Session session, LayerId id, std::shared_ptr<const Map> map);
 Session withLook(Session session, const TerrainLook& look);
+Session withOrder(Session session, LayerOrder order);
 /// Adds an overlay, or replaces the one of that path.
 Session withOverlay(Session session, VectorOverlay overlay);
 Session withoutOverlay(Session session, const std::string& path);
@@ -161,8 +169,11 @@ enum class LayerState {
 /// never reprojected for display.
 std::vector<LayerState> placement(const Session& session);
 
-/// The layers in the picture, top first; empty if all are hidden.
+/// The layers in the picture, in the order in which they cover each other; empty if all are hidden.
 std::vector<const Layer*> shownLayers(const Session& session);
+/// The same in the scene of a body: all visible layers on the body of the topmost visible one,
+/// whatever their CRS.
+std::vector<const Layer*> layersOnBody(const Session& session);
 
 /// Vertical exaggeration of the picture; 1 if all layers are hidden.
 double exaggerationOf(const Session& session);

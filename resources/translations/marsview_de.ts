@@ -5388,6 +5388,11 @@ Bewegen Sie die Karte zu einer Ansicht, die Sie behalten wollen, und drücken Si
         <translation>Schattierung</translation>
     </message>
     <message>
+        <source>Order of Layers</source>
+        <extracomment>Continues &quot;Undo …&quot;</extracomment>
+        <translation>Reihenfolge der Layer</translation>
+    </message>
+    <message>
         <source>Contours</source>
         <extracomment>Continues &quot;Undo …&quot;</extracomment>
         <translation>Höhenlinien</translation>
@@ -6039,6 +6044,15 @@ Bewegen Sie die Karte zu einer Ansicht, die Sie behalten wollen, und drücken Si
     <message>
         <source>Move Layer &amp;Down</source>
         <translation>Layer nach u&amp;nten</translation>
+    </message>
+    <message>
+        <source>&amp;Finest Layer on Top</source>
+        <extracomment>Of layers that overlap</extracomment>
+        <translation>&amp;Feinster Layer zuoberst</translation>
+    </message>
+    <message>
+        <source>Where layers overlap, show, read and touch the one with the smallest pixels, instead of the upper one in the list</source>
+        <translation>Wo Layer sich überlappen, den mit den kleinsten Pixeln zeigen, ablesen und ertasten statt des oberen in der Liste</translation>
     </message>
     <message>
         <source>&amp;Build Overviews</source>

@@ -49,6 +49,9 @@ void LayerCommands::connectActions()
     };
     on(layer.move_up, [step] { step(GroupStep::Up); });
     on(layer.move_down, [step] { step(GroupStep::Down); });
+    on(layer.finest_first, [&session](bool is_checked) {
+        session.setOrder(is_checked ? LayerOrder::FinestFirst : LayerOrder::Listed);
+    });
     on(parts_.actions.override_georeferencing, [this] {
         parts_.docks.reveal(*parts_.docks.georeferencing());
         parts_.georeferencing.edit();

@@ -231,24 +231,17 @@ void SceneCommands::follow()
     parts_.globe.setLook(parts_.view.look());
     parts_.globe.setExaggeration(parts_.view.exaggeration());
     parts_.globe.setContactModel(parts_.view.contactModel());
-    parts_.globe.setLayers(layersOnBody());
+    parts_.globe.setLayers(shownOnBody());
 }
 
-// Those that the user shows, as far as they lie on the body of the topmost one.
-std::vector<ShownLayer> SceneCommands::layersOnBody() const
+std::vector<ShownLayer> SceneCommands::shownOnBody() const
 {
     std::vector<ShownLayer> layers;
-    const Body* body = nullptr;
-    for (const Layer& layer : parts_.session.session().layers) {
-        const Body* own = layer.map->info().body;
-        if (!layer.is_visible || own == nullptr || (body != nullptr && own != body)) {
-            continue;
-        }
-        body = own;
-        layers.push_back({.map = layer.map,
-                          .ramp = &rampOf(layer),
-                          .color_range = parts_.session.stretchedRangeOf(layer),
-                          .slope_range = layer.slope_range});
+    for (const Layer* layer : layersOnBody(parts_.session.session())) {
+        layers.push_back({.map = layer->map,
+                          .ramp = &rampOf(*layer),
+                          .color_range = parts_.session.stretchedRangeOf(*layer),
+                          .slope_range = layer->slope_range});
     }
     return layers;
 }

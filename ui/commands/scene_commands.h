@@ -77,7 +77,7 @@ private:
     void showChoices();
     void setGlobeShown(bool is_shown);
     void follow();
-    std::vector<ShownLayer> layersOnBody() const;
+    std::vector<ShownLayer> shownOnBody() const;
     void handToGlobe();
     void rememberHanded();
     void handToMap();

@@ -24,6 +24,7 @@ StretchControl::StretchControl(SessionController& session,
                                QWidget* parent)
     : QObject(parent)
     , session_(session)
+    , actions_(actions)
     , map_(map)
     , histograms_(new HistogramMaker(this))
     , dialog_(new StretchDialog(parent))
@@ -49,7 +50,9 @@ StretchControl::StretchControl(SessionController& session,
     connect(dialog_, &StretchDialog::dragEnded, &session_, &SessionController::endDrag);
     connect(dialog_, &StretchDialog::stretchToViewRequested, this, stretch_to_view);
     connect(&session_, &SessionController::sessionChanged, this, &StretchControl::show);
+    connect(&session_, &SessionController::sceneChanged, this, &StretchControl::show);
     connect(histograms_, &HistogramMaker::made, this, &StretchControl::show);
+    show();
 }
 
 void StretchControl::setHeightUnit(HeightUnit unit)
@@ -102,8 +105,15 @@ void StretchControl::choose(StretchKind kind)
     }
 }
 
+bool StretchControl::isInScene() const
+{
+    const Layer* layer = activeLayer(session_.session());
+    return layer != nullptr && session_.isInScene(*layer);
+}
+
 void StretchControl::show()
 {
+    actions_.showStretchToView(activeLayer(session_.session()) != nullptr, isInScene());
     if (!dialog_->isVisible()) {
         return;
     }
@@ -112,7 +122,6 @@ void StretchControl::show()
         dialog_->setContent({});
         return;
     }
-    const std::vector<const Layer*> shown = shownLayers(session_.session());
     const bool is_slope = session_.session().look.mode == ShadingMode::Slope;
     dialog_->setContent(
         {.layer = QString::fromStdString(layer->name),
@@ -121,7 +130,7 @@ void StretchControl::show()
          .all = layer->map->heightfield().range().value_or(HeightRange{}),
          .ramp = &rampOf(*layer),
          .histogram = histograms_->find(layer->map),
-         .is_in_picture = std::find(shown.begin(), shown.end(), layer) != shown.end(),
+         .is_in_picture = isInScene(),
          .slopes = is_slope ? std::optional(session_.slopeRangeOf(*layer)) : std::nullopt,
          .are_slopes_chosen = layer->slope_range.has_value(),
          .slope_histogram = is_slope ? layer->map->slopes() : SlopeHistogram{}});

@@ -32,8 +32,10 @@ public:
 private:
     void choose(StretchKind kind);
     void show();
+    bool isInScene() const; // the active layer
 
     SessionController& session_;
+    const WindowActions& actions_;
     const QWidget& map_;
     bool is_placed_ = false;
     HistogramMaker* histograms_ = nullptr;

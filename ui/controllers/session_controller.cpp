@@ -197,6 +197,7 @@ void SessionController::openProject(const Project& project)
     undo_stack_.clear();
     Session session;
     session.look = project.look;
+    session.order = project.order;
     session.overlays = project.overlays;
     session.next_id = session_.next_id;
     session.next_view_id = session_.next_view_id;
@@ -520,6 +521,14 @@ void SessionController::setShading(ShadingMode mode)
     change(tr("Shading"), withLook(session_, look));
 }
 
+void SessionController::setOrder(LayerOrder order)
+{
+    if (order != session_.order) {
+        //: Continues "Undo …"
+        change(tr("Order of Layers"), withOrder(session_, order));
+    }
+}
+
 void SessionController::setContours(bool has_contours)
 {
     TerrainLook look = session_.look;
@@ -740,6 +749,19 @@ void SessionController::revealWhatCame()
         }
     }
     goTo(layer->id);
+}
+
+void SessionController::showOn(std::optional<OtherScene> scene)
+{
+    other_scene_ = std::move(scene);
+    Q_EMIT sceneChanged();
+}
+
+bool SessionController::isInScene(const Layer& layer) const
+{
+    const auto layers = other_scene_ ? layersOnBody(session_) : shownLayers(session_);
+    return std::any_of(layers.begin(), layers.end(),
+                       [&layer](const Layer* one) { return one->id == layer.id; });
 }
 
 void SessionController::goTo(LayerId id)

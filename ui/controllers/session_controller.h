@@ -73,7 +73,9 @@ public:
     ~SessionController() override;
 
     /// What the camera and the picture are of, from now on; empty for the flat map.
-    void showOn(std::optional<OtherScene> scene) { other_scene_ = std::move(scene); }
+    void showOn(std::optional<OtherScene> scene);
+    /// Whether a layer is in the scene that is shown, and visible.
+    bool isInScene(const Layer& layer) const;
     /// For files that are opened from now on.
     void setOpener(const MapOpener& opener);
 
@@ -153,6 +155,7 @@ public:
     void endDrag();
     void setShading(ShadingMode mode);
     void setContours(bool has_contours);
+    void setOrder(LayerOrder order);
     /// Shows contour lines so many meters apart; 0: automatic.
     void setContourInterval(double interval_m);
     void setLight(Angle azimuth, Angle altitude);
@@ -180,6 +183,8 @@ public:
 Q_SIGNALS:
     /// Layers, their looks or which one is active.
     void sessionChanged();
+    /// Another scene is shown; see showOn().
+    void sceneChanged();
     void loadProgressed(const LoadReport& report);
     /// Nothing is loading any more.
     void loadingEnded();

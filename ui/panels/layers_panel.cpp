@@ -52,7 +52,7 @@ LayersPanel::LayersPanel(const LayerActions& actions, QWidget* parent)
     list_->setContextMenuPolicy(Qt::ActionsContextMenu);
     list_->setTabKeyNavigation(false);
     for (QAction* action : {actions.go_to, actions.prepare, actions.rename, actions.move_up,
-                            actions.move_down, actions.remove}) {
+                            actions.move_down, actions.finest_first, actions.remove}) {
         list_->addAction(action);
     }
 

@@ -22,6 +22,7 @@ struct LayerActions {
     QAction* remove = nullptr;
     QAction* move_up = nullptr;
     QAction* move_down = nullptr;
+    QAction* finest_first = nullptr; // of all layers
     QAction* rename = nullptr;
     QAction* go_to = nullptr;
     QAction* prepare = nullptr; // of a preview

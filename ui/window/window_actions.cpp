@@ -365,6 +365,12 @@ void WindowActions::makeLayerMenu(QMainWindow& window)
     layer.move_down = menu->addAction(tr("Move Layer &Down"));
     layer.move_down->setShortcut(QKeySequence(Qt::ALT | Qt::Key_Down));
     layer.move_down->setShortcutContext(Qt::WidgetShortcut);
+    //: Of layers that overlap
+    layer.finest_first = menu->addAction(tr("&Finest Layer on Top"));
+    layer.finest_first->setCheckable(true);
+    layer.finest_first->setStatusTip(
+        tr("Where layers overlap, show, read and touch the one with the smallest pixels, instead "
+           "of the upper one in the list"));
     menu->addSeparator();
     layer.prepare = menu->addAction(tr("&Build Overviews"));
     layer.prepare->setToolTip(tr("Build the overviews of a large map, to see and touch all of it"));
@@ -631,20 +637,23 @@ void WindowActions::showSession(const Session& session)
             tr(is_slope && entry.slope_tip != nullptr ? entry.slope_tip : entry.tip));
         action->setChecked(active != nullptr && kind == shownStretch(*active, session.look.mode));
     }
-    const bool is_in_picture =
-        active != nullptr && index < states.size() && states[index] == LayerState::Shown;
-    stretch_to_view->setEnabled(is_in_picture);
-    stretch_to_view->setStatusTip(
-        is_in_picture || active == nullptr
-            ? tr("Spread the color ramp over the elevations that the picture shows now")
-            //: Why an entry of the menu cannot be chosen
-            : tr("Not available: the selected layer is not in the picture. Show it first"));
     stretch_to_view->setVisible(!is_slope);
     edit_stretch->setEnabled(active != nullptr);
     for (QAction* action : shading_group->actions()) {
         action->setChecked(action->data().toInt() == static_cast<int>(session.look.mode));
     }
     contours->setChecked(session.look.has_contours);
+    layer.finest_first->setChecked(session.order == LayerOrder::FinestFirst);
+}
+
+void WindowActions::showStretchToView(bool has_layer, bool is_in_picture) const
+{
+    stretch_to_view->setEnabled(is_in_picture);
+    stretch_to_view->setStatusTip(
+        is_in_picture || !has_layer
+            ? tr("Spread the color ramp over the elevations that the picture shows now")
+            //: Why an entry of the menu cannot be chosen
+            : tr("Not available: the selected layer is not in the picture. Show it first"));
 }
 
 } // namespace marsview

@@ -107,6 +107,8 @@ struct WindowActions {
 
     /// Checks and enables what fits `session`.
     void showSession(const Session& session);
+    /// Whether the active layer, if there is one, is in the picture.
+    void showStretchToView(bool has_layer, bool is_in_picture) const;
     /// Checks `model`.
     void showContactModel(ContactModelKind model);
     /// Checks `tool`, and with Tool::Measure `kind`.

@@ -249,6 +249,7 @@ Project randomProject(Random& random)
                                        .field_of_view = randomAngle(random, 10.0, 80.0)};
     }
     project.scene = static_cast<SceneChoice>(random.below(3));
+    project.order = static_cast<LayerOrder>(random.below(2));
     if (random.chance(0.5)) {
         project.globe_camera = randomView(random, 0).camera;
     }

@@ -256,6 +256,30 @@ TEST(Placement, ShowsTheTopmostVisibleLayerAndOthersInItsCrs)
     EXPECT_TRUE(shownLayers(session).empty());
 }
 
+TEST(LayerOrder, PutsTheLayerWithTheSmallestPixelsOverTheOthers)
+{
+    Maps maps;
+    const auto coarse = maps.at("EPSG:32611", {500000.0, 90.0, 0.0, 4000000.0, 0.0, -90.0});
+    const auto fine = maps.at("EPSG:32611", kUtm);
+    const auto also_fine = maps.at("EPSG:32611", kUtm);
+    const auto other_zone = maps.at("EPSG:32612", {500000.0, 1.0, 0.0, 4000000.0, 0.0, -1.0});
+    const auto names = [](const std::vector<const Layer*>& layers) {
+        std::string text;
+        for (const Layer* layer : layers) {
+            text += layer->name;
+        }
+        return text;
+    };
+    Session session = with({other_zone, fine, also_fine, coarse}); // a, b, c, d
+    EXPECT_EQ(names(shownLayers(session)), "dcb");
+    EXPECT_EQ(names(layersOnBody(session)), "dcba");
+    session = withOrder(session, LayerOrder::FinestFirst);
+    EXPECT_EQ(names(shownLayers(session)), "cbd"); // the topmost one still decides on the CRS
+    EXPECT_EQ(names(layersOnBody(session)), "acbd");
+    session = withVisibility(session, session.layers[3].id, false);
+    EXPECT_EQ(names(layersOnBody(session)), "cbd");
+}
+
 TEST(Placement, NeverDependsOnHiddenLayers)
 {
     Maps maps;

@@ -62,6 +62,21 @@ TEST_F(GlobeLayersTest, LayersInOtherProjectionsLieTogetherTheUpperOneOnTop)
     EXPECT_EQ(layerAt(-120.0, 10.0), 1U);
 }
 
+TEST_F(GlobeLayersTest, TheFinestLayerCoversTheOthersOnRequest)
+{
+    ASSERT_TRUE(showBoth());
+    const auto mars = window_->session().layers.back().map; // its samples are finer
+    QAction* finest_first = window_->actionSet().layer.finest_first;
+    finest_first->trigger();
+    ASSERT_TRUE(waitFor([&] { return globe().layers().front().map == mars; }));
+    EXPECT_EQ(layerAt(0.0, 80.0), 0U);
+    EXPECT_EQ(globe().scene().maps().front().map(), mars); // read and touched in this order
+    window_->controller().undoStack().undo();
+    EXPECT_FALSE(finest_first->isChecked());
+    ASSERT_TRUE(waitFor([&] { return globe().layers().back().map == mars; }));
+    EXPECT_EQ(layerAt(0.0, 80.0), 0U);
+}
+
 TEST_F(GlobeLayersTest, AMapThatIsOpenedOnTheGlobeIsInItsPictureOnceTheWindowHasSettled)
 {
     ASSERT_TRUE(showGlobe());
@@ -209,6 +224,12 @@ TEST_F(GlobeLayersTest, StretchToViewTakesTheElevationsOfTheLayerInThePicture)
     EXPECT_NEAR(taken.low, seen.minimum_m, tolerance_m);
     EXPECT_NEAR(taken.high, seen.maximum_m, tolerance_m);
     EXPECT_EQ(colorRangeOf(globe().layers().front()).minimum_m, taken.low);
+    // The flat map leaves out the lower one.
+    window_->controller().activate(window_->session().layers.back().id);
+    ASSERT_TRUE(window_->actionSet().stretch_to_view->isEnabled());
+    window_->actionSet().stretch_to_view->trigger();
+    EXPECT_EQ(window_->session().layers.back().stretch.kind, StretchKind::Fixed);
+    window_->controller().activate(window_->session().layers.front().id);
     // Where the picture shows none of a layer, its colors stay.
     globe().setCamera({.target = {.longitude = {}, .latitude = {}}, .distance_m = 1e6});
     window_->actionSet().stretch_to_view->trigger();
