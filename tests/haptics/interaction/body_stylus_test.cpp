@@ -93,23 +93,27 @@ TEST_F(BodyStylusTest, WithoutASurfaceItHoversAlone)
 TEST_F(BodyStylusTest, IsNotPressedWhereAnotherSurfaceIsTheTerrain)
 {
     const BodyAim at = aimAt(20.0, 50.0);
+    const auto proxyAt = [&](double share) {
+        return makeContactModel(kContactModelDefault, BodySurface(mesh_), ContactModelOptions{})
+            ->place(at.point - at.up * (30.0 * kPointM * share))
+            .proxy;
+    };
+    // Farther than this the full depth and half of it would lead.
+    const double reach_m = 0.9 * length(proxyAt(0.5) - at.point);
+    ASSERT_GT(reach_m, 1.0);
+    ASSERT_GT(length(proxyAt(1.0) - at.point), reach_m);
     stylus_.setGround({{.mesh = mesh_, .radius_m = 1e4}},
-                      [&at](const ScenePoint& point) -> std::optional<std::size_t> {
-                          return length(point - at.point) < 3e4 ? 0U : 1U;
+                      [&](const ScenePoint& point) -> std::optional<std::size_t> {
+                          return length(point - at.point) < reach_m ? 0U : 1U;
                       });
     stylus_.aim(at, {.is_pressing = true}, kPointM);
-    EXPECT_LT(length(stylus_.pose()->proxy - at.point), 3e4);
     // It is pressed as deep as that allows, by halves.
-    ScenePoint deepest{};
-    for (double share = 1.0; share > 1e-3 && deepest == ScenePoint{}; share *= 0.5) {
-        const ScenePoint goal = at.point - at.up * (30.0 * kPointM * share);
-        const ScenePoint proxy =
-            makeContactModel(kContactModelDefault, BodySurface(mesh_), ContactModelOptions{})
-                ->place(goal)
-                .proxy;
-        deepest = length(proxy - at.point) < 3e4 ? proxy : ScenePoint{};
+    double share = 0.25;
+    while (share > 1e-3 && length(proxyAt(share) - at.point) >= reach_m) {
+        share *= 0.5;
     }
-    EXPECT_NEAR(length(stylus_.pose()->proxy - deepest), 0.0, 1e-3);
+    ASSERT_LT(length(proxyAt(share) - at.point), reach_m);
+    EXPECT_NEAR(length(stylus_.pose()->proxy - proxyAt(share)), 0.0, 1e-3);
 }
 
 TEST_F(BodyStylusTest, AGrabHoldsWhatItGrabbed)
