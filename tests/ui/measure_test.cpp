@@ -283,6 +283,18 @@ TEST_F(MeasureTest, ResultsFollowTheLayersOverrides)
         << before_m << " " << elevation();
 }
 
+TEST_F(MeasureTest, ThePanelWidensNoSmallWindow)
+{
+    constexpr int kWidth = 700; // 1050 pixels at 150 %
+    window_->resize(kWidth, 467);
+    ASSERT_NO_FATAL_FAILURE(choose(MeasurementKind::Profile));
+    click(at(-0.05, 0.0));
+    click(at(0.05, 0.0));
+    ASSERT_TRUE(isMeasured());
+    EXPECT_EQ(window_->width(), kWidth);
+    EXPECT_LE(window_->minimumSizeHint().width(), kWidth);
+}
+
 TEST_F(MeasureTest, TheListNamesShowsAndRemoves)
 {
     ASSERT_NO_FATAL_FAILURE(choose(MeasurementKind::Attitude));

@@ -12,6 +12,7 @@
 #include "ui/plots/profile_plot.h"
 #include "ui/text/sentence.h"
 #include "ui/widgets/caption.h"
+#include "ui/widgets/scroll_area.h"
 
 #include <QAbstractButton>
 #include <QClipboard>
@@ -24,6 +25,7 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QSaveFile>
+#include <QScrollArea>
 #include <QSplitter>
 #include <QTableWidget>
 #include <QToolButton>
@@ -80,7 +82,12 @@ MeasurePanel::MeasurePanel(MeasureController& controller, QWidget* parent)
     splitter->setStretchFactor(4, 3);
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(6, 4, 6, 6);
-    layout->addWidget(splitter, 1);
+    // In a small window it scrolls rather than that the window is widened.
+    auto* scroll = makeScrollArea(this);
+    scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAsNeeded);
+    scroll->setFocusPolicy(Qt::NoFocus);
+    scroll->setWidget(splitter);
+    layout->addWidget(scroll, 1);
     hint_ = new QLabel(this);
     hint_->setObjectName(QStringLiteral("measureHint"));
     hint_->setForegroundRole(QPalette::PlaceholderText);
