@@ -1716,6 +1716,11 @@
         <translation>%1 wurde auf einer Karte aufgezeichnet, die nicht geöffnet ist: %2 × %3 Abtastwerte, %4.</translation>
     </message>
     <message>
+        <source>Layers touched as one surface in %1: %2 when it was recorded, %3 now.</source>
+        <extracomment>%1 is a file, %2 and %3 are numbers of layers</extracomment>
+        <translation>Ebenen, die in %1 als eine Oberfläche ertastet werden: %2 bei der Aufnahme, jetzt %3.</translation>
+    </message>
+    <message>
         <source>%1 was recorded with %2 at exaggeration %3; it is replayed with %4 at %5.</source>
         <extracomment>%1 is a file, %2 and %4 are contact models, %3 and %5 numbers</extracomment>
         <translation>%1 wurde mit %2 bei Überhöhung %3 aufgezeichnet; abgespielt wird mit %4 bei %5.</translation>

@@ -122,7 +122,10 @@ QString savedTicksText(const SavedTicks& saved)
              numberText(saved.seconds, 1));
 }
 
-QString replayText(const QString& file, const ReplayFit& fit, const TouchedGround& ground)
+QString replayText(const QString& file,
+                   const ReplayFit& fit,
+                   const TouchedGround& ground,
+                   std::size_t map_count)
 {
     const QString name = QFileInfo(file).fileName();
     if (fit.isElsewhere()) {
@@ -146,6 +149,11 @@ QString replayText(const QString& file, const ReplayFit& fit, const TouchedGroun
                              .arg(name, countText(fit.other_map->columns),
                                   countText(fit.other_map->rows),
                                   bodyText(fit.other_map->ellipsoid)));
+    }
+    if (const GoalPart* other = fit.otherThan(map_count); other != nullptr && !fit.other_map) {
+        //: %1 is a file, %2 and %3 are numbers of layers
+        sentences.append(tr("Layers touched as one surface in %1: %2 when it was recorded, %3 now.")
+                             .arg(name, countText(1 + other->below.size()), countText(map_count)));
     }
     if (const GoalPart* other = fit.otherThan(ground)) {
         //: %1 is a file, %2 and %4 are contact models, %3 and %5 numbers

@@ -8,6 +8,7 @@
 #include <QString>
 
 #include <chrono>
+#include <cstddef>
 #include <string>
 
 namespace marsview {
@@ -29,9 +30,12 @@ QString realTimeText(const RealTimeGrants& grants);
 QString recordedText(const QString& file, qulonglong updates, RecordingEnd end);
 /// "flight.csv: 10,000 ticks of 10.0 s".
 QString savedTicksText(const SavedTicks& saved);
-/// The differences between a recording and the open maps or `ground`, as sentences; empty if there
-/// are none.
-QString replayText(const QString& file, const ReplayFit& fit, const TouchedGround& ground);
+/// The differences between a recording and the open maps or `ground`, a surface of `map_count`
+/// maps, as sentences; empty if there are none.
+QString replayText(const QString& file,
+                   const ReplayFit& fit,
+                   const TouchedGround& ground,
+                   std::size_t map_count = 1);
 /// That a recording was replayed to its end.
 QString replayEndText(const QString& file);
 /// "0.45 N", to about the hundredth of the largest force, which a hand distinguishes.

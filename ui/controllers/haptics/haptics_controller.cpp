@@ -317,7 +317,10 @@ void HapticsController::reportReplay()
         .radius_m = device_->settings().map ? device_->settings().map->radius_m : 1.0,
         .exaggeration = exaggeration_,
     };
-    const QString text = replay_fit_ ? replayText(file, *replay_fit_, ground) : QString();
+    const std::size_t map_count =
+        device_->settings().map ? 1 + device_->settings().map->below.size() : 1;
+    const QString text =
+        replay_fit_ ? replayText(file, *replay_fit_, ground, map_count) : QString();
     if (replay_fit_ && replay_fit_->isElsewhere()) {
         device_->stopReplay(text);
     } else if (text != device_->problem()) {
@@ -369,6 +372,7 @@ void HapticsController::chooseMap(const LoopState& state)
     if (!scene_->isTouched(next) && !recorder_->isRecording()) {
         takeMap(next);
         push();
+        reportReplay();
     }
 }
 
