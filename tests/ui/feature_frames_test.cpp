@@ -1,6 +1,7 @@
 // How long a frame takes with many features over the map, and with none. For figures, on an idle
-// machine, medians of five alternating runs, with tests configured as -DMARSVIEW_TEST_OPTIMIZATION=-O2;
-// another map with MARSVIEW_FRAME_MAP=FILE:
+// machine, medians of five alternating runs, with tests configured by -DMARSVIEW_TEST_OPTIMIZATION=-O2
+// -DMARSVIEW_WERROR=OFF (GCC 12 warns there about its own library); another map with
+// MARSVIEW_FRAME_MAP=FILE:
 //     MARSVIEW_FRAME_FEATURES=1000000 MARSVIEW_FRAME_ROUNDS=5 xvfb-run -a
 //     build/release/tests/ui/marsview_ui_test
 //         --gtest_filter='FeatureFrames*'
