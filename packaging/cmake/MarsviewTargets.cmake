@@ -30,7 +30,9 @@ target_compile_options(marsview_flags INTERFACE
   $<$<BOOL:${MARSVIEW_WERROR}>:-Werror>)
 if(MARSVIEW_SANITIZE)
   target_compile_options(marsview_flags INTERFACE
-    -fsanitize=${MARSVIEW_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    -fsanitize=${MARSVIEW_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer
+    # GCC 12 warns about its own library then
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   target_link_options(marsview_flags INTERFACE -fsanitize=${MARSVIEW_SANITIZE})
 endif()
 

@@ -4,6 +4,8 @@
 
 #include <epoxy/gl.h>
 
+#include <cstddef>
+
 namespace marsview {
 
 WallDrawing::WallDrawing()
@@ -27,7 +29,7 @@ void WallDrawing::add(const NodeInstance& node,
 {
     const std::size_t begin = corners_.size();
     for (std::size_t i = 0; i < kQuadrantCount; ++i) {
-        if ((quadrants >> i & 1U) != 0) {
+        if ((static_cast<unsigned>(quadrants) >> i & 1U) != 0) {
             corners_.insert(corners_.end(), walls.at(i).begin(), walls.at(i).end());
         }
     }
