@@ -79,7 +79,7 @@ FileOpening::FileOpening(const Parts& parts)
 
 void FileOpening::open(const QStringList& files)
 {
-    Q_EMIT asked();
+    Q_EMIT requested();
     QStringList maps;
     QStringList vector_files;
     for (const QString& file : files) {

@@ -48,8 +48,8 @@ public:
     RecentFiles* recentFiles() const noexcept { return recent_; }
 
 Q_SIGNALS:
-    /// open() begins.
-    void asked();
+    /// Files are about to be opened.
+    void requested();
 
 private:
     static QStringList rasterFilters();

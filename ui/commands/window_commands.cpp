@@ -249,8 +249,8 @@ void WindowCommands::showMessages(WindowMessages& messages)
     const auto report_as = [&messages](const QString& title) {
         return [&messages, title](const QString& problem) { messages.report(title, problem); };
     };
-    QObject::connect(&files, &FileOpening::asked, &messages, &WindowMessages::forgetFailures);
-    QObject::connect(&project_menu, &ProjectMenu::asked, &messages,
+    QObject::connect(&files, &FileOpening::requested, &messages, &WindowMessages::forgetFailures);
+    QObject::connect(&project_menu, &ProjectMenu::requested, &messages,
                      &WindowMessages::forgetFailures);
     QObject::connect(&project, &ProjectController::written, &messages,
                      [&messages](const QStringList& written) {

@@ -54,8 +54,8 @@ public:
     /// At once, from the same side and distance.
     void lookAt(const GeographicPoint& place);
 
-    /// The ground at a pixel, for a drag or a zoom to hold; beside the body, the nearest point of
-    /// its edge.
+    /// The ground at a pixel, which a drag or a zoom holds; off the body, the nearest point of its
+    /// edge.
     HeldPoint hold(PixelPoint pixel) const;
     /// So that a point that is held is at its pixel.
     void pull(const HeldPoint& held);

@@ -12,11 +12,11 @@
 #include "ui/plots/profile_plot.h"
 #include "ui/text/sentence.h"
 #include "ui/widgets/caption.h"
-#include "ui/widgets/scroll_area.h"
 
 #include <QAbstractButton>
 #include <QClipboard>
 #include <QComboBox>
+#include <QEvent>
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QGuiApplication>
@@ -46,6 +46,32 @@ QString field(const QString& text)
 {
     return QString::fromStdString(csvField(text.toStdString()));
 }
+
+// Scrolls to the sides; as high as its content needs.
+class SidewaysScrollArea final : public QScrollArea {
+public:
+    explicit SidewaysScrollArea(QWidget* parent)
+        : QScrollArea(parent)
+    {
+        setWidgetResizable(true);
+        setFrameShape(QFrame::NoFrame);
+        setFocusPolicy(Qt::NoFocus);
+    }
+
+    QSize minimumSizeHint() const override
+    {
+        return {QScrollArea::minimumSizeHint().width(), widget()->minimumSizeHint().height()};
+    }
+
+protected:
+    bool eventFilter(QObject* watched, QEvent* event) override
+    {
+        if (watched == widget() && event->type() == QEvent::LayoutRequest) {
+            updateGeometry();
+        }
+        return QScrollArea::eventFilter(watched, event);
+    }
+};
 
 bool writeText(const QString& path, const std::string& text)
 {
@@ -82,10 +108,7 @@ MeasurePanel::MeasurePanel(MeasureController& controller, QWidget* parent)
     splitter->setStretchFactor(4, 3);
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(6, 4, 6, 6);
-    // In a small window it scrolls rather than that the window is widened.
-    auto* scroll = makeScrollArea(this);
-    scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAsNeeded);
-    scroll->setFocusPolicy(Qt::NoFocus);
+    auto* scroll = new SidewaysScrollArea(this); // a small window is not widened
     scroll->setWidget(splitter);
     layout->addWidget(scroll, 1);
     hint_ = new QLabel(this);

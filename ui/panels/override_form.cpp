@@ -443,7 +443,7 @@ void OverrideForm::apply()
         return;
     }
     clearProblems();
-    checkCrs(); // what it says stays beside what is wrong with the numbers
+    checkCrs(); // so that all problems are shown together
     const std::optional<RasterOverrides> overrides = entered();
     if (!overrides) {
         return;

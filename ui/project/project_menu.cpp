@@ -63,7 +63,7 @@ ProjectMenu::ProjectMenu(const Parts& parts, QObject* parent)
         new RecentFiles(*recent_menu_, parts_.memory, this, QStringLiteral("projects/recent"));
 
     connect(new_, &QAction::triggered, this, [this] {
-        Q_EMIT asked();
+        Q_EMIT requested();
         saveThen([this] { parts_.project.startNew(); });
     });
     connect(open_, &QAction::triggered, this, &ProjectMenu::chooseProject);
@@ -170,7 +170,7 @@ void ProjectMenu::chooseProject()
 
 void ProjectMenu::open(const QString& project, const QStringList& maps)
 {
-    Q_EMIT asked();
+    Q_EMIT requested();
     parts_.project.read(project, [this, maps](const ReadProject& read) {
         saveThen([this, maps, read] {
             parts_.project.open(read);

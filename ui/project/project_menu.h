@@ -55,8 +55,8 @@ public:
     QMenu* recentProjects() const noexcept { return recent_menu_; }
 
 Q_SIGNALS:
-    /// A new project, or one to open, is asked for.
-    void asked();
+    /// A project is about to be started or opened.
+    void requested();
 
 private:
     void chooseProject();

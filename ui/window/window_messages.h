@@ -28,7 +28,7 @@ public:
     /// In a notice that stays until the user closes it, and by the signal. The title says what was
     /// not done, the problem why.
     void report(const QString& title, const QString& problem);
-    /// Something else is asked for: notices of what failed before are no longer news.
+    /// Removes the notices of earlier failures: the user has asked for something else.
     void forgetFailures();
 
 Q_SIGNALS:
