@@ -26,6 +26,7 @@
 #include <QPushButton>
 #include <QSaveFile>
 #include <QScrollArea>
+#include <QScrollBar>
 #include <QSplitter>
 #include <QTableWidget>
 #include <QToolButton>
@@ -60,10 +61,17 @@ public:
 
     QSize minimumSizeHint() const override
     {
-        return {QScrollArea::minimumSizeHint().width(), widget()->minimumSizeHint().height()};
+        const QSize content = widget()->minimumSizeHint();
+        const int bar = content.width() > width() ? horizontalScrollBar()->sizeHint().height() : 0;
+        return {QScrollArea::minimumSizeHint().width(), content.height() + bar};
     }
 
 protected:
+    void resizeEvent(QResizeEvent* event) override
+    {
+        QScrollArea::resizeEvent(event);
+        updateGeometry();
+    }
     bool eventFilter(QObject* watched, QEvent* event) override
     {
         if (watched == widget() && event->type() == QEvent::LayoutRequest) {
