@@ -172,6 +172,14 @@ TEST(BodyView, ALimitMovesTheFrameOnlyIfItIsSeen)
         EXPECT_TRUE(turned(0.06));
         EXPECT_FALSE(turned(360.0));
     }
+    EXPECT_TRUE(is_moved([](BodyCamera& at) { at.azimuth = -at.azimuth; }));
+    // From far away a target that has moved by less than a thousandth of the distance may have
+    // another north by more than 0.05°; headings count in whole turns.
+    const BodyCamera far = cameraOver(-30.0, 20.0, 1e7);
+    BodyCamera beside = far;
+    beside.target.latitude = beside.target.latitude + Angle::degrees(0.1);
+    beside.azimuth = beside.azimuth + Angle::degrees(360.0);
+    EXPECT_FALSE(limitedView({far, frameFor(far, kBall), kBall}, beside).is_moved);
     // At a pole the heading of one and the same view depends on the longitude.
     BodyCamera pole = cameraOver(10.0, 90.0, 3e5);
     const BodyHandView over_pole{pole, frameFor(pole, kBall), kBall};
