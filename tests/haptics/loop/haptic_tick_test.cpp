@@ -153,6 +153,39 @@ TEST(HapticTick, NoForceOfAnEarlierHoldFollowsAJump)
     for (int i = 0; i < 50; ++i) {
         EXPECT_EQ(rig.at({}).force_n, Vec3{}) << i;
     }
+    // Nor does one that still fades: a jump ends it.
+    rig.options.limits.change_ramp_s = 1e-3;
+    rig.to({0.0, 0.0, -0.022});
+    rig.settings.is_grabbing = true;
+    EXPECT_LT(rig.to({0.0, 0.0, -0.015}).force_n.z, -1.0);
+    rig.settings.is_grabbing = false;
+    rig.options.limits.change_ramp_s = 0.05;
+    EXPECT_LT(rig.at({0.0, 0.0, -0.015}).force_n.z, -1.0);
+    rig.settings.frame.place = rig.state.frame.place + Vec3{20.0, 0.0, 0.0};
+    ++rig.settings.frame_number;
+    for (int i = 0; i < 50; ++i) {
+        EXPECT_EQ(rig.at({0.0, 0.0, -0.015}).force_n, Vec3{}) << i;
+    }
+}
+
+// Linearly, within the time of a ramp, or of a millisecond if that is zero.
+TEST(HapticTick, TheForceOfAHoldFadesAfterARelease)
+{
+    for (const auto& [ramp_s, ticks] : {std::pair(0.01, 10), std::pair(0.0, 1)}) {
+        Rig rig;
+        rig.at({});
+        rig.to({0.0, 0.0, -0.022});
+        rig.settings.is_grabbing = true;
+        const double held_n = rig.to({0.0, 0.0, -0.015}).force_n.z;
+        EXPECT_LT(held_n, -1.0);
+        rig.settings.is_grabbing = false;
+        rig.options.limits.change_ramp_s = ramp_s;
+        for (int i = 0; i < ticks + 2; ++i) {
+            EXPECT_NEAR(rig.at({0.0, 0.0, -0.015}).force_n.z,
+                        held_n * std::max(0.0, 1.0 - static_cast<double>(i) / ticks), 1e-9)
+                << ramp_s << " s, tick " << i;
+        }
+    }
 }
 
 TEST(HapticTick, ReportsTheHeightOfTheSurfaceBelowTheHand)
@@ -541,6 +574,60 @@ TEST(HapticTick, SwitchesTheForceOffIfTheTerrainStopsArriving)
     EXPECT_NEAR(rig.at(pressed).force_n.z, 2.0, 1e-9);
 }
 
+// The streamer is told where the proxy was in the last tick, and how fast it moves: 0.05 m/s to the
+// right are 50 columns of a meter, 0.1 m/s towards the user 100 rows.
+TEST(HapticTick, TellsTheStreamerHowTheProxyMoves)
+{
+    const TiledMap tiles =
+        tiledMap(floatTerrain(201, 201, [](std::size_t, std::size_t) { return 10.0; }));
+    const auto exchange = std::make_shared<ClipmapExchange>(
+        std::make_shared<const Clipmap>(tiles.window({100.0, 100.0})));
+    Rig rig(makeServoMap(meterFrame(201, 201),
+                         std::make_shared<ServoTerrain>(exchange, tiles.heights), {}));
+    rig.at({});
+    HandMotion motion = exchange->motion.read();
+    EXPECT_EQ(motion.columns_per_s, 0.0) << "nothing was touched before";
+    EXPECT_EQ(motion.rows_per_s, 0.0);
+    for (int i = 1; i <= 3; ++i) {
+        rig.at({5e-5 * i, -1e-4 * i, 0.0});
+    }
+    motion = exchange->motion.read();
+    EXPECT_NEAR(motion.at.column, 100.0 + 0.05 * 2.0, 1e-9);
+    EXPECT_NEAR(motion.at.row, 100.0 + 0.1 * 2.0, 1e-9);
+    EXPECT_NEAR(motion.columns_per_s, 50.0, 1e-6);
+    EXPECT_NEAR(motion.rows_per_s, 100.0, 1e-6);
+    EXPECT_EQ(motion.time_ns, rig.input.now.time_since_epoch() / 1ns);
+    EXPECT_TRUE(motion.is_active);
+    rig.at({5e-5 * 4, -1e-4 * 4, 0.0}, 0.0);
+    EXPECT_EQ(exchange->motion.read().columns_per_s, 0.0) << "no time has passed";
+}
+
+// At 400 N/m, 20 N/s are 50 mm/s of the workspace and 50 m/s of the scene. Samples between those of
+// the coarser level are half a meter higher.
+TEST(HapticTick, TerrainThatArrivesChangesTheForceSlowly)
+{
+    const TiledMap tiles = tiledMap(floatTerrain(301, 301, [](std::size_t column, std::size_t row) {
+        return column % 2 == 1 && row % 2 == 1 ? 10.5 : 10.0;
+    }));
+    const auto exchange = std::make_shared<ClipmapExchange>(
+        std::make_shared<const Clipmap>(tiles.window({150.0, 150.0})));
+    const auto terrain = std::make_shared<ServoTerrain>(exchange, tiles.heights);
+    Rig rig(makeServoMap(meterFrame(301, 301), terrain, {}));
+    rig.at({});
+    const auto height_m = [&] { return terrain->terrain()->sample(151, 151); };
+    EXPECT_EQ(height_m(), 10.0);
+    auto next = std::make_shared<Clipmap>(tiles.window({150.0, 150.0}));
+    next->put(tiles.tile(samplesTile(0, 0, 0)), 0.5);
+    exchange->windows.back() = next;
+    exchange->windows.publish();
+    for (int i = 1; i <= 12; ++i) {
+        rig.at({});
+        EXPECT_NEAR(height_m(), 10.0 + std::min(0.05 * i, 0.5), 0.0501) << i;
+        EXPECT_LE(height_m(), 10.0 + 0.05 * i + 1e-9) << i;
+    }
+    EXPECT_EQ(height_m(), 10.5);
+}
+
 TEST(HapticTick, KeepsToTheContinuousForceOfTheDevice)
 {
     DeviceCapabilities device = desktopDevice();
@@ -808,6 +895,26 @@ TEST(HapticTick, DampsASurplusOfEnergyAndLetsSpringsReturnTheirs)
     rig.at({0.0, 0.0, -0.025});
     EXPECT_NEAR(rig.state.passivity.energy_j,
                 rig.options.passivity.energy_j_max + 0.5 * 2.0 * 2.0 / 400.0, 1e-12);
+}
+
+// The hand has the energy of the spring to give back, and that of the map that it has set in
+// motion.
+TEST(HapticTick, AMovingMapHoldsKineticEnergy)
+{
+    Rig rig;
+    rig.at({});
+    rig.to({0.0, 0.0, -0.022});
+    rig.settings.is_grabbing = true;
+    rig.to({0.01, 0.0, -0.022}); // at 0.1 m/s
+    rig.options.is_passivity_kept = true;
+    rig.state.passivity.energy_j = 1.0;
+    const double force_n = length(rig.at({0.0101, 0.0, -0.022}).force_n);
+    const double map_m_per_s = length(rig.state.modes.pan.velocity_m_per_s);
+    EXPECT_GT(map_m_per_s, 0.05);
+    EXPECT_NEAR(rig.state.passivity.energy_j,
+                rig.options.passivity.energy_j_max + 0.5 * force_n * force_n / 400.0 +
+                    0.5 * rig.settings.modes.pan.mass_kg * map_m_per_s * map_m_per_s,
+                1e-12);
 }
 
 // The hand is 20 mm from the map's edge, which glides towards it at 0.3 m/s.
