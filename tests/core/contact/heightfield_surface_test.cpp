@@ -88,6 +88,33 @@ TEST(HeightfieldSurface, CastsPassThroughNoEdgeAndNoVertex)
     }
 }
 
+// Level casts across a ridge, at the height of its crest: they only touch it. A nanometer lower
+// they end there.
+TEST(HeightfieldSurface, ACastThatTouchesARidgePassesOn)
+{
+    std::vector<float> heights;
+    for (int i = 0; i < 41 * 41; ++i) {
+        heights.push_back(static_cast<float>(-std::abs(i % 41 - 20)));
+    }
+    const HeightfieldSurface surface = test::surfaceOver(test::filledTerrain(41, heights));
+    for (const double side : {-1.0, 1.0}) {
+        for (const double y : {0.0, 0.25, 0.5}) {       // over samples and beside them
+            for (const double turn : {0.0, 0.5, 1.0}) { // also along diagonals of cells
+                const auto cast = [&](double z) {
+                    const double far_m = 5.0 * side;
+                    return surface.castFree(*surface.goal({-far_m, y - turn * far_m, z}),
+                                            *surface.goal({far_m, y + turn * far_m, z}));
+                };
+                EXPECT_FALSE(cast(0.0).contact) << side << ' ' << y << ' ' << turn;
+                const auto below = cast(-1e-9);
+                ASSERT_TRUE(below.contact);
+                EXPECT_NEAR(test::distance(surface.point(*below.contact), {0.0, y, 0.0}), 0.0,
+                            3e-9);
+            }
+        }
+    }
+}
+
 TEST(HeightfieldSurface, CastsThroughFreeSpaceVisitNoCells)
 {
     const auto terrain = test::filledTerrain(1500, test::fractalHeights(1500, 1100, 2));
