@@ -1,4 +1,6 @@
+#include "core/contact/continuous_walk.h"
 #include "core/contact/heightfield_surface.h"
+#include "core/contact/proxy_graph.h"
 #include "core/contact/surface_walk.h"
 #include "tests/core/contact/contact_terrain.h"
 #include "tests/support/random.h"
@@ -119,6 +121,47 @@ TEST(SteepestDescent, LeavesAVertexOverTheFaceThatLeadsCloserFastest)
         frame.east_per_row = east_per_row;
         EXPECT_GT(endsAtSteepestFeet({terrain, frame, 1.0}), 500) << east_per_row;
     }
+    SceneFrame dense = test::unitFrame(*terrain); // faces of less than half a square meter
+    dense.east_per_column = 0.5;
+    dense.north_per_row = -0.5;
+    EXPECT_GT(endsAtSteepestFeet({terrain, dense, 1.0}), 500);
+}
+
+// A level hexagon of radius 1 m in the middle, with pits around it. A path from one of its faces
+// through the middle sample goes on into the opposite face; from every other sample the way to the
+// deep goal leads into a pit.
+template <typename Model>
+void crossesTheMiddle(const HeightfieldSurface& surface)
+{
+    for (std::size_t i = 0; i < 6; ++i) {
+        for (const double share : {0.25, 0.5, 0.75}) {
+            const auto at = [&](double radius, double z) {
+                const std::array<int, 2>& a = kAround[i];
+                const std::array<int, 2>& b = kAround[(i + 1) % 6];
+                return ScenePoint{radius * (a[0] * share + b[0] * (1.0 - share)),
+                                  -radius * (a[1] * share + b[1] * (1.0 - share)), z};
+            };
+            Model model(surface);
+            ASSERT_EQ(model.place(at(0.5, -0.125)).proxy, at(0.5, 0.0));
+            const ContactState state = model.update(at(-0.25, -6.0));
+            EXPECT_NEAR(test::distance(state.proxy, at(-0.25, 0.0)), 0.0, 1e-12)
+                << i << ' ' << share;
+            EXPECT_EQ(state.feature, ContactFeature::Face);
+        }
+    }
+}
+
+TEST(SteepestDescent, APathThroughASampleGoesOnBeyondIt)
+{
+    std::vector<float> heights(std::size_t{9} * 9, -1.0F);
+    heights[4 * 9 + 4] = 0.0F;
+    for (const auto& [column, row] : kAround) {
+        heights[static_cast<std::size_t>((4 + row) * 9 + 4 + column)] = 0.0F;
+    }
+    const HeightfieldSurface surface = test::surfaceOver(test::filledTerrain(9, heights));
+    crossesTheMiddle<Walk>(surface);
+    crossesTheMiddle<ProxyGraph<HeightfieldSurface>>(surface);
+    crossesTheMiddle<ContinuousWalk<HeightfieldSurface>>(surface);
 }
 
 } // namespace
