@@ -119,7 +119,8 @@ TEST(BenchContactCommand, MeasuresTheSameErrorsEveryTime)
 {
     const auto errors = [] {
         std::vector<nlohmann::json> found;
-        for (const nlohmann::json& row : onSmallFractal({"--sample-type", "int16"})["rows"]) {
+        const nlohmann::json bench = onSmallFractal({"--sample-type", "int16"});
+        for (const nlohmann::json& row : bench["rows"]) {
             found.push_back(row["errors"]);
             found.push_back(row["vertices"]);
             found.push_back(row["cells"]);

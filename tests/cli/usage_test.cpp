@@ -326,8 +326,18 @@ TEST(Usage, SaysThatExactlyOneOfTwoIsRequired)
               "marsview-cli: --map, --lonlat, --pixel: exactly one is required");
 }
 
+// Sanitizers reserve terabytes of address space.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kCanLimitMemory = false;
+#else
+constexpr bool kCanLimitMemory = true;
+#endif
+
 TEST(Usage, FailsInOneLineOnEndlessInput)
 {
+    if (!kCanLimitMemory) {
+        GTEST_SKIP() << "built with a sanitizer";
+    }
     const TempFolder folder;
     const std::string cli = MARSVIEW_CLI;
     const std::string mars = bundledMars();
@@ -357,6 +367,9 @@ TEST(Usage, FailsInOneLineOnEndlessInput)
 
 TEST(Usage, ReportsALackOfMemoryInOneLine)
 {
+    if (!kCanLimitMemory) {
+        GTEST_SKIP() << "built with a sanitizer";
+    }
     const ProgramOutput output =
         runProgram({"bash", "-c",
                     fmt::format("ulimit -v 1500000; '{}' bench contact --size 65536 --updates 2",

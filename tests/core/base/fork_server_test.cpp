@@ -33,6 +33,7 @@ int childMain(const std::vector<std::string>& arguments)
         }
     }
     if (task == "crash") {
+        std::signal(SIGSEGV, SIG_DFL); // sanitizers have a handler of their own
         std::raise(SIGSEGV);
     }
     if (task == "throw") {
