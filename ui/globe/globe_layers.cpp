@@ -63,7 +63,10 @@ void GlobeLayers::set(const std::vector<ShownLayer>& top_first)
     std::erase_if(placed_, [this, ellipsoid = ellipsoid()](const Placed& placed) {
         return (placed.grid && placed.grid->ellipsoid() != ellipsoid) || !isWanted(placed.map);
     });
-    showPlaced(wanted_.empty() || wanted_.front().map->info().body != before);
+    const bool is_other_body = wanted_.empty() || wanted_.front().map->info().body != before;
+    if (is_other_body || !isReplacing()) {
+        showPlaced(is_other_body);
+    }
     placeNext();
 }
 
@@ -71,6 +74,14 @@ bool GlobeLayers::isWanted(const std::shared_ptr<const Map>& map) const
 {
     return std::any_of(wanted_.begin(), wanted_.end(),
                        [&](const ShownLayer& layer) { return layer.map == map; });
+}
+
+bool GlobeLayers::isReplacing() const
+{
+    return std::all_of(shown_.begin(), shown_.end(),
+                       [this](const ShownLayer& layer) { return isWanted(layer.map); }) &&
+           std::any_of(shown_.begin(), shown_.end(),
+                       [this](const ShownLayer& layer) { return placedOf(layer) == nullptr; });
 }
 
 std::vector<GlobeLayers::Missing> GlobeLayers::missing() const
@@ -128,7 +139,9 @@ void GlobeLayers::placeNext()
                 {.map = map,
                  .grid = grid ? *grid : nullptr,
                  .problem = grid ? QString() : QString::fromStdString(grid.error().message)});
-            showPlaced(false);
+            if (!isReplacing()) {
+                showPlaced(false);
+            }
             placeNext();
         });
     });

@@ -59,6 +59,9 @@ private:
     };
 
     std::optional<Ellipsoid> ellipsoid() const;
+    // What is shown stays wanted, and a part of it is being placed on another ellipsoid. Until all
+    // of it is placed, the picture stays as it is.
+    bool isReplacing() const;
     const Placed* placedOf(const ShownLayer& layer) const;
     void cancel();
     void placeNext();

@@ -68,12 +68,19 @@ TEST_F(GlobeLayersTest, TheFinestLayerCoversTheOthersOnRequest)
     const auto mars = window_->session().layers.back().map; // its samples are finer
     QAction* finest_first = window_->actionSet().layer.finest_first;
     finest_first->trigger();
-    ASSERT_TRUE(waitFor([&] { return globe().layers().front().map == mars; }));
+    ASSERT_TRUE(waitFor([&] {
+        EXPECT_EQ(globe().layers().size(), 2U);
+        return globe().layers().size() == 2 && globe().layers().front().map == mars;
+    }));
     EXPECT_EQ(layerAt(0.0, 80.0), 0U);
     EXPECT_EQ(globe().scene().maps().front().map(), mars); // read and touched in this order
     window_->controller().undoStack().undo();
     EXPECT_FALSE(finest_first->isChecked());
-    ASSERT_TRUE(waitFor([&] { return globe().layers().back().map == mars; }));
+    // They are placed on another ellipsoid, that of the lowest layer, and stay in the picture.
+    ASSERT_TRUE(waitFor([&] {
+        EXPECT_EQ(globe().layers().size(), 2U);
+        return globe().layers().size() == 2 && globe().layers().back().map == mars;
+    }));
     EXPECT_EQ(layerAt(0.0, 80.0), 0U);
 }
 
