@@ -104,8 +104,9 @@ readGoalRecording(const std::string& text, const std::string& name, GoalColumns 
         if (!has_header) {
             if (!isHeader(words, columns)) {
                 return Error{ErrorCode::Invalid,
-                             fmt::format("{}: not a touch recording or list of goals: line {} is "
-                                         "\"{}\", not the header \"{}\"",
+                             fmt::format("{}: is neither a touch recording nor a list of goals "
+                                         "(line {} is \"{}\", not the header \"{}\"); choose a "
+                                         "file that this program recorded",
                                          name, number, quotedWord(line), headerOf(columns))};
             }
             has_header = true;

@@ -3331,8 +3331,12 @@ y %2</translation>
         <translation>&amp;Abstand zwischen Höhenlinien</translation>
     </message>
     <message>
-        <source>Interval between contour lines</source>
-        <translation>Abstand zwischen Höhenlinien</translation>
+        <source>Enter an interval from %1 m to %2 m, or 0 for automatic.</source>
+        <translation>Geben Sie einen Abstand von %1 m bis %2 m ein oder 0 für einen automatischen.</translation>
+    </message>
+    <message>
+        <source>Enter an interval from %1 m to %2 m.</source>
+        <translation>Geben Sie einen Abstand von %1 m bis %2 m ein.</translation>
     </message>
 </context>
 <context>
@@ -4038,6 +4042,10 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
         <translation>&amp;Koordinaten kopieren</translation>
     </message>
     <message>
+        <source>&amp;Remove Pin</source>
+        <translation>Markierung &amp;entfernen</translation>
+    </message>
+    <message>
         <source>Copy &amp;Elevation</source>
         <translation>&amp;Höhe kopieren</translation>
     </message>
@@ -4447,12 +4455,12 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
         <translation>Die nächste Meldung zeigen</translation>
     </message>
     <message>
-        <source>Close Notices</source>
-        <translation>Meldungen schließen</translation>
+        <source>Close Notice</source>
+        <translation>Meldung schließen</translation>
     </message>
     <message>
-        <source>Close the notices</source>
-        <translation>Die Meldungen schließen</translation>
+        <source>Close this notice</source>
+        <translation>Diese Meldung schließen</translation>
     </message>
     <message>
         <source>%1 of %2 ›</source>
@@ -5506,6 +5514,10 @@ Bewegen Sie die Karte zu einer Ansicht, die Sie behalten wollen, und drücken Si
         <source>Pointer</source>
         <extracomment>Before a coordinate: the place under the mouse pointer</extracomment>
         <translation>Zeiger</translation>
+    </message>
+    <message>
+        <source>full detail</source>
+        <translation>volles Detail</translation>
     </message>
     <message>
         <source>detail %1 px</source>

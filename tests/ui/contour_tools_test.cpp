@@ -9,7 +9,10 @@
 #include "ui/window/window_actions.h"
 
 #include <QAction>
+#include <QDialogButtonBox>
 #include <QFileInfo>
+#include <QLabel>
+#include <QPushButton>
 #include <QTest>
 
 #include <gtest/gtest.h>
@@ -60,6 +63,30 @@ TEST_F(ContourToolsTest, IntervalsHaveTheDigitsThatTheyNeed)
         EXPECT_EQ(dialog.box()->value(), value) << typed;
         EXPECT_EQ(dialog.box()->text(), QString::fromLatin1(shown)) << typed;
     }
+}
+
+TEST_F(ContourToolsTest, AnImpossibleIntervalIsRefusedBesideItsField)
+{
+    IntervalDialog dialog({}, IntervalDialog::Automatic::Allowed, 20.0);
+    dialog.show();
+    const auto type = [&dialog](const char* text) {
+        dialog.box()->setFocus();
+        dialog.box()->selectAll();
+        QTest::keyClicks(dialog.box(), QString::fromLatin1(text));
+    };
+    const auto* ok = dialog.findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok);
+    const auto* note = dialog.findChild<QLabel*>(QStringLiteral("intervalNote"));
+    ASSERT_NE(note, nullptr);
+    type("-3");
+    EXPECT_FALSE(ok->isEnabled());
+    EXPECT_TRUE(note->isVisible());
+    EXPECT_TRUE(note->text().startsWith(QStringLiteral("Enter an interval")))
+        << note->text().toStdString();
+    type("30");
+    EXPECT_TRUE(ok->isEnabled());
+    EXPECT_FALSE(note->isVisible());
+    dialog.box()->interpretText();
+    EXPECT_EQ(dialog.box()->value(), 30.0);
 }
 
 TEST_F(ContourToolsTest, ContoursOfTheActiveLayerAreExported)

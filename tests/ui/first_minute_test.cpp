@@ -144,6 +144,16 @@ TEST_F(FirstMinuteTest, EscInAFieldOrAMenuKeepsWhatIsOnTheMap)
     EXPECT_TRUE(hint().isVisible()) << "one thing at a time";
 }
 
+TEST_F(FirstMinuteTest, F10OpensTheMenus)
+{
+    open();
+    QMenu* menu = window_->menuBar()->actions().front()->menu();
+    QTest::keyClick(&view(), Qt::Key_F10);
+    ASSERT_TRUE(QTest::qWaitFor([&] { return menu->isVisible(); }, kTimeout));
+    QTest::keyClick(menu, Qt::Key_Escape);
+    EXPECT_FALSE(menu->isVisible());
+}
+
 TEST_F(FirstMinuteTest, TheHintGoesWhenAllWasTried)
 {
     open();

@@ -7,6 +7,7 @@
 #include "ui/controllers/annotation_controller.h"
 #include "ui/controllers/measure_controller.h"
 #include "ui/dialogs/place_dialog.h"
+#include "ui/overlay/map_overlays.h"
 #include "ui/panels/measure_panel.h"
 
 #include <QApplication>
@@ -115,6 +116,17 @@ TEST_F(MapMenuTest, FliesAndCenters)
     EXPECT_LT(view().camera().distance_m, 1.5 * before);
     // No nearer than where a sample, 30 m wide, is 8 points large.
     EXPECT_NEAR(view().metersPerPoint(*hit), 30.0 / 8.0, 0.2);
+}
+
+TEST_F(MapMenuTest, RemovesThePinOfAPlaceThatWasFound)
+{
+    rightClick(placeOf({25.0, 15.0}));
+    EXPECT_EQ(entry("Remove Pin"), nullptr);
+    window_->overlays()->markPlace({20.0, 12.0});
+    rightClick(placeOf({25.0, 15.0}));
+    ASSERT_NE(entry("Remove Pin"), nullptr);
+    entry("Remove Pin")->trigger();
+    EXPECT_FALSE(window_->overlays()->isPlaceMarked());
 }
 
 TEST_F(MapMenuTest, WhatIsHereDoesNotDependOnTheExaggeration)

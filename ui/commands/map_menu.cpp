@@ -15,12 +15,13 @@
 
 namespace marsview {
 
-MapMenu::MapMenu(QWidget& view, Source source, Reader read, Beginnings begin)
+MapMenu::MapMenu(QWidget& view, Source source, Reader read, Beginnings begin, Extras extras)
     : QObject(&view)
     , view_(view)
     , source_(std::move(source))
     , read_(std::move(read))
     , begin_(std::move(begin))
+    , extras_(std::move(extras))
 {}
 
 QMenu* MapMenu::menu() const
@@ -64,6 +65,13 @@ void MapMenu::open(QPointF position)
     const QPoint at = view_.mapToGlobal(position).toPoint();
     add(tr("&What Is Here…"), "identify", ground.has_value(),
         [this, ground, at] { showCard(*ground, at); });
+    if (ground) {
+        menu_->addSeparator();
+        menu_->addAction(extras_.stretch_to_view);
+    }
+    if (extras_.has_pin()) {
+        add(tr("&Remove Pin"), "remove", true, extras_.remove_pin);
+    }
     menu_->popup(at);
 }
 

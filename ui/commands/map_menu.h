@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 
+class QAction;
 class QMenu;
 class QWidget;
 
@@ -47,7 +48,14 @@ public:
         std::function<void(const MenuPlace&)> annotate;
     };
 
-    MapMenu(QWidget& view, Source source, Reader read, Beginnings begin);
+    /// What is offered at every place.
+    struct Extras {
+        QAction* stretch_to_view = nullptr;
+        std::function<bool()> has_pin; // at a place that was found
+        std::function<void()> remove_pin;
+    };
+
+    MapMenu(QWidget& view, Source source, Reader read, Beginnings begin, Extras extras);
 
     /// Opens the menu of a position of the view.
     void open(QPointF position);
@@ -63,6 +71,7 @@ private:
     Source source_;
     Reader read_;
     Beginnings begin_;
+    Extras extras_;
     QPointer<QMenu> menu_;
     QPointer<PlaceDialog> card_;
 };

@@ -115,7 +115,8 @@ MapMenu* PlaceCommands::makeMenu()
                                    [&](const SceneMap& shown) { return shown.map == map; });
             }};
     auto* menu = new MapMenu(
-        *view, source, [this](const MenuPlace& place) { return factsAt(place); }, beginnings());
+        *view, source, [this](const MenuPlace& place) { return factsAt(place); }, beginnings(),
+        extras());
     connect(view, &TerrainView::menuRequested, menu, &MapMenu::open);
     return menu;
 }
@@ -155,7 +156,8 @@ MapMenu* PlaceCommands::makeGlobeMenu()
                                    [&](const BodyTerrain& shown) { return shown.map() == map; });
             }};
     auto* menu = new MapMenu(
-        *globe, source, [this](const MenuPlace& place) { return factsAt(place); }, beginnings());
+        *globe, source, [this](const MenuPlace& place) { return factsAt(place); }, beginnings(),
+        extras());
     connect(globe, &GlobeView::menuRequested, menu, &MapMenu::open);
     return menu;
 }
@@ -172,6 +174,13 @@ MapMenu::Beginnings PlaceCommands::beginnings()
                     parts_.annotating.begin(FeatureShape::Point);
                     addPlace(parts_.annotating, place);
                 }};
+}
+
+MapMenu::Extras PlaceCommands::extras()
+{
+    return {.stretch_to_view = parts_.actions.stretch_to_view,
+            .has_pin = [this] { return parts_.overlays.isPlaceMarked(); },
+            .remove_pin = [this] { parts_.overlays.clearMark(); }};
 }
 
 PlaceFacts PlaceCommands::factsAt(const MenuPlace& place) const

@@ -70,6 +70,7 @@ private:
     void connectReadout();
     GoToDialog* makeDialog();
     MapMenu::Beginnings beginnings();
+    MapMenu::Extras extras();
     MapMenu* makeMenu();
     MapMenu* makeGlobeMenu();
     PlaceFacts factsAt(const MenuPlace& place) const;

@@ -1,14 +1,18 @@
 #include "ui/dialogs/interval_dialog.h"
 
+#include "ui/text/number_text.h"
 #include "ui/widgets/elevation_box.h"
+#include "ui/widgets/form_field.h"
 
 #include <QDialogButtonBox>
-#include <QFormLayout>
+#include <QLineEdit>
+#include <QPushButton>
 #include <QVBoxLayout>
 
 namespace marsview {
 namespace {
 
+constexpr double kIntervalMinM = 1e-3;
 constexpr double kIntervalMaxM = 100000.0;
 constexpr int kDecimals = 3; // the smallest interval is a millimeter
 
@@ -26,7 +30,7 @@ IntervalDialog::IntervalDialog(const QString& title,
     box_->setObjectName(QStringLiteral("interval"));
     box_->setDecimals(kDecimals);
     box_->setTrailingZeros(false);
-    box_->setRange(can_be_automatic ? 0.0 : 1e-3, kIntervalMaxM);
+    box_->setRange(can_be_automatic ? 0.0 : kIntervalMinM, kIntervalMaxM);
     //: Meters, after a number
     box_->setSuffix(tr(" m"));
     box_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
@@ -37,9 +41,7 @@ IntervalDialog::IntervalDialog(const QString& title,
     }
     box_->setValue(interval_m);
     box_->selectAll();
-    auto* form = new QFormLayout;
-    form->addRow(tr("&Interval between contour lines"), box_);
-    box_->setAccessibleName(tr("Interval between contour lines"));
+    auto* field = new FormField(tr("&Interval between contour lines"), box_, this);
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel, this);
     connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
@@ -47,8 +49,19 @@ IntervalDialog::IntervalDialog(const QString& title,
         box_->interpretText();
         Q_EMIT intervalChosen(box_->value());
     });
+    // Rather than another number in place of the one that was typed.
+    const QString problem =
+        (can_be_automatic ? tr("Enter an interval from %1 m to %2 m, or 0 for automatic.")
+                          : tr("Enter an interval from %1 m to %2 m."))
+            .arg(numberText(kIntervalMinM, kDecimals), numberText(kIntervalMaxM, 0));
+    connect(box_->findChild<QLineEdit*>(), &QLineEdit::textChanged, this,
+            [this, field, problem, ok = buttons->button(QDialogButtonBox::Ok)] {
+                const bool is_possible = box_->hasAcceptableInput();
+                field->setProblem(is_possible ? QString() : problem);
+                ok->setEnabled(is_possible);
+            });
     auto* layout = new QVBoxLayout(this);
-    layout->addLayout(form);
+    layout->addWidget(field);
     layout->addWidget(buttons);
     layout->setSizeConstraint(QLayout::SetFixedSize);
 }

@@ -39,8 +39,8 @@
 namespace marsview {
 namespace {
 
-constexpr int kHeight = 205;                                  // to begin with
-constexpr int kResultsWidthMax = 360;                         // a value stays near its label
+constexpr int kLines = 15;            // of text, that the panel is high to begin with
+constexpr int kResultsWidthMax = 360; // a value stays near its label
 constexpr std::array kScales{0.0, 1.0, 2.0, 5.0, 10.0, 20.0}; // 0: fills the plot
 
 QString field(const QString& text)
@@ -261,7 +261,7 @@ void MeasurePanel::makeHypsometry()
 
 QSize MeasurePanel::sizeHint() const
 {
-    return {QWidget::sizeHint().width(), kHeight};
+    return {QWidget::sizeHint().width(), kLines * fontMetrics().lineSpacing()};
 }
 
 void MeasurePanel::setHeightUnit(HeightUnit unit)
@@ -425,7 +425,8 @@ void MeasurePanel::showProfile()
 {
     const MeasureItem* item = controller_.current();
     const auto* profile = item != nullptr ? controller_.outcome(item->id).as<Profile>() : nullptr;
-    profile_side_->setVisible(item != nullptr && item->kind == MeasurementKind::Profile);
+    profile_side_->setVisible(item != nullptr && item->kind == MeasurementKind::Profile &&
+                              item->vertices.size() >= verticesNeeded(item->kind));
     if (profile == nullptr) {
         plot_->setCurves({});
         return;

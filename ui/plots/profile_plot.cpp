@@ -61,6 +61,7 @@ struct ProfilePlot::Parts {
     Extent distances; // in the unit of the axis
     Extent heights;
     double distance_unit_m = 1.0;
+    QString elevation_title;
 };
 
 ProfilePlot::ProfilePlot(QWidget* parent)
@@ -190,9 +191,10 @@ void ProfilePlot::fillGraphs()
     const bool is_approximate =
         std::any_of(curves_.begin(), curves_.end(),
                     [](const ProfileCurve& curve) { return curve.is_approximate; });
-    plot.yAxis->setLabel((is_approximate ? tr("Elevation (%1), approximate") : tr("Elevation (%1)"))
-                             .arg(unitSymbol(unit_)));
-    plot.yAxis2->setLabel(tr("Slope (°)"));
+    parts_->elevation_title =
+        (is_approximate ? tr("Elevation (%1), approximate") : tr("Elevation (%1)"))
+            .arg(unitSymbol(unit_));
+    fitAxes(plot.height());
     setSlopeShown(is_slope_shown_);
 }
 
@@ -390,7 +392,7 @@ bool ProfilePlot::eventFilter(QObject* watched, QEvent* event)
 {
     QCustomPlot& plot = *parts_->plot;
     if (watched == &plot && event->type() == QEvent::Resize) {
-        fitTicks(static_cast<QResizeEvent&>(*event).size().height());
+        fitAxes(static_cast<QResizeEvent&>(*event).size().height());
     }
     if (watched != &plot || curves_.empty()) {
         return QWidget::eventFilter(watched, event);
@@ -443,8 +445,8 @@ bool ProfilePlot::eventFilter(QObject* watched, QEvent* event)
     }
 }
 
-// Numbers on top of each other cannot be read.
-void ProfilePlot::fitTicks(int height)
+// Numbers on top of each other cannot be read, nor titles that are cut: the unit alone is short.
+void ProfilePlot::fitAxes(int height)
 {
     constexpr int kBelow = 50; // points for the axis of distances
     constexpr int kTick = 26;  // points from one elevation to the next
@@ -452,6 +454,12 @@ void ProfilePlot::fitTicks(int height)
     for (QCPAxis* axis : {parts_->plot->yAxis, parts_->plot->yAxis2}) {
         axis->ticker()->setTickCount(count);
     }
+    const auto set_title = [&](QCPAxis& axis, const QString& title, const QString& unit) {
+        const int length = QFontMetrics(axis.labelFont()).horizontalAdvance(title);
+        axis.setLabel(length <= height - kBelow ? title : unit);
+    };
+    set_title(*parts_->plot->yAxis, parts_->elevation_title, unitSymbol(unit_));
+    set_title(*parts_->plot->yAxis2, tr("Slope (°)"), QStringLiteral("°"));
 }
 
 void ProfilePlot::keyPressEvent(QKeyEvent* event)
@@ -493,8 +501,8 @@ QSize ProfilePlot::pictureSize()
 
 bool ProfilePlot::savePicture(const QString& path)
 {
-    fitTicks(kPictureSize.height());
-    const auto fit_again = qScopeGuard([this] { fitTicks(parts_->plot->height()); });
+    fitAxes(kPictureSize.height());
+    const auto fit_again = qScopeGuard([this] { fitAxes(parts_->plot->height()); });
     return savePlot(*parts_->plot, path, kPictureSize, kPictureScale, tr("Profile"));
 }
 

@@ -81,7 +81,7 @@ private:
     void fillGraphs();
     void applyColors();
     void applyScale();
-    void fitTicks(int height);
+    void fitAxes(int height);
     void placeCursor();
     void placeStretch();
     void moveCursor(std::optional<double> distance_m);

@@ -158,20 +158,46 @@ std::optional<QString> translationOf(const QString& sentence)
     return std::nullopt;
 }
 
+QString separator()
+{
+    return QStringLiteral(": ");
+}
+
+// Whether what comes before a colon is the subject of what follows, as in "map.tif: is a picture".
+bool continuesSentence(const QString& rest)
+{
+    static const QRegularExpression kVerb(
+        QStringLiteral("^(is|has|was|names|does|contains|cannot|looks|belongs|needs|ends) "));
+    return kVerb.match(rest).hasMatch();
+}
+
+// What ends with a colon, before a sentence that may continue it.
+QString beginningOf(const QString& before, bool is_continued)
+{
+    return is_continued && before.endsWith(separator())
+               ? before.chopped(separator().size()) + QLatin1Char(' ')
+               : before;
+}
+
 } // namespace
 
 QString translatedMessage(const QString& message)
 {
+    QString plain = message;
     // A path, a field or both come before the sentence.
-    const QString separator = QStringLiteral(": ");
     for (qsizetype at = 0; at >= 0 && at < message.size();) {
-        if (const auto translation = translationOf(message.sliced(at))) {
-            return message.first(at) + *translation;
+        const QString rest = message.sliced(at);
+        const bool is_continued = continuesSentence(rest);
+        if (const auto translation = translationOf(rest)) {
+            return beginningOf(message.first(at), is_continued) + *translation;
         }
-        const qsizetype next = message.indexOf(separator, at);
-        at = next < 0 ? -1 : next + separator.size();
+        if (is_continued && plain == message) {
+            plain = beginningOf(message.first(at), true) + rest;
+        }
+        const qsizetype next = message.indexOf(separator(), at);
+        at = next < 0 ? -1 : next + separator().size();
     }
-    return message;
+    return plain;
 }
 
 QString asSentence(const QString& message)

@@ -8,7 +8,8 @@
 namespace marsview {
 
 /// A message of the core, which is English, in the language of the window. What comes before its
-/// sentence, such as a path, stays; a sentence without a translation does, too.
+/// sentence, such as a path, stays, without a colon where it is the subject of the sentence. A
+/// sentence without a translation stays, too.
 QString translatedMessage(const QString& message);
 
 /// The same, with a capital letter at its beginning and true minus signs.

@@ -74,8 +74,8 @@ NoticeBar::NoticeBar(QWidget* parent)
     close->setIcon(lineIcon(QStringLiteral("close")));
     close->setAutoRaise(true);
     close->setFocusPolicy(Qt::TabFocus);
-    close->setAccessibleName(tr("Close Notices"));
-    close->setToolTip(tr("Close the notices"));
+    close->setAccessibleName(tr("Close Notice"));
+    close->setToolTip(tr("Close this notice"));
     auto* layout = new QHBoxLayout(this);
     layout->setContentsMargins(8, 2, 4, 2);
     layout->addWidget(icon);
@@ -93,7 +93,8 @@ NoticeBar::NoticeBar(QWidget* parent)
             [this] { Q_EMIT detailsRequested(notices_[shown_].id); });
     connect(next_, &QToolButton::clicked, this,
             [this] { showNotice((shown_ + 1) % static_cast<int>(notices_.size())); });
-    connect(close, &QToolButton::clicked, this, &NoticeBar::closeRequested);
+    connect(close, &QToolButton::clicked, this,
+            [this] { Q_EMIT closeRequested(notices_[shown_].id); });
     hide();
 }
 

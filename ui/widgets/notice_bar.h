@@ -31,7 +31,7 @@ Q_SIGNALS:
     /// `action` is an index of the notice's actions.
     void actionRequested(const QString& id, int action);
     void detailsRequested(const QString& id);
-    void closeRequested();
+    void closeRequested(const QString& id);
 
 protected:
     void showEvent(QShowEvent* event) override;

@@ -19,7 +19,7 @@ NoticeCenter::NoticeCenter(NoticeBar& bar, QObject* parent)
     : QObject(parent)
     , bar_(bar)
 {
-    connect(&bar_, &NoticeBar::closeRequested, this, &NoticeCenter::dismissAll);
+    connect(&bar_, &NoticeBar::closeRequested, this, &NoticeCenter::dismiss);
     connect(&bar_, &NoticeBar::actionRequested, this, &NoticeCenter::runAction);
     connect(&bar_, &NoticeBar::detailsRequested, this, &NoticeCenter::showDetails);
 }
@@ -38,11 +38,13 @@ void NoticeCenter::setNotices(NoticeSource source, const QList<Notice>& notices)
     update();
 }
 
-void NoticeCenter::dismissAll()
+void NoticeCenter::dismiss(const QString& id)
 {
     for (std::size_t i = 0; i < kSourceCount; ++i) {
         for (const Notice& notice : notices_[i]) {
-            dismissed_[i].insert(notice.id);
+            if (notice.id == id) {
+                dismissed_[i].insert(id);
+            }
         }
     }
     update();

@@ -45,7 +45,7 @@ public:
 private:
     static constexpr std::size_t kSourceCount = static_cast<std::size_t>(NoticeSource::Storage) + 1;
 
-    void dismissAll();
+    void dismiss(const QString& id);
     void runAction(const QString& id, int action);
     void showDetails(const QString& id);
     void update();

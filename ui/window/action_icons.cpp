@@ -39,6 +39,7 @@ void setIcons(const WindowActions& actions)
              std::pair{actions.shading->menuAction(), "shading"},
              std::pair{actions.ramps->menuAction(), "ramp"},
              std::pair{actions.stretches->menuAction(), "stretch"},
+             std::pair{actions.stretch_to_view, "stretch"},
              std::pair{actions.light, "light"},
              std::pair{actions.layer.go_to, "go-to-layer"},
              std::pair{actions.layer.prepare, "overviews"},

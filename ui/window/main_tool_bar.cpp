@@ -5,6 +5,7 @@
 
 #include <QAction>
 #include <QActionGroup>
+#include <QCursor>
 #include <QEvent>
 #include <QLabel>
 #include <QLineEdit>
@@ -49,6 +50,12 @@ MainToolBar::MainToolBar(const WindowActions& actions, QWidget* parent)
         button->setAccessibleName(tip);
         button->setMenu(menu);
         button->setPopupMode(QToolButton::InstantPopup);
+        // While the menu is open the button does not see that the pointer leaves it.
+        connect(menu, &QMenu::aboutToHide, button, [button] {
+            button->setAttribute(Qt::WA_UnderMouse,
+                                 button->rect().contains(button->mapFromGlobal(QCursor::pos())));
+            button->update();
+        });
         addWidget(button);
     };
     add_menu(actions.shading, tr("Shading"), tr("What the terrain colors represent"));

@@ -18,8 +18,9 @@
 namespace marsview {
 namespace {
 
-constexpr int kPartGap = 8;        // between all parts, in pixels
-constexpr int kNameWidthMax = 150; // pixels at which a long CRS name is elided
+constexpr int kPartGap = 8;             // between all parts, in pixels
+constexpr double kDetailLeastPx = 0.05; // less is 0.0 in the text
+constexpr int kNameWidthMax = 150;      // pixels at which a long CRS name is elided
 
 QString outsideText()
 {
@@ -198,11 +199,15 @@ void StatusReadout::showDetail()
                         : tr("incomplete"));
         return;
     }
-    detail_->setWholeText(scene_ && scene_->isPreview()
-                              //: Shown instead of the error of the picture
-                              ? tr("preview")
-                              //: How far the picture may be from the full map, in pixels
-                              : leftToRight(tr("detail %1 px").arg(numberText(detail_px_, 1))));
+    detail_->setWholeText(
+        scene_ && scene_->isPreview()
+            //: Shown instead of the error of the picture
+            ? tr("preview")
+            : detail_px_ < kDetailLeastPx
+                  //: Shown instead of the error of the picture: it has none
+                  ? tr("full detail")
+                  //: How far the picture may be from the full map, in pixels
+                  : leftToRight(tr("detail %1 px").arg(numberText(detail_px_, 1))));
 }
 
 QString StatusReadout::sourceLabel() const

@@ -14,6 +14,7 @@
 #include <QMainWindow>
 #include <QMenu>
 #include <QMenuBar>
+#include <QShortcut>
 #include <QUndoStack>
 #include <QWhatsThis>
 
@@ -140,6 +141,10 @@ WindowActions::WindowActions(QMainWindow& window, QWidget& map, QUndoStack& undo
     makeLayerMenu(window);
     makeHapticsMenu(window);
     makeHelpMenu(window);
+    auto* open_menus = new QShortcut(Qt::Key_F10, &window);
+    QObject::connect(open_menus, &QShortcut::activated, window.menuBar(), [bar = window.menuBar()] {
+        bar->setActiveAction(bar->actions().constFirst());
+    });
     setIcons(*this);
     for_shown_ +=
         {save_picture,    home, north, go_to_place, find_name, exaggerate_more, exaggerate_less,

@@ -37,8 +37,8 @@ protected:
         EXPECT_FALSE(raster);
         const std::string text =
             translatedMessage(QString::fromStdString(raster.error().message)).toStdString();
-        EXPECT_TRUE(text.starts_with(path + ": ")) << text;
-        return text.substr(std::min(text.size(), path.size() + 2));
+        EXPECT_TRUE(text.starts_with(path + " ")) << text;
+        return text.substr(std::min(text.size(), path.size() + 1));
     }
     static std::string refusal(const RasterOverrides& overrides)
     {
@@ -105,8 +105,18 @@ TEST_F(GermanMessagesTest, DescribeAMap)
 TEST(TranslatedMessage, LeavesWhatItDoesNotKnow)
 {
     for (const char* message :
-         {"", ": ", "out of memory", "/a: b: the moon is full", "/%1/%2.tif: does not exist"}) {
+         {"", ": ", "out of memory", "/a: b: the moon is full", "CRS: unknown"}) {
         EXPECT_EQ(translatedMessage(QString::fromUtf8(message)), QString::fromUtf8(message));
+    }
+}
+
+TEST(TranslatedMessage, HasNoColonBetweenAFileAndItsVerb)
+{
+    for (const auto& [message, sentence] :
+         {std::pair{"/%1/%2.tif: does not exist", "/%1/%2.tif does not exist"},
+          {"/a: b.tif: is a picture; see: it", "/a: b.tif is a picture; see: it"},
+          {"/a.tif: isolated", "/a.tif: isolated"}}) {
+        EXPECT_EQ(translatedMessage(QString::fromUtf8(message)), QString::fromUtf8(sentence));
     }
 }
 

@@ -72,6 +72,21 @@ TEST_F(NoticeCenterTest, ShowsTheMostUrgentFirstAndTheOthersOneByOne)
     EXPECT_TRUE(noticeButton(bar_, "noticeNext")->isHidden());
 }
 
+TEST_F(NoticeCenterTest, ClosesOneNoticeAtATime)
+{
+    center_.setNotices(NoticeSource::Layer,
+                       {noticeNamed(QStringLiteral("a")), noticeNamed(QStringLiteral("b")),
+                        noticeNamed(QStringLiteral("c"))});
+    noticeButton(bar_, "noticeNext")->click();
+    noticeButton(bar_, "noticeClose")->click();
+    EXPECT_EQ(textOn(bar_), QStringLiteral("a"));
+    EXPECT_EQ(noticeButton(bar_, "noticeNext")->text(), QStringLiteral("1 of 2 ›"));
+    noticeButton(bar_, "noticeClose")->click();
+    EXPECT_EQ(textOn(bar_), QStringLiteral("c"));
+    noticeButton(bar_, "noticeClose")->click();
+    EXPECT_TRUE(bar_.isHidden());
+}
+
 TEST_F(NoticeCenterTest, KeepsWhatWasClosedClosedWhileOtherLayersComeAndGo)
 {
     const QList<Notice> of_layer{noticeNamed(QStringLiteral("a"))};

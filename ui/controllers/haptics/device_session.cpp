@@ -36,6 +36,13 @@ bool isPlayedBack(const QString& uri)
     return isReplay(uri.toStdString());
 }
 
+// Why a device cannot be used, for people: a recording is named by its file.
+QString reasonText(const QString& problem)
+{
+    const qsizetype file = isPlayedBack(problem) ? problem.indexOf(QLatin1Char(':')) + 1 : 0;
+    return translatedMessage(problem.sliced(file));
+}
+
 } // namespace
 
 DeviceSession::DeviceSession(DriverMaker make_drivers, QObject* parent)
@@ -193,7 +200,8 @@ void DeviceSession::refuse(const QString& problem, bool is_absent)
         awaited_uri_ = uri_;
     }
     const bool is_quiet = is_awaited && before == DeviceState::OpeningRemembered;
-    resume(problem, is_quiet ? QString() : problem);
+    const QString reason = reasonText(problem);
+    resume(reason, is_quiet ? QString() : reason);
 }
 
 // After a recording, the device that it took the place of is connected again, if any.
