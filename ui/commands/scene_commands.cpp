@@ -114,8 +114,7 @@ void SceneCommands::readOnGlobe()
                 if (!is_globe_shown_) {
                     return;
                 }
-                const bool is_stylus = globe->readingSource() == ReadingSource::Stylus;
-                readout->setSource(is_stylus ? ReadingSource::Stylus : ReadingSource::Pointer);
+                readout->setSource(globe->readingSource());
                 if (!ground) {
                     readout->setPlace(std::nullopt);
                     return;

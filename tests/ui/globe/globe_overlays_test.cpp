@@ -15,6 +15,7 @@
 #include "ui/overlay/minimap.h"
 #include "ui/overlay/place_mark.h"
 #include "ui/overlay/scale_bar_view.h"
+#include "ui/window/status_readout.h"
 
 #include <QImage>
 #include <QMouseEvent>
@@ -292,6 +293,7 @@ TEST_F(GlobeOverlaysTest, TheCrosshairShowsWhatTheKeyboardReads)
     EXPECT_TRUE(overlays().crosshair()->isVisible());
     EXPECT_EQ(overlays().crosshair()->geometry().center(), globe().rect().center());
     EXPECT_TRUE(globe().reading());
+    EXPECT_EQ(window_->readout()->sourceLabel(), QStringLiteral("Center"));
 }
 
 TEST_F(GlobeOverlaysTest, AFlatMapSeenWholeBecomesAWholeGlobe)
