@@ -29,8 +29,8 @@ struct GridEdge {
 std::size_t count(const MapWalls::NodeWalls& walls)
 {
     std::size_t corners = 0;
-    for (const std::vector<WallCorner>& quadrant : walls) {
-        corners += quadrant.size();
+    for (const MapWalls::Walls& quadrant : walls) {
+        corners += quadrant.corners.size();
     }
     return corners;
 }
@@ -372,8 +372,9 @@ const MapWalls::NodeWalls& MapWalls::of(const DetailNode& node,
 
 void MapWalls::build(const Key& key, Kept& kept) const
 {
-    for (std::vector<WallCorner>& quadrant : kept.walls) {
-        quadrant.clear();
+    for (Walls& quadrant : kept.walls) {
+        quadrant.corners.clear();
+        quadrant.triangles.clear();
     }
     const Outline outline(*heightfield_, *grid_, key);
     const std::vector<GridEdge> edges = outline.edges();
@@ -384,7 +385,11 @@ void MapWalls::build(const Key& key, Kept& kept) const
     }
     Ground ground(lower_);
     const std::size_t stride = outline.columns() + 1;
-    std::vector<std::optional<Ground::Place>> places(stride * (outline.rows() + 1));
+    struct Post {
+        std::optional<Ground::Place> place;
+        std::array<std::optional<std::uint16_t>, kQuadrantCount> corner; // the lower one
+    };
+    std::vector<Post> posts(stride * (outline.rows() + 1));
     // In cells of the node, whose last vertices may all lie at the map's last column or row.
     const auto in_cells = [cell](std::size_t sample, std::size_t first, std::size_t samples) {
         const std::size_t whole = (sample - first) / cell;
@@ -397,31 +402,44 @@ void MapWalls::build(const Key& key, Kept& kept) const
     };
     const std::size_t side = kCells << key.node.level;
     for (const GridEdge& edge : edges) {
-        std::array<WallCorner, 2> ends;
         bool has_ground = false;
-        for (std::size_t k = 0; k < ends.size(); ++k) {
-            const auto [i, j] = edge.ends[k];
-            const std::size_t column = outline.column(i);
-            const std::size_t row = outline.row(j);
-            std::optional<Ground::Place>& place = places[j * stride + i];
+        for (const auto& [i, j] : edge.ends) {
+            std::optional<Ground::Place>& place = posts[j * stride + i].place;
             if (!place) {
+                const std::size_t column = outline.column(i);
+                const std::size_t row = outline.row(j);
                 place = ground.under(grid_->at(column, row, 0.0), grid_->normal(column, row));
             }
             has_ground = has_ground || place->height_m != kNoLowerM;
-            ends[k] = {.column = in_cells(column, key.node.column * side, grid_->columns()),
-                       .row = in_cells(row, key.node.row * side, grid_->rows()),
-                       .lower_m = place->height_m,
-                       .sag_m = place->sag_m};
         }
         if (!has_ground) {
             continue;
         }
-        std::vector<WallCorner>& corners = kept.walls[edge.quadrant];
-        for (const auto& [end, is_top] :
-             {std::pair{0, 0.0F}, {1, 0.0F}, {1, 1.0F}, {0, 0.0F}, {1, 1.0F}, {0, 1.0F}}) {
-            WallCorner& corner = corners.emplace_back(ends[static_cast<std::size_t>(end)]);
-            corner.is_top = is_top;
-        }
+        Walls& walls = kept.walls[edge.quadrant];
+        const auto corner = [&](const std::array<std::size_t, 2>& end) {
+            const auto [i, j] = end;
+            Post& post = posts[j * stride + i];
+            std::optional<std::uint16_t>& index = post.corner[edge.quadrant];
+            if (!index) {
+                index = static_cast<std::uint16_t>(walls.corners.size());
+                WallCorner made{
+                    .column = in_cells(outline.column(i), key.node.column * side, grid_->columns()),
+                    .row = in_cells(outline.row(j), key.node.row * side, grid_->rows()),
+                    .lower_m = post.place->height_m,
+                    .sag_m = post.place->sag_m};
+                walls.corners.push_back(made);
+                made.is_top = 1.0F;
+                walls.corners.push_back(made);
+            }
+            return *index;
+        };
+        const std::uint16_t first = corner(edge.ends[0]);
+        const std::uint16_t second = corner(edge.ends[1]);
+        const auto above = [](std::uint16_t index) {
+            return static_cast<std::uint16_t>(index + 1);
+        };
+        walls.triangles.insert(walls.triangles.end(),
+                               {first, second, above(second), first, above(second), above(first)});
     }
     kept.is_final = outline.isExact() && ground.isExact();
 }

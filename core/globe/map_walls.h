@@ -42,8 +42,13 @@ bool mayEnd(const BodyGrid& grid, const BlockMeans& means, const DetailNode& nod
 /// node when it is drawn, and kept. For one thread at a time.
 class MapWalls {
 public:
-    /// Two triangles a piece of wall, by the quadrants of the node.
-    using NodeWalls = std::array<std::vector<WallCorner>, kQuadrantCount>;
+    /// Two triangles a piece of wall: three corners each, by their indices. Pieces share corners.
+    struct Walls {
+        std::vector<WallCorner> corners;
+        std::vector<std::uint16_t> triangles;
+    };
+    /// By the quadrants of the node.
+    using NodeWalls = std::array<Walls, kQuadrantCount>;
 
     /// The uppermost lower map first.
     MapWalls(std::shared_ptr<const Heightfield> heightfield,

@@ -75,16 +75,11 @@ void setCovers(const GlProgram& program, const BodySubject& subject, GLint first
         glUniform1i(program.uniform(("u_cover_place" + element).c_str()),
                     first_unit + static_cast<GLint>(BodyAtlas::kTextures + i));
         glUniform1f(program.uniform(("u_cover_turn" + element).c_str()), asFloat(cover.turn()));
-        // Its outermost samples overlap a little, by as much as places on it may be off.
         constexpr float kEverywhere = 1e6F;
         const BodyGrid& above = cover.locator->grid();
-        const double error_m = cover.errorM(subject.grid->stepMaxM());
-        const auto overlap = [error_m](double last, double length_m) {
-            return asFloat(
-                std::min(kOverlapCells / last + error_m / std::max(length_m, 1e-9), kOverlapMax));
-        };
-        const float columns = overlap(cover.last_column, cover.width_m);
-        const float rows = overlap(cover.last_row, cover.height_m);
+        const BodyCover::Overlap overlap = cover.overlap(subject.grid->stepMaxM());
+        const float columns = asFloat(overlap.columns);
+        const float rows = asFloat(overlap.rows);
         glUniform2f(program.uniform(("u_cover_overlap" + element).c_str()), columns, rows);
         const bool has_first_pole = above.poleAtFirstRow() != BodyGrid::Pole::None;
         const bool has_last_pole = above.poleAtLastRow() != BodyGrid::Pole::None;
@@ -146,11 +141,15 @@ BodyCover::BodyCover(std::shared_ptr<const BodyLocator> located,
               steps.row * static_cast<double>(row);
 }
 
-// How far a chord lies below the surface, which is how far places between vertices are off.
-double BodyCover::errorM(double cell_m) const
+// Places between vertices are off by as much as a chord lies below the surface.
+BodyCover::Overlap BodyCover::overlap(double cell_m) const
 {
     const double chord_m = std::min(cell_m, sizeM());
-    return chord_m * chord_m / (8.0 * locator->grid().ellipsoid().equatorial_m);
+    const double error_m = chord_m * chord_m / (8.0 * locator->grid().ellipsoid().equatorial_m);
+    const auto share = [error_m](double last, double length_m) {
+        return std::min(kOverlapCells / last + error_m / std::max(length_m, 1e-9), kOverlapMax);
+    };
+    return {.columns = share(last_column, width_m), .rows = share(last_row, height_m)};
 }
 
 std::optional<std::array<float, 3>> BodyCover::farPlace(const Vec3& point) const

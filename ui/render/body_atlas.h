@@ -45,8 +45,13 @@ struct BodyCover {
 
     BodyCover(std::shared_ptr<const BodyLocator> located, std::size_t columns, std::size_t rows);
 
-    /// Of places on the map between the vertices of a map with such cells, in meters.
-    double errorM(double cell_m) const;
+    /// Shares of the map by which it and a map with such cells are both drawn at an edge: as much
+    /// as places on it may be off, and a little more.
+    struct Overlap {
+        double columns = 0.0;
+        double rows = 0.0;
+    };
+    Overlap overlap(double cell_m) const;
     /// Where a place far outside lies in the plane of the map's middle, as placeOnCover(); nothing
     /// near or on the map, or if it is not small.
     std::optional<std::array<float, 3>> farPlace(const Vec3& point) const;

@@ -140,7 +140,7 @@ struct Layer {
     std::array<float, 2> pole_heights_m{};
     DetailSelector selector;
     GlTexture ramp;
-    CoverTexture cover;
+    std::optional<CoverTexture> cover;    // once it lies on another layer
     std::optional<TileRequests> requests; // of a tiled map
     std::vector<TileId> missing;          // of this picture
     double texel_px = 1.0;                // likewise: of the relief, at most
@@ -154,7 +154,6 @@ struct Layer {
         , body_number(layer_number)
         , surface(*source.heightfield, source.analysis->means)
         , selector(selectorOf(source))
-        , cover(*source.heightfield, source.analysis->means)
         , notify(notify_when_drawable)
     {
         sendRamp();
@@ -610,7 +609,7 @@ void TerrainRenderer::Impl::drawWalls(std::size_t index,
             layer.walls->of(selected.node, std::size_t{1} << std::min(texel, selected.node.level),
                             layer.source.analysis->means, generation);
         if (std::all_of(of_node.begin(), of_node.end(),
-                        [](const auto& quadrant) { return quadrant.empty(); })) {
+                        [](const auto& quadrant) { return quadrant.triangles.empty(); })) {
             continue;
         }
         std::optional<NodeSlots::Place> slot = placeOf(layer, selected.node, on_body);
@@ -807,21 +806,38 @@ void TerrainRenderer::Impl::setUniforms(const GlProgram& program,
     }
 
     for (std::size_t i = 0; i < std::min<std::size_t>(index, kCoversMax); ++i) {
-        const Layer& cover = *layers[index - 1 - i];
+        Layer& cover = *layers[index - 1 - i];
         const GLint unit = FirstCover + static_cast<GLint>(i);
-        cover.cover.bind(GL_TEXTURE0 + static_cast<GLenum>(unit));
+        cover.cover->bind(GL_TEXTURE0 + static_cast<GLenum>(unit));
         const std::string element = fmt::format("[{}]", i);
         glUniform1i(program.uniform(("u_cover" + element).c_str()), unit);
-        const CoverTexture::Placement& to = cover.cover.placement();
+        const CoverTexture::Placement& to = cover.cover->placement();
         set(("u_cover_texture" + element).c_str(), to.column_scale, to.row_scale, to.column_offset,
             to.row_offset);
         const SceneFrame& above_frame = cover.source.frame;
         const double sample_m =
             std::sqrt(std::abs(above_frame.east_per_column * above_frame.north_per_row -
                                above_frame.east_per_row * above_frame.north_per_column));
+        // One cell reaches as far as both maps are drawn.
+        double reach = 0.0;
+        if (layer.source.body) {
+            const BodyCover::Overlap overlap =
+                cover.asCover().overlap(layer.source.body->stepMaxM());
+            const Heightfield& above = *cover.source.heightfield;
+            reach = std::max(overlap.columns * static_cast<double>(above.columns() - 1),
+                             overlap.rows * static_cast<double>(above.rows() - 1)) /
+                    to.square_samples;
+        }
+        const double decisive = std::max(0.0, std::ceil(std::log2(std::max(reach, 1.0))));
+        constexpr double kMiddle = 0.0;
+        constexpr double kFirstCorner = 1.0;
+        constexpr double kNowhere = 5.0;
         set(("u_cover_level" + element).c_str(),
-            cover.texel_px * pixelSlope(request) / (sample_m * to.texel_samples),
-            static_cast<double>(to.level_max));
+            cover.texel_px * pixelSlope(request) / (sample_m * to.square_samples),
+            static_cast<double>(to.level_max), decisive,
+            !to.has_voids                                   ? kNowhere
+            : decisive <= static_cast<double>(to.level_max) ? kMiddle
+                                                            : kFirstCorner);
         if (layer.source.body) {
             continue; // vertices have their places on covers
         }
@@ -983,6 +999,9 @@ void TerrainRenderer::Impl::relateLayers()
     for (std::size_t i = layers.size(); i-- > 0;) {
         Layer& layer = *layers[i];
         layer.setReach(lowest_m, lower_range);
+        if (i + 1 < layers.size() && !layer.cover) {
+            layer.cover.emplace(*layer.source.heightfield, layer.source.analysis->means);
+        }
         if (!layer.source.body) {
             continue;
         }

@@ -376,26 +376,30 @@ bool isInHole(vec2 place)
 #endif
 
 #if COVERS > 0
-uniform sampler2D u_cover[COVERS];
+uniform usampler2D u_cover[COVERS];
 uniform vec4 u_cover_texture[COVERS]; // shares of the cover to its texture: × xy + zw
 
-// Texels that the cover is drawn with, in its samples, at a depth of 1 m; the texture's last level.
-uniform vec2 u_cover_level[COVERS];
+// Texels that the cover is drawn with, in its squares, at a depth of 1 m; the texture's last level;
+// the least level at which Surrounded and Bare decide, and the first place that is looked at.
+uniform vec4 u_cover_level[COVERS];
 
-// The triangles between texels that have a surface. Where the cover is drawn with texels of several
-// samples, its edge and its walls lie up to one of those within: so does this one, and further.
-bool hasSurface(sampler2D cover, vec2 texture_place, float relief_texel, int last_level)
+// Where the cover is drawn with texels of several samples, its edge and its walls lie up to one of
+// those within: so does this one, and further.
+int levelOf(float relief_texel, float last_level)
 {
-    int level = min(relief_texel < 1.0 ? 0 : int(log2(relief_texel)) + 1, last_level);
+    return min(relief_texel < 1.0 ? 0 : int(log2(relief_texel)) + 1, int(last_level));
+}
+
+// The bits of CoverTexture::CellBit around a place; the first one is that of the place's triangle.
+// Software drivers take one level for a few neighboring pixels, here and for the size.
+uint cellAt(usampler2D cover, vec2 texture_place, int level)
+{
     ivec2 size = textureSize(cover, level);
     vec2 place = texture_place * vec2(size) - 0.5;
-    ivec2 cell = ivec2(floor(place));
-    vec2 f = place - vec2(cell);
-    ivec2 a = clamp(cell, ivec2(0), size - 1);
-    ivec2 c = clamp(cell + 1, ivec2(0), size - 1);
-    ivec2 b = f.x >= f.y ? ivec2(c.x, a.y) : ivec2(a.x, c.y);
-    return min(texelFetch(cover, b, level).r,
-               min(texelFetch(cover, a, level).r, texelFetch(cover, c, level).r)) >= 0.5;
+    vec2 cell = floor(place);
+    vec2 f = place - cell;
+    uint bits = texelFetch(cover, clamp(ivec2(cell) + 1, ivec2(0), size - 1), level).r;
+    return f.x >= f.y ? bits : (bits & ~1u) | (bits >> 1 & 1u);
 }
 
 #ifdef BODY
@@ -404,23 +408,33 @@ uniform vec2 u_cover_overlap[COVERS]; // shares by which both maps are drawn at 
 uniform vec4 u_cover_range[COVERS];   // least and most of the first share, and of the second
 uniform float u_cover_turn[COVERS];   // of the first; 0 where the cover does not go around
 
-bool isUnder(sampler2D cover,
+// Whether there is a surface at all corners of a square around the place. Most cells know by
+// themselves; software drivers leave the loop once that is so for some neighboring pixels.
+bool isUnder(usampler2D cover,
              vec3 share,
              vec4 range,
              float turn,
              vec2 overlap,
              vec4 to_texture,
-             vec2 level)
+             vec4 level)
 {
     vec2 place = share.xy;
     place.x -= turn > 0.0 ? turn * floor(place.x / turn) : 0.0;
     bool is_under = share.z > 0.999 && all(greaterThanEqual(place, range.xz)) &&
                     all(lessThanEqual(place, range.yw));
-    int corners = level.y > 0.5 ? 4 : 0; // there are no voids otherwise
-    for (int i = 0; i < corners; ++i) {
-        vec2 corner = place + overlap * vec2((i & 1) == 0 ? -1.0 : 1.0, i < 2 ? -1.0 : 1.0);
-        is_under = is_under && hasSurface(cover, corner * to_texture.xy + to_texture.zw,
-                                          level.x / gl_FragCoord.w, int(level.y));
+    vec2 middle = place * to_texture.xy + to_texture.zw;
+    vec2 to_corner = overlap * to_texture.xy;
+    int drawn_level = levelOf(level.x / gl_FragCoord.w, level.y);
+    int looks = is_under ? 5 : 0;
+    for (int i = int(level.w); i < looks; ++i) {
+        bool is_middle = i == 0;
+        vec2 corner = vec2((i & 1) == 0 ? -1.0 : 1.0, i < 3 ? -1.0 : 1.0);
+        uint bits = cellAt(cover, is_middle ? middle : middle + to_corner * corner,
+                           is_middle ? max(drawn_level, int(level.z)) : drawn_level);
+        is_under = is_middle ? (bits & 8u) == 0u : (bits & 1u) != 0u;
+        if (is_middle ? (bits & 12u) != 0u : !is_under) {
+            break;
+        }
     }
     return is_under;
 }
@@ -431,12 +445,12 @@ bool isUnder(sampler2D cover,
 uniform vec4 u_cover_linear[COVERS]; // sample relative to the anchor to a share of the cover
 uniform vec2 u_cover_offset[COVERS];
 
-bool isUnder(sampler2D cover, vec4 linear, vec2 offset, vec4 to_texture, vec2 level)
+bool isUnder(usampler2D cover, vec4 linear, vec2 offset, vec4 to_texture, vec4 level)
 {
     vec2 place = vec2(dot(linear.xy, v_sample), dot(linear.zw, v_sample)) + offset;
     return all(greaterThanEqual(place, vec2(0.0))) && all(lessThanEqual(place, vec2(1.0))) &&
-           hasSurface(cover, place * to_texture.xy + to_texture.zw, level.x / gl_FragCoord.w,
-                      int(level.y));
+           (cellAt(cover, place * to_texture.xy + to_texture.zw,
+                   levelOf(level.x / gl_FragCoord.w, level.y)) & 1u) != 0u;
 }
 
 #define IS_UNDER(i) isUnder(u_cover[i], u_cover_linear[i], u_cover_offset[i], u_cover_texture[i], u_cover_level[i])

@@ -25,12 +25,15 @@ public:
 private:
     struct Piece {
         NodeInstance node;
-        std::size_t begin = 0; // of its corners
+        std::size_t corner = 0; // its first one
+        std::size_t index = 0;  // likewise, of its triangles
     };
 
     GlVertexArray array_;
     GlBuffer buffer_;
+    GlBuffer index_buffer_;
     std::vector<WallCorner> corners_;
+    std::vector<std::uint16_t> indices_;
     std::vector<Piece> pieces_;
 };
 
