@@ -2258,6 +2258,10 @@
         <source>Vertical exaggeration: type a factor, or press + and − in the map</source>
         <translation>Überhöhung: Geben Sie einen Faktor ein oder drücken Sie + und − in der Karte</translation>
     </message>
+    <message>
+        <source>Vertical exaggeration goes from ×%1 to ×%2.</source>
+        <translation>Die Überhöhung reicht von ×%1 bis ×%2.</translation>
+    </message>
 </context>
 <context>
     <name>marsview::ExaggerationControl</name>

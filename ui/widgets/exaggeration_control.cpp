@@ -9,6 +9,7 @@
 #include <QStyle>
 #include <QStyleOptionSlider>
 #include <QToolButton>
+#include <QToolTip>
 
 #include <algorithm>
 #include <cmath>
@@ -80,9 +81,13 @@ QValidator::State ExaggerationBox::validate(QString& text, int& /*position*/) co
                                                     : QValidator::Intermediate;
 }
 
-// Numbers beyond the range are taken to its ends.
+// Numbers beyond the range are taken to its ends, which are shown.
 void ExaggerationBox::fixup(QString& text) const
 {
+    QToolTip::showText(mapToGlobal(rect().bottomLeft()),
+                       //: %1 and %2 are factors of vertical exaggeration
+                       tr("Vertical exaggeration goes from ×%1 to ×%2.")
+                           .arg(textFromValue(minimum()), textFromValue(maximum())));
     text = prefix() + textFromValue(std::clamp(valueFromText(text), minimum(), maximum()));
 }
 
@@ -134,6 +139,7 @@ ExaggerationControl::ExaggerationControl(QWidget* parent)
     true_scale_->setAccessibleName(tr("True scale (1:1)"));
     true_scale_->setToolTip(tr("True scale: no vertical exaggeration"));
     true_scale_->setAutoRaise(true);
+    true_scale_->setCheckable(true); // while it is in use
     true_scale_->setFocusPolicy(Qt::TabFocus);
     true_scale_->setObjectName(QStringLiteral("trueScale"));
     auto* layout = new QHBoxLayout(this);
@@ -157,7 +163,10 @@ ExaggerationControl::ExaggerationControl(QWidget* parent)
     connect(slider_, &QSlider::sliderPressed, this, &ExaggerationControl::dragEnded);
     connect(slider_, &QSlider::sliderReleased, this, &ExaggerationControl::dragEnded);
     connect(box_, &QDoubleSpinBox::valueChanged, this, &ExaggerationControl::requested);
-    connect(true_scale_, &QToolButton::clicked, this, [this] { Q_EMIT requested(1.0); });
+    connect(true_scale_, &QToolButton::clicked, this, [this] {
+        true_scale_->setChecked(shown_ == 1.0); // until it is granted
+        Q_EMIT requested(1.0);
+    });
 }
 
 void ExaggerationControl::setRange(const ExaggerationRange& range)
@@ -178,6 +187,7 @@ void ExaggerationControl::showExaggeration(double exaggeration)
     box_->setRange(std::min(box_->minimum(), exaggeration),
                    std::max(box_->maximum(), exaggeration));
     box_->setValue(exaggeration);
+    true_scale_->setChecked(exaggeration == 1.0);
 }
 
 } // namespace marsview

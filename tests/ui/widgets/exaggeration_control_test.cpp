@@ -11,6 +11,7 @@
 #include <QStyleOptionSlider>
 #include <QTest>
 #include <QToolButton>
+#include <QToolTip>
 
 #include <gtest/gtest.h>
 
@@ -70,6 +71,7 @@ TEST_F(ExaggerationTest, CanBeTyped)
     EXPECT_DOUBLE_EQ(view().exaggeration(), 0.25);
     type(QStringLiteral("5000"));
     EXPECT_DOUBLE_EQ(view().exaggeration(), 100.0) << "the largest factor";
+    EXPECT_EQ(QToolTip::text(), QStringLiteral("Vertical exaggeration goes from ×0.1 to ×100."));
     type(QStringLiteral("0.001"));
     EXPECT_DOUBLE_EQ(view().exaggeration(), 0.1) << "the smallest factor";
 }
@@ -77,8 +79,13 @@ TEST_F(ExaggerationTest, CanBeTyped)
 TEST_F(ExaggerationTest, HasAButtonForTrueScale)
 {
     window_->controller().setExaggeration(12.0);
-    window_->findChild<QToolButton*>(QStringLiteral("trueScale"))->click();
-    EXPECT_DOUBLE_EQ(view().exaggeration(), 1.0);
+    auto* button = window_->findChild<QToolButton*>(QStringLiteral("trueScale"));
+    EXPECT_FALSE(button->isChecked());
+    for (int i = 0; i < 2; ++i) {
+        button->click();
+        EXPECT_DOUBLE_EQ(view().exaggeration(), 1.0);
+        EXPECT_TRUE(button->isChecked());
+    }
     EXPECT_EQ(slider().value(), 0) << "the marked position";
     EXPECT_EQ(steps().undoText(), QStringLiteral("Exaggeration ×1"));
 }
