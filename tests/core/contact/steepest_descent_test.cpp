@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -162,6 +163,85 @@ TEST(SteepestDescent, APathThroughASampleGoesOnBeyondIt)
     crossesTheMiddle<Walk>(surface);
     crossesTheMiddle<ProxyGraph<HeightfieldSurface>>(surface);
     crossesTheMiddle<ContinuousWalk<HeightfieldSurface>>(surface);
+}
+
+// The height of a plane at a position in the grid, in meters.
+double planeHeight(GridPoint at, double cell_m)
+{
+    return cell_m * (0.25 * at.column - 0.5 * at.row);
+}
+
+// Whole numbers between two others.
+std::uint32_t wholeBetween(double a, double b)
+{
+    return static_cast<std::uint32_t>(
+        std::max(0.0, std::ceil(std::max(a, b)) - std::floor(std::min(a, b)) - 1.0));
+}
+
+// On a plane the proxy goes straight from the foot of the last goal to that of the next, over as
+// many edges as the grid's columns, rows and diagonals cross this line. Beginnings on an edge are
+// exact where a cell has a meter.
+template <typename Model>
+void goesStraight(const HeightfieldSurface& surface, double cell_m, std::uint32_t more_faces)
+{
+    const SceneFrame& frame = surface.frame();
+    const auto foot = [&](GridPoint at) { return frame.toScene(at, planeHeight(at, cell_m)); };
+    const ScenePoint origin = foot({0.0, 0.0});
+    Vec3 normal = normalized(cross(foot({1.0, 0.0}) - origin, foot({0.0, 1.0}) - origin));
+    normal = normal.z < 0.0 ? -normal : normal;
+    test::Random random;
+    for (int i = 0; i < 300; ++i) {
+        const auto within = [&] { return random.uniform(8.0, 32.0); };
+        GridPoint from{within(), within()};
+        if (cell_m == 1.0 && i % 4 > 0) {
+            const double share = (std::floor(random.uniform(0.0, 8.0)) + 0.5) / 8.0;
+            from = {std::floor(from.column), std::floor(from.row)};
+            from.column += i % 4 != 1 ? share : 0.0;
+            from.row += i % 4 != 2 ? share : 0.0;
+        }
+        const GridPoint to{within(), within()};
+        const auto below = [&](GridPoint at, double depth) {
+            return foot(at) - normal * (depth * cell_m / normal.z);
+        };
+        Model model(surface);
+        model.place(below(from, 0.5));
+        ASSERT_NEAR(test::distance(model.update(below(from, 0.5)).proxy, foot(from)), 0.0,
+                    1e-9 * cell_m);
+        const ContactState state = model.update(below(to, random.uniform(0.25, 2.0)));
+        EXPECT_NEAR(test::distance(state.proxy, foot(to)), 0.0, 1e-9 * cell_m);
+        EXPECT_EQ(state.counters.faces,
+                  wholeBetween(from.column, to.column) + wholeBetween(from.row, to.row) +
+                      wholeBetween(from.column - from.row, to.column - to.row) + more_faces)
+            << i << ": " << from.column << ' ' << from.row << " to " << to.column << ' ' << to.row;
+        EXPECT_EQ(state.counters.vertices, 0U);
+    }
+}
+
+// The walk counts the last face, too; the continuous walk only those that it leaves.
+TEST(SteepestDescent, OnAPlaneTheWayIsStraight)
+{
+    const auto plane = [](double cell_m) {
+        std::vector<float> heights;
+        for (int i = 0; i < 41 * 41; ++i) {
+            const GridPoint at{static_cast<double>(i % 41), static_cast<double>(i / 41)};
+            heights.push_back(static_cast<float>(planeHeight(at, cell_m)));
+        }
+        return test::filledTerrain(41, heights);
+    };
+    const auto check = [](const HeightfieldSurface& surface, double cell_m) {
+        goesStraight<Walk>(surface, cell_m, 1);
+        goesStraight<ContinuousWalk<HeightfieldSurface>>(surface, cell_m, 0);
+    };
+    check(test::surfaceOver(plane(1.0)), 1.0);
+    for (const double cell_m : {0.125, 1024.0}) {
+        const auto terrain = plane(cell_m);
+        SceneFrame frame = test::unitFrame(*terrain);
+        frame.east_per_column = 0.75 * cell_m;
+        frame.north_per_column = 0.5 * cell_m;
+        frame.east_per_row = 0.25 * cell_m;
+        frame.north_per_row = cell_m < 1.0 ? cell_m : -cell_m; // mirrored or not
+        check({terrain, frame, 1.0}, cell_m);
+    }
 }
 
 } // namespace
