@@ -128,41 +128,123 @@ TEST(SteepestDescent, LeavesAVertexOverTheFaceThatLeadsCloserFastest)
     EXPECT_GT(endsAtSteepestFeet({terrain, dense, 1.0}), 500);
 }
 
-// A level hexagon of radius 1 m in the middle, with pits around it. A path from one of its faces
-// through the middle sample goes on into the opposite face; from every other sample the way to the
-// deep goal leads into a pit.
+// From samples around the middle one, except along `first` and `second`, the way to a deep goal
+// leads into a pit.
+HeightfieldSurface levelAmongPits(const std::array<int, 2>& first, const std::array<int, 2>& second)
+{
+    std::vector<float> heights(std::size_t{9} * 9, -1.0F);
+    const auto level = [&](int column, int row) {
+        heights[static_cast<std::size_t>((4 + row) * 9 + 4 + column)] = 0.0F;
+    };
+    level(0, 0);
+    level(first[0] + second[0], first[1] + second[1]);
+    for (const auto& [column, row] : kAround) {
+        level(column, row);
+    }
+    return test::surfaceOver(test::filledTerrain(9, heights));
+}
+
+// A path through the middle sample goes on into the opposite face. It begins in a face of that
+// sample or in the next one.
 template <typename Model>
-void crossesTheMiddle(const HeightfieldSurface& surface)
+void crossesTheMiddle(const std::vector<double>& radii)
 {
     for (std::size_t i = 0; i < 6; ++i) {
+        const std::array<int, 2>& a = kAround[i];
+        const std::array<int, 2>& b = kAround[(i + 1) % 6];
         for (const double share : {0.25, 0.5, 0.75}) {
-            const auto at = [&](double radius, double z) {
-                const std::array<int, 2>& a = kAround[i];
-                const std::array<int, 2>& b = kAround[(i + 1) % 6];
-                return ScenePoint{radius * (a[0] * share + b[0] * (1.0 - share)),
-                                  -radius * (a[1] * share + b[1] * (1.0 - share)), z};
-            };
-            Model model(surface);
-            ASSERT_EQ(model.place(at(0.5, -0.125)).proxy, at(0.5, 0.0));
-            const ContactState state = model.update(at(-0.25, -6.0));
-            EXPECT_NEAR(test::distance(state.proxy, at(-0.25, 0.0)), 0.0, 1e-12)
-                << i << ' ' << share;
-            EXPECT_EQ(state.feature, ContactFeature::Face);
+            for (const double radius : radii) {
+                const auto at = [&](double away, double z) {
+                    return ScenePoint{away * (a[0] * share + b[0] * (1.0 - share)),
+                                      -away * (a[1] * share + b[1] * (1.0 - share)), z};
+                };
+                Model model(levelAmongPits(a, b));
+                ASSERT_EQ(model.place(at(radius, -0.125)).proxy, at(radius, 0.0));
+                const ContactState state = model.update(at(-0.25, -6.0));
+                EXPECT_NEAR(test::distance(state.proxy, at(-0.25, 0.0)), 0.0, 1e-12)
+                    << i << ' ' << share << ' ' << radius;
+                EXPECT_EQ(state.feature, ContactFeature::Face);
+            }
         }
     }
 }
 
 TEST(SteepestDescent, APathThroughASampleGoesOnBeyondIt)
 {
-    std::vector<float> heights(std::size_t{9} * 9, -1.0F);
-    heights[4 * 9 + 4] = 0.0F;
-    for (const auto& [column, row] : kAround) {
-        heights[static_cast<std::size_t>((4 + row) * 9 + 4 + column)] = 0.0F;
+    crossesTheMiddle<Walk>({0.5, 1.25});
+    crossesTheMiddle<ContinuousWalk<HeightfieldSurface>>({0.5, 1.25});
+    crossesTheMiddle<ProxyGraph<HeightfieldSurface>>({0.5}); // from edges on it turns aside
+}
+
+// Straight below a position on an edge a descent begins there. Where both faces lead closer it
+// takes the one on which the distance decreases faster, and ends at the goal's foot if that lies on
+// it.
+template <typename Model>
+int leavesEdges(const HeightfieldSurface& surface)
+{
+    const auto point = [&](GridPoint grid) {
+        return surface.frame().toScene(grid, test::bruteHeight(surface, grid));
+    };
+    Model model(surface);
+    int feet = 0;
+    for (int row = 1; row < 58; ++row) {
+        for (int column = 1; column < 58; ++column) {
+            const std::size_t kind = static_cast<std::size_t>(column + row) % 3;
+            const auto sample = [&](const std::array<int, 2>& step) {
+                return point(
+                    {static_cast<double>(column + step[0]), static_cast<double>(row + step[1])});
+            };
+            const ScenePoint from = sample({0, 0});
+            const Vec3 edge = sample(kAround[kind]) - from;
+            const GridPoint grid{column + 0.375 * kAround[kind][0], row + 0.375 * kAround[kind][1]};
+            const ScenePoint here = point(grid);
+            for (const double depth_m : {0.25, 0.5, 1.0}) {
+                const ScenePoint goal = surface.frame().toScene(grid, here.z - depth_m);
+                Steepest steepest;
+                int leads = 0;
+                for (const std::size_t side : {(kind + 1) % 6, (kind + 5) % 6}) {
+                    const Vec3 across = sample(kAround[side]) - from;
+                    const Vec3 normal = normalized(cross(edge, across));
+                    const Vec3 to_foot = (goal - here) - normal * dot(normal, goal - here);
+                    // Signed areas of the triangles that the foot forms with the edges.
+                    const Vec3 foot = (here + to_foot) - from;
+                    const double in = dot(cross(edge, foot), normal);
+                    const double before = dot(cross(foot, across), normal);
+                    if (in > 0.0) {
+                        ++leads;
+                        const bool is_on_face =
+                            before > 0.0 && in + before < dot(cross(edge, across), normal);
+                        steepest.consider(length(to_foot) / depth_m,
+                                          is_on_face ? std::optional(here + to_foot)
+                                                     : std::nullopt);
+                    }
+                }
+                if (leads == 2 && steepest.foot && steepest.cosine > steepest.next_cosine + 1e-9) {
+                    ++feet;
+                    EXPECT_NEAR(test::distance(model.place(goal).proxy, *steepest.foot), 0.0, 1e-9)
+                        << column << ' ' << row << ' ' << depth_m;
+                }
+            }
+        }
     }
-    const HeightfieldSurface surface = test::surfaceOver(test::filledTerrain(9, heights));
-    crossesTheMiddle<Walk>(surface);
-    crossesTheMiddle<ProxyGraph<HeightfieldSurface>>(surface);
-    crossesTheMiddle<ContinuousWalk<HeightfieldSurface>>(surface);
+    return feet;
+}
+
+TEST(SteepestDescent, LeavesAnEdgeOverTheFaceThatLeadsCloserFaster)
+{
+    test::Random random;
+    std::vector<float> heights;
+    for (int i = 0; i < 60 * 60; ++i) {
+        heights.push_back(static_cast<float>(random.uniform(-0.5, 0.5)));
+    }
+    const auto terrain = test::filledTerrain(60, heights);
+    for (const double east_per_row : {0.0, 0.75, -0.75}) {
+        SceneFrame frame = test::unitFrame(*terrain);
+        frame.east_per_row = east_per_row;
+        const HeightfieldSurface surface(terrain, frame, 1.0);
+        EXPECT_GT(leavesEdges<Walk>(surface), 200) << east_per_row;
+        EXPECT_GT(leavesEdges<ProxyGraph<HeightfieldSurface>>(surface), 200) << east_per_row;
+    }
 }
 
 // The height of a plane at a position in the grid, in meters.
