@@ -6,7 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <vector>
 
@@ -138,10 +140,58 @@ TEST(HeightfieldSurface, HeightIsThatOfTheTriangles)
     EXPECT_EQ(surface.height({-3.0, 90.0}), 2.5 * terrain->sample(0, 29));
 }
 
+// A point that moves straight, into the map, out of it or past a corner: where it is clamped, the
+// goal moves along the legs and along nothing else.
+TEST(HeightfieldSurface, ClampedGoalsMoveAlongTheLegs)
+{
+    test::Random random;
+    const auto terrain = test::filledTerrain(20, test::fractalHeights(20, 12, 3));
+    SceneFrame frame = test::unitFrame(*terrain);
+    frame.east_per_row = 0.3;
+    const HeightfieldSurface surface(terrain, frame, 1.0);
+    std::size_t most = 0;
+    for (int i = 0; i < 500; ++i) {
+        const auto anywhere = [&] {
+            GridPoint grid{random.uniform(-20.0, 40.0), random.uniform(-15.0, 30.0)};
+            if (i % 4 == 0) { // also along the border and through corners
+                grid = {19.0 * std::round(grid.column / 19.0), 11.0 * std::round(grid.row / 11.0)};
+            }
+            return frame.toScene(grid, random.uniform(-5.0, 5.0));
+        };
+        const ScenePoint from = anywhere();
+        const ScenePoint to = anywhere();
+        const auto goal_at = [&](double share) {
+            return surface.goalPoint(*surface.goal(from + (to - from) * share));
+        };
+        const auto legs = surface.legs(from, to);
+        ASSERT_GE(legs.count, 1U);
+        most = std::max(most, legs.count);
+        EXPECT_EQ(surface.goalPoint(legs.ends[legs.count - 1]),
+                  surface.goalPoint(*surface.goal(to)));
+        std::size_t leg = 0;
+        ScenePoint begin = goal_at(0.0);
+        for (int k = 0; k <= 200; ++k) {
+            const ScenePoint at = goal_at(k / 200.0);
+            // On this leg or a later one.
+            const auto off_m = [&] {
+                const ScenePoint end = surface.goalPoint(legs.ends[leg]);
+                return length(at - begin) + length(end - at) - length(end - begin);
+            };
+            while (off_m() > 1e-9 && leg + 1 < legs.count) {
+                begin = surface.goalPoint(legs.ends[leg++]);
+            }
+            ASSERT_LE(off_m(), 1e-9) << "pair " << i << " at " << k;
+        }
+        EXPECT_EQ(leg + 1, legs.count) << "pair " << i;
+    }
+    EXPECT_EQ(most, 5U);
+}
+
 TEST(HeightfieldSurface, ReportsFilledVoids)
 {
     std::vector<float> heights(std::size_t{20} * 20, 1.0F);
     heights[5 * 20 + 5] = kNanFloat;
+    heights[10 * 20 + 18] = kNanFloat;
     const auto terrain = test::filledTerrain(20, heights);
     const SceneFrame frame = test::unitFrame(*terrain);
     const HeightfieldSurface surface(terrain, frame, 1.0);
@@ -154,6 +204,9 @@ TEST(HeightfieldSurface, ReportsFilledVoids)
     EXPECT_FALSE(is_over_void(6.0, 5.5)) << "on the opposite edge";
     EXPECT_FALSE(is_over_void(5.75, 4.125)) << "the other triangle of the cell";
     EXPECT_FALSE(is_over_void(10.0, 10.0));
+    // The last column belongs to the last cell, and needs nothing of the one before it.
+    EXPECT_TRUE(is_over_void(18.5, 10.0));
+    EXPECT_FALSE(is_over_void(19.0, 10.0));
 }
 
 TEST(HeightfieldSurfaceDeathTest, RefusesFlatAndInfiniteFrames)
