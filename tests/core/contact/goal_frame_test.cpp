@@ -31,6 +31,23 @@ TEST(GoalFrame, PlacesAGoalAtItsSampleWithExaggeratedHeight)
     EXPECT_EQ(back.z, 100.0);
 }
 
+// Pixels of a third of a meter, which no number holds: at samples the map's coordinates are those
+// of the sample, to the bit, however the conversion rounds.
+TEST(GoalFrame, ReturnsTheExactPositionsOfSamples)
+{
+    const auto thirds = std::make_shared<const Georeference>(
+        1000, 800, GeoTransform::fromTerms({0.1, 1.0 / 3.0, 0.0, 0.7, 0.0, -1.0 / 3.0}).value(),
+        std::nullopt);
+    const GoalFrame frame(thirds, 1.0);
+    for (int i = 0; i < 800; ++i) {
+        const MapPoint map =
+            thirds->toMap({static_cast<double>(i), static_cast<double>((7 * i + 1) % 800)});
+        const TracePoint back = frame.fromScene(frame.toScene({map.x, map.y, 0.0}));
+        EXPECT_EQ(back.x, map.x) << i;
+        EXPECT_EQ(back.y, map.y) << i;
+    }
+}
+
 TEST(GoalFrame, RoundTripsToTheSamePosition)
 {
     Random random;
