@@ -1,6 +1,7 @@
 # Writes a CTest file with one test per suite of a GoogleTest program. With one process per test,
 # loading libraries would take longer than most tests.
-#   cmake -DPROGRAM=… -DPREFIX=… -DTIMEOUT=… -DOUTPUT=… -P list_suites.cmake
+#   cmake -DPROGRAM=… -DPREFIX=… -DTIMEOUT=… -DDRAWING=… -DOUTPUT=… -P list_suites.cmake
+# The tests whose names match DRAWING, unless it is empty, run without a search for leaks.
 
 execute_process(COMMAND "${PROGRAM}" --gtest_list_tests
   OUTPUT_VARIABLE listing COMMAND_ERROR_IS_FATAL ANY)
@@ -14,10 +15,14 @@ foreach(line IN LISTS lines)
   # A suite: its name, a dot, and a comment for typed ones. Tests are indented.
   if(line MATCHES "^([^ ]+)\\.( .*)?$")
     set(suite "${CMAKE_MATCH_1}")
+    set(environment "")
+    if(DRAWING AND "${PREFIX}.${suite}" MATCHES "${DRAWING}")
+      set(environment " ENVIRONMENT ASAN_OPTIONS=detect_leaks=0:detect_stack_use_after_return=1")
+    endif()
     string(APPEND script
       "add_test([==[${PREFIX}.${suite}]==] [==[${PROGRAM}]==] [==[--gtest_filter=${suite}.*]==] --gtest_brief=1)\n"
       "set_tests_properties([==[${PREFIX}.${suite}]==] PROPERTIES TIMEOUT ${TIMEOUT}"
-      " LABELS ${PREFIX} SKIP_REGULAR_EXPRESSION [==[${all_skipped}]==])\n")
+      " LABELS ${PREFIX} SKIP_REGULAR_EXPRESSION [==[${all_skipped}]==]${environment})\n")
   endif()
 endforeach()
 file(WRITE "${OUTPUT}" "${script}")

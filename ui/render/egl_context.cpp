@@ -3,19 +3,9 @@
 #include <array>
 #include <epoxy/egl.h>
 #include <fmt/format.h>
-#if defined(__SANITIZE_ADDRESS__)
-#include <sanitizer/lsan_interface.h>
-#endif
 
 namespace marsview {
 namespace {
-
-#if defined(__SANITIZE_ADDRESS__)
-// Drivers keep some small blocks until the process ends, in modules that are unloaded by then.
-using DriverBlocks = __lsan::ScopedDisabler;
-#else
-struct DriverBlocks {};
-#endif
 
 Error refusal(const char* step)
 {
@@ -44,7 +34,6 @@ EGLDisplay openDisplay()
 Result<std::unique_ptr<EglContext>> EglContext::create()
 {
     std::unique_ptr<EglContext> context(new EglContext);
-    [[maybe_unused]] const DriverBlocks blocks;
     const EGLDisplay display = openDisplay();
     if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) == EGL_FALSE) {
         return refusal("opening a display");
