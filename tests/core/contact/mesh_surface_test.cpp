@@ -536,6 +536,12 @@ TEST(MeshSurface, FacetsKnowTheirNeighbors)
             }
             // The foot is the projection of the goal, by weights.
             const MeshGoal goal{{0.3, -0.2, 0.1}, {}};
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::size_t to = (k + i + 1) % 3;
+                EXPECT_EQ(surface.between(facet, k, to),
+                          surface.between(facet.vertices[k], facet.vertices[to]));
+                EXPECT_EQ(surface.toGoal(facet, k, goal), surface.toGoal(facet.vertices[k], goal));
+            }
             const SurfaceFoot foot = facet.foot(goal);
             EXPECT_NEAR(foot.weights[0] + foot.weights[1] + foot.weights[2], facet.scale,
                         1e-12 * facet.scale * 100.0);
@@ -548,6 +554,32 @@ TEST(MeshSurface, FacetsKnowTheirNeighbors)
             EXPECT_EQ(foot.above > 0.0, dot(to_goal, facet.normal) > 0.0);
         }
     }
+}
+
+// Between two goals nanometers apart, a million meters from the origin: the position is the nearest
+// number, and the rest is what it lacks, exact to a few units in the last place of the way.
+TEST(MeshSurface, GoalsOnAPathOfNanometersKeepTheirRests)
+{
+    const MeshSurface surface(test::meshOf(test::star()));
+    const MeshGoal from{{1e6, -2e6, 3e6}, {1e-11, -2e-11, 3e-11}};
+    const MeshGoal to{{1e6 + 0x1p-30, -2e6 - 0x1p-31, 3e6 + 0x1p-29}, {}};
+    const Vec3 way = (to.scene - from.scene) + (to.rest - from.rest);
+    for (const double share : {0.001, 0.25, 0.7, 0.999}) {
+        const MeshGoal at = surface.along(from, to, share);
+        const Vec3 gone = (at.scene - from.scene) + (at.rest - from.rest);
+        EXPECT_NEAR(length(gone - way * share), 0.0, 1e-15 * length(way)) << share;
+        EXPECT_LE(length(at.rest), 0x1p-31 + 6e-11) << "half a unit in the last place, and rests";
+        EXPECT_EQ(surface.goalPoint(at), at.scene);
+    }
+    for (const double share : {0.0, 1.0}) {
+        const MeshGoal at = surface.along(from, to, share);
+        EXPECT_EQ(at.scene, (share > 0.0 ? to : from).scene);
+        EXPECT_EQ(at.rest, (share > 0.0 ? to : from).rest);
+    }
+    // A long path is resolved by the positions alone.
+    const MeshGoal middle = surface.along({{0.0, 0.0, 0.0}, {}}, {{8.0, 4.0, -2.0}, {}}, 0.25);
+    EXPECT_EQ(middle.scene, (ScenePoint{2.0, 1.0, -0.5}));
+    EXPECT_EQ(middle.rest, Vec3{});
 }
 
 } // namespace
