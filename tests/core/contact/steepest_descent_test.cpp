@@ -326,5 +326,52 @@ TEST(SteepestDescent, OnAPlaneTheWayIsStraight)
     }
 }
 
+// Only the faces below a straight path are level: a walk that leaves one of them over another edge
+// than the path falls into a pit.
+template <typename Model>
+void keepsToTheCorridor()
+{
+    constexpr int kSide = 24;
+    test::Random random;
+    for (int i = 0; i < 120; ++i) {
+        const auto within = [&] { return random.uniform(7.0, 16.0); };
+        const GridPoint from{within(), within()};
+        const GridPoint to{within(), within()};
+        std::vector<float> heights(std::size_t{kSide} * kSide, -1.0F);
+        const auto level = [&](double column, double row) {
+            const int c = static_cast<int>(column);
+            const int r = static_cast<int>(row);
+            const bool is_upper = column - c >= row - r;
+            for (const auto& [x, y] :
+                 {std::array{c, r}, std::array{c + 1, r + 1},
+                  std::array{c + (is_upper ? 1 : 0), r + (is_upper ? 0 : 1)}}) {
+                heights[static_cast<std::size_t>(y * kSide + x)] = 0.0F;
+            }
+        };
+        for (int k = 0; k <= 2000; ++k) {
+            constexpr double kBeside = 0.005; // also faces of which the path only passes a corner
+            for (const double x : {-kBeside, kBeside}) {
+                for (const double y : {-kBeside, kBeside}) {
+                    level(from.column + k / 2000.0 * (to.column - from.column) + x,
+                          from.row + k / 2000.0 * (to.row - from.row) + y);
+                }
+            }
+        }
+        const HeightfieldSurface surface = test::surfaceOver(test::filledTerrain(kSide, heights));
+        const auto at = [&](GridPoint grid, double z) { return surface.frame().toScene(grid, z); };
+        Model model(surface);
+        model.place(at(from, -1e-3));
+        ASSERT_NEAR(test::distance(model.update(at(from, -1e-3)).proxy, at(from, 0.0)), 0.0, 1e-12);
+        EXPECT_NEAR(test::distance(model.update(at(to, -30.0)).proxy, at(to, 0.0)), 0.0, 1e-12)
+            << i << ": " << from.column << ' ' << from.row << " to " << to.column << ' ' << to.row;
+    }
+}
+
+TEST(SteepestDescent, LeavesEveryFaceWhereTheStraightWayDoes)
+{
+    keepsToTheCorridor<Walk>();
+    keepsToTheCorridor<ContinuousWalk<HeightfieldSurface>>();
+}
+
 } // namespace
 } // namespace marsview
