@@ -308,6 +308,7 @@ TEST(HapticTick, ASurfaceAboveTheWorkspaceSinksToItsTop)
     rig.settings.frame.place.z = -70.0;
     rig.at({});
     const auto surface_z = [&rig] { return rig.state.frame.toWorkspace({0.0, 0.0, 10.0}).z; };
+    EXPECT_NEAR(surface_z(), 0.08, 20.001e-6);
     for (int i = 0; i < 3000; ++i) {
         const double before = surface_z();
         ASSERT_TRUE(rig.at({0.0, 0.0, 0.01}).contact.is_in_contact);
@@ -936,6 +937,25 @@ TEST(HapticTick, AGlidingMapStopsWhereItsEdgeReachesTheHand)
     }
     EXPECT_NEAR(rig.state.frame.toScene({-0.05, 0.0, 0.0}).x, -100.0, 1e-9);
     EXPECT_EQ(rig.state.modes.pan.velocity_m_per_s, Vec3{});
+}
+
+// A map glides by its speed, which drag reduces, times the time of the tick. That is at most 10 ms,
+// and nothing if the clock is broken.
+TEST(HapticTick, AfterAPauseAMapGlidesOnFromWhereItWas)
+{
+    for (const auto& [dt_s, glides_s] :
+         {std::pair(0.004, 0.004), std::pair(0.01, 0.01), std::pair(0.015, 0.01),
+          std::pair(1e9, 0.01), std::pair(-1.0, 0.0), std::pair(kNan, 0.0),
+          std::pair(std::numeric_limits<double>::infinity(), 0.0)}) {
+        Rig rig;
+        rig.at({});
+        const double before_m = rig.state.frame.toScene({}).x;
+        rig.state.modes.pan.velocity_m_per_s = {0.3, 0.0, 0.0};
+        rig.at({}, dt_s);
+        const double speed = 0.3 / (1.0 + rig.settings.modes.pan.drag_per_s * glides_s);
+        EXPECT_NEAR(rig.state.frame.toScene({}).x - before_m, -1000.0 * speed * glides_s, 1e-9)
+            << dt_s;
+    }
 }
 
 TEST(HapticTick, AModelThatIsGivenTheGoalsAgainGivesTheSameProxiesToTheBit)
