@@ -7,6 +7,18 @@
 namespace marsview {
 namespace {
 
+// A vertex that is computed in two places of the program, as one of a node and as one that gives
+// way, has the same bits in both. Without "precise", drivers may fuse other products and sums in
+// each.
+constexpr const char* kVertexStart = R"(#version 330 core
+#extension GL_ARB_gpu_shader5 : enable
+#ifdef GL_ARB_gpu_shader5
+#define SAME_BITS precise
+#else
+#define SAME_BITS
+#endif
+)";
+
 // Positions are samples relative to an anchor near the eye, and meters over the base height: whole
 // numbers, the same for a sample whichever node it is drawn with, so that nodes that meet compute
 // the same bits. See core/view/detail_selection.h for ranges and morphing.
@@ -40,20 +52,23 @@ const float kMorphEnd = 1.2;
 // Between corners. Exact where a share is 0 or 1.
 float between(vec4 corners, vec2 share)
 {
-    vec2 side = corners.xz * (1.0 - share.x) + corners.yw * share.x;
-    return side.x * (1.0 - share.y) + side.y * share.y;
+    SAME_BITS vec2 side = corners.xz * (1.0 - share.x) + corners.yw * share.x;
+    SAME_BITS float value = side.x * (1.0 - share.y) + side.y * share.y;
+    return value;
 }
 
 // How far a vertex has given way to the next level, 0 … 1.
 float morph(vec3 from_eye, vec4 ranges, vec2 share)
 {
     float range = between(ranges, share);
-    return clamp((length(from_eye) - range) / ((kMorphEnd - 1.0) * range), 0.0, 1.0);
+    SAME_BITS float given = (length(from_eye) - range) / ((kMorphEnd - 1.0) * range);
+    return clamp(given, 0.0, 1.0);
 }
 
 vec3 blend(vec3 from, vec3 to, float share)
 {
-    return share <= 0.0 ? from : share >= 1.0 ? to : from + (to - from) * share;
+    SAME_BITS vec3 mixed = from + (to - from) * share;
+    return share <= 0.0 ? from : share >= 1.0 ? to : mixed;
 }
 
 vec2 sampleOf(vec2 cell)
@@ -86,8 +101,10 @@ vec3 vertexAt(vec2 cell)
 
 vec3 fromEye(vec3 p)
 {
-    return vec3(dot(u_frame.xy, p.xy), dot(u_frame.zw, p.xy), p.z * u_exaggeration) +
-           u_anchor_from_eye;
+    SAME_BITS vec3 place =
+        vec3(dot(u_frame.xy, p.xy), dot(u_frame.zw, p.xy), p.z * u_exaggeration) +
+        u_anchor_from_eye;
+    return place;
 }
 
 void main()
@@ -149,7 +166,8 @@ struct Vertex {
 // exact, and so is its product with a power of two.
 vec3 fromEye(vec3 cube, vec3 within)
 {
-    return (cube - u_eye_far) * u_lattice + (within - u_eye_near);
+    SAME_BITS vec3 place = (cube - u_eye_far) * u_lattice + (within - u_eye_near);
+    return place;
 }
 
 // A map that ends within a node has all further vertices at its last column or row. They count as
@@ -645,7 +663,7 @@ void main()
 
 std::string vertexSourceFor(const TerrainShaderKey& key)
 {
-    return fmt::format("#version 330 core\n#define COVERS {}\n{}{}{}", key.cover_count,
+    return fmt::format("{}#define COVERS {}\n{}{}{}", kVertexStart, key.cover_count,
                        key.is_on_body ? "#define BODY\n" : "", key.is_wall ? "#define WALL\n" : "",
                        kTerrainVertex);
 }
