@@ -18,6 +18,7 @@
 #include "ui/render/node_instance.h"
 #include "ui/render/relief_cache.h"
 #include "ui/render/terrain_shaders.h"
+#include "ui/render/unfinished_draws.h"
 #include "ui/render/wall_drawing.h"
 #include "ui/render/warm_up.h"
 
@@ -85,7 +86,6 @@ struct IndexRange {
     GLsizei count;
 };
 
-// Software drivers keep all triangles until the next flush, some 100 bytes each.
 constexpr std::size_t kNodesPerDraw = 32;
 
 // Texture units.
@@ -350,6 +350,7 @@ struct TerrainRenderer::Impl {
     };
     std::vector<Batch> batches; // one a page
     WallDrawing walls;
+    UnfinishedDraws unfinished;
 
     Impl(TerrainShaders compiled,
          std::string name,
@@ -391,7 +392,7 @@ struct TerrainRenderer::Impl {
                  const DrawRequest& request,
                  const SceneFrame& frame,
                  double exaggeration) const;
-    void drawInstances(std::vector<NodeInstance>& instances_of, const IndexRange& range) const;
+    void drawInstances(std::vector<NodeInstance>& instances_of, const IndexRange& range);
     ClipRange clip(const CameraPose& camera, double exaggeration) const;
     std::optional<NodeSlots::Place>
     placeOf(Layer& layer, const DetailNode& node, const std::optional<BodySubject>& on_body);
@@ -703,7 +704,7 @@ void TerrainRenderer::Impl::drawBatches(const DrawRequest& request)
 
 // And forgets them.
 void TerrainRenderer::Impl::drawInstances(std::vector<NodeInstance>& instances_of,
-                                          const IndexRange& range) const
+                                          const IndexRange& range)
 {
     for (std::size_t first = 0; first < instances_of.size(); first += kNodesPerDraw) {
         const std::size_t count = std::min(kNodesPerDraw, instances_of.size() - first);
@@ -712,8 +713,8 @@ void TerrainRenderer::Impl::drawInstances(std::vector<NodeInstance>& instances_o
         glDrawElementsInstanced(GL_TRIANGLES, range.count, GL_UNSIGNED_SHORT,
                                 reinterpret_cast<const void*>(range.first * sizeof(std::uint16_t)),
                                 static_cast<GLsizei>(count));
-        if (is_software && count == kNodesPerDraw) {
-            glFlush();
+        if (is_software) {
+            unfinished.add(count * static_cast<std::size_t>(range.count) / 3);
         }
     }
     instances_of.clear();
