@@ -3,6 +3,7 @@
 #include "core/globe/body_camera.h"
 #include "core/globe/body_navigation.h"
 #include "tests/render/render_fixture.h"
+#include "tests/support/grid_tile_source.h"
 
 #include <gtest/gtest.h>
 
@@ -190,6 +191,49 @@ TEST_F(BodyWalls, NoPixelIsSeenThroughBetweenMountains)
                 << "from " << from.distance_m << " m, " << from.tilt_deg << "°, × " << exaggeration
                 << ", " << error_px << " px";
         }
+    }
+}
+
+// Tiles come while the picture is drawn.
+TEST_F(BodyWalls, NoPixelIsSeenThroughAroundAMapInTiles)
+{
+    const StepMap lower = globe(level);
+    for (const double step_m : {2000.0, -2000.0}) {
+        const StepMap upper("+proj=tmerc +lat_0=18.5 +lon_0=77.4 +R=3396190 +units=m", 500, 400,
+                            {-12500, 50, 0, 10000, 0, -50}, [&](std::size_t c, std::size_t r) {
+                                return isInCrater(c / 4, r / 4) ? kNaN : step_m;
+                            });
+        const TileCache cache({.bytes_max = std::size_t{1} << 26});
+        const auto tiles = TiledSamples::open(
+            TiledRaster(cache, std::make_shared<GridTileSource>(
+                                   *upper.drawn.field, GridTileSource::Options{.mean_levels = 2})));
+        const SampleStatistics statistics{
+            .raw_minimum = step_m, .raw_maximum = step_m, .void_count = 1, .sample_count = 200000};
+        TerrainLayer layer = upper.layer();
+        layer.heightfield = std::make_shared<const Heightfield>(tiles.value(), statistics,
+                                                                upper.drawn.field->scale());
+        const OffscreenPicture picture = drawFrom({layer, lower.layer()}, over(kPositions[1]));
+        EXPECT_EQ(open(picture.colors, over(kPositions[1]), std::min(step_m, 0.0) - 200.0), 0U)
+            << step_m << " m";
+    }
+}
+
+// With more samples along a side than the texture has that cuts the lower map.
+TEST_F(BodyWalls, NoPixelIsSeenThroughAroundAHoleInALongMap)
+{
+    const StepMap lower = globe(level);
+    for (const double step_m : {2000.0, -2000.0}) {
+        const StepMap upper("+proj=tmerc +lat_0=18.5 +lon_0=77.4 +R=3396190 +units=m", 4200, 200,
+                            {-105000, 50, 0, 5000, 0, -50}, [&](std::size_t c, std::size_t r) {
+                                return std::hypot(static_cast<double>(c) - 2100.0,
+                                                  static_cast<double>(r) - 100.0) < 40.0
+                                           ? kNaN
+                                           : step_m;
+                            });
+        const OffscreenPicture picture =
+            drawFrom({upper.layer(), lower.layer()}, over(kPositions[2]));
+        EXPECT_EQ(open(picture.colors, over(kPositions[2]), std::min(step_m, 0.0) - 200.0), 0U)
+            << step_m << " m";
     }
 }
 
