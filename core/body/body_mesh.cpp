@@ -39,7 +39,7 @@ BodyMesh::BodyMesh(std::shared_ptr<const FilledHeightfield> heights,
     const std::array<bool, 2> closes{positions_.closesAtFirstRow(), positions_.closesAtLastRow()};
     for (std::size_t i = 0; i < caps_.size(); ++i) {
         if (closes[i]) {
-            caps_[i] = {.first_face = static_cast<std::uint32_t>(face_count_),
+            caps_[i] = {.first_face = face_count_,
                         .row = i == 0 ? 0 : rows_ - 1,
                         .exists = true,
                         .is_turned = is_mirrored_ != (i == 1)};
@@ -57,12 +57,6 @@ BodyMesh::build(std::shared_ptr<const FilledHeightfield> heights,
 {
     MARSVIEW_CHECK(heights->columns() == georeference.columns() &&
                    heights->rows() == georeference.rows());
-    constexpr std::size_t kCellsMax = 700'000'000; // so that corner indices fit
-    if (heights->columns() * heights->rows() > kCellsMax) {
-        return Error{ErrorCode::TooLarge,
-                     fmt::format("has {} × {} samples; up to {} can lie on a body",
-                                 heights->columns(), heights->rows(), kCellsMax)};
-    }
     Result<BodyPositions> positions = BodyPositions::make(georeference, monitor, scene);
     if (!positions) {
         return std::move(positions).error();
@@ -75,17 +69,15 @@ BodyMesh::build(std::shared_ptr<const FilledHeightfield> heights,
     return std::shared_ptr<const BodyMesh>(std::move(mesh));
 }
 
-std::uint32_t BodyMesh::across(std::uint32_t corner) const noexcept
+BodyIndex BodyMesh::across(BodyIndex corner) const noexcept
 {
-    const std::uint32_t face = corner / 3;
-    const std::uint32_t cell = face / 2;
-    const std::uint32_t row = cell / cell_columns_;
+    const BodyIndex face = corner / 3;
+    const auto [column, row] = cellOf(face / 2);
     if (row >= rows_ - 1) {
         return acrossInCap(capOf(face), corner);
     }
-    const std::uint32_t column = cell - row * cell_columns_;
     const bool is_upper = face % 2 == 1;
-    switch (roleOf(is_upper, corner % 3)) {
+    switch (roleOf(is_upper, static_cast<std::uint32_t>(corner % 3))) {
     case kThird: // the diagonal
         return cellCorner(column, row, !is_upper, kThird);
     case kFirst:
@@ -120,10 +112,10 @@ std::array<std::uint32_t, 3> BodyMesh::capColumns(std::uint32_t triangle) const 
                              : std::array{step + 1, last - step - 1, last - step};
 }
 
-std::uint32_t BodyMesh::acrossInCap(const Cap& cap, std::uint32_t corner) const noexcept
+BodyIndex BodyMesh::acrossInCap(const Cap& cap, BodyIndex corner) const noexcept
 {
-    const std::uint32_t triangle = corner / 3 - cap.first_face;
-    const std::uint32_t number = corner % 3;
+    const auto triangle = static_cast<std::uint32_t>(corner / 3 - cap.first_face);
+    const auto number = static_cast<std::uint32_t>(corner % 3);
     const std::uint32_t turned = cap.is_turned && number != 0U ? 3U - number : number;
     const std::uint32_t count = columns_ - 2;
     const bool is_odd = triangle % 2 == 1;
@@ -152,7 +144,7 @@ std::uint32_t BodyMesh::acrossInCap(const Cap& cap, std::uint32_t corner) const 
 }
 
 // The corner of the cap opposite the edge from a column to the next.
-std::uint32_t BodyMesh::capCornerAtEdge(const Cap& cap, std::uint32_t column) const noexcept
+BodyIndex BodyMesh::capCornerAtEdge(const Cap& cap, std::uint32_t column) const noexcept
 {
     const std::uint32_t count = columns_ - 2;
     if (column + 1 == columns_) {
@@ -168,13 +160,12 @@ std::uint32_t BodyMesh::capCornerAtEdge(const Cap& cap, std::uint32_t column) co
     return capCorner(cap, count - 1, (count - 1) % 2 == 1 ? 2U : 0U);
 }
 
-std::uint32_t BodyMesh::cornerAtEdge(std::uint32_t a, std::uint32_t b) const noexcept
+BodyIndex BodyMesh::cornerAtEdge(BodyIndex a, BodyIndex b) const noexcept
 {
     // The first end is further up or, in its row, further left.
-    const std::uint32_t first = std::min(a, b);
-    const std::uint32_t row = first / columns_;
-    const std::uint32_t column = first - row * columns_;
-    const std::uint32_t step = std::max(a, b) - first;
+    const BodyIndex first = std::min(a, b);
+    const auto [column, row] = sampleOf(first);
+    const BodyIndex step = std::max(a, b) - first;
     if (column + 1 < columns_) {
         if (step == 1 && row > 0) { // along a row: the cell above
             return cellCorner(column, row - 1, false, kFirst);
@@ -182,13 +173,13 @@ std::uint32_t BodyMesh::cornerAtEdge(std::uint32_t a, std::uint32_t b) const noe
         if (step == columns_ && column > 0) { // along a column: the cell to the left
             return cellCorner(column - 1, row, true, kFirst);
         }
-        if (step == columns_ + 1) { // a diagonal
+        if (step == BodyIndex{columns_} + 1) { // a diagonal
             return cellCorner(column, row, false, kThird);
         }
     }
-    for (const std::uint32_t corner : fan(a)) {
-        const std::uint32_t next = nextCorner(corner);
-        const std::uint32_t previous = previousCorner(corner);
+    for (const BodyIndex corner : fan(a)) {
+        const BodyIndex next = nextCorner(corner);
+        const BodyIndex previous = previousCorner(corner);
         if (vertexAt(next) == b) {
             return std::min(previous, across(previous));
         }
@@ -199,18 +190,17 @@ std::uint32_t BodyMesh::cornerAtEdge(std::uint32_t a, std::uint32_t b) const noe
     return 0; // not edges of one face
 }
 
-FanCorners BodyMesh::fan(std::uint32_t vertex) const noexcept
+FanCorners BodyMesh::fan(BodyIndex vertex) const noexcept
 {
-    const std::uint32_t row = vertex / columns_;
-    const std::uint32_t column = vertex - row * columns_;
+    const auto [column, row] = sampleOf(vertex);
     FanCorners corners;
     if (isInside(column, row)) {
-        const std::array<std::uint32_t, 6> around{cellCorner(column, row, false, kFirst),
-                                                  cellCorner(column, row, true, kFirst),
-                                                  cellCorner(column, row - 1, false, kThird),
-                                                  cellCorner(column - 1, row - 1, true, kFar),
-                                                  cellCorner(column - 1, row - 1, false, kFar),
-                                                  cellCorner(column - 1, row, true, kThird)};
+        const std::array<BodyIndex, 6> around{cellCorner(column, row, false, kFirst),
+                                              cellCorner(column, row, true, kFirst),
+                                              cellCorner(column, row - 1, false, kThird),
+                                              cellCorner(column - 1, row - 1, true, kFar),
+                                              cellCorner(column - 1, row - 1, false, kFar),
+                                              cellCorner(column - 1, row, true, kThird)};
         for (std::size_t i = 0; i < around.size(); ++i) {
             corners.add(around[is_mirrored_ ? around.size() - 1 - i : i]);
         }
@@ -219,14 +209,14 @@ FanCorners BodyMesh::fan(std::uint32_t vertex) const noexcept
     // Any of its corners, then clockwise to the border or once around, then counter-clockwise.
     const bool has_cell_right = column < cell_columns_;
     const std::uint32_t cell_column = has_cell_right ? column : column - 1;
-    const std::uint32_t some = row + 1 < rows_  ? has_cell_right
-                                                      ? cellCorner(cell_column, row, false, kFirst)
-                                                      : cellCorner(cell_column, row, true, kThird)
-                                : has_cell_right ? cellCorner(cell_column, row - 1, false, kThird)
-                                                : cellCorner(cell_column, row - 1, false, kFar);
-    std::uint32_t first = some;
+    const BodyIndex some = row + 1 < rows_  ? has_cell_right
+                                                  ? cellCorner(cell_column, row, false, kFirst)
+                                                  : cellCorner(cell_column, row, true, kThird)
+                            : has_cell_right ? cellCorner(cell_column, row - 1, false, kThird)
+                                            : cellCorner(cell_column, row - 1, false, kFar);
+    BodyIndex first = some;
     for (std::size_t i = 0; i < FanCorners::kCountMax; ++i) {
-        const std::uint32_t before = across(previousCorner(first));
+        const BodyIndex before = across(previousCorner(first));
         if (before == kNone) {
             break;
         }
@@ -235,10 +225,10 @@ FanCorners BodyMesh::fan(std::uint32_t vertex) const noexcept
             break;
         }
     }
-    std::uint32_t corner = first;
+    BodyIndex corner = first;
     for (std::size_t i = 0; i < FanCorners::kCountMax; ++i) {
         corners.add(corner);
-        const std::uint32_t beyond = across(nextCorner(corner));
+        const BodyIndex beyond = across(nextCorner(corner));
         if (beyond == kNone) {
             break;
         }
@@ -250,16 +240,14 @@ FanCorners BodyMesh::fan(std::uint32_t vertex) const noexcept
     return corners;
 }
 
-VertexRing BodyMesh::ring(std::uint32_t vertex,
-                          const ScenePoint& point,
-                          const FanCorners& corners) const noexcept
+VertexRing
+BodyMesh::ring(BodyIndex vertex, const ScenePoint& point, const FanCorners& corners) const noexcept
 {
-    const std::uint32_t row = vertex / columns_;
-    const std::uint32_t column = vertex - row * columns_;
+    const auto [column, row] = sampleOf(vertex);
     VertexRing ring;
     if (isInside(column, row)) {
         const auto add = [&](std::uint32_t c, std::uint32_t r) {
-            ring.vertices[ring.count] = r * columns_ + c;
+            ring.vertices[ring.count] = vertexOf({c, r});
             ring.along[ring.count++] = sampleAt(c, r) - point;
         };
         add(column, row + 1);
@@ -274,11 +262,10 @@ VertexRing BodyMesh::ring(std::uint32_t vertex,
         }
         return ring;
     }
-    for (const std::uint32_t corner : corners) {
+    for (const BodyIndex corner : corners) {
         ring.vertices[ring.count++] = vertexAt(nextCorner(corner));
     }
-    if (const std::uint32_t end = vertexAt(previousCorner(corners.back()));
-        end != ring.vertices[0]) {
+    if (const BodyIndex end = vertexAt(previousCorner(corners.back())); end != ring.vertices[0]) {
         ring.vertices[ring.count++] = end;
     }
     for (std::size_t i = 0; i < ring.count; ++i) {
@@ -297,8 +284,7 @@ ScenePoint BodyMesh::highAbove(const ScenePoint& point) const noexcept
 
 Status BodyMesh::buildTree(JobMonitor& monitor)
 {
-    const auto face_count = static_cast<std::uint32_t>(face_count_);
-    const std::uint32_t cap_faces = face_count - 2 * cell_columns_ * (rows_ - 1);
+    const auto cap_faces = static_cast<std::uint32_t>(face_count_ - firstCapFace());
     const std::uint32_t cap_blocks = (cap_faces + kCapFaces - 1) / kCapFaces;
     std::vector<TriangleTree::Bounds> bounds(cell_blocks_ + cap_blocks);
     for (std::uint32_t block_row = 0; block_row * kBlockCells < rows_ - 1; ++block_row) {
@@ -320,7 +306,7 @@ Status BodyMesh::buildTree(JobMonitor& monitor)
         }
     }
     for (std::uint32_t block = cell_blocks_; block < bounds.size(); ++block) {
-        eachFace(block, [&](std::uint32_t face) {
+        eachFace(block, [&](BodyIndex face) {
             for (const ScenePoint& point : points(face)) {
                 bounds[block].add(point);
             }

@@ -19,20 +19,24 @@
 
 namespace marsview {
 
+/// Of a vertex, a face or a corner of maps on a body: a planet at 200 m has more than 2^32 corners.
+using BodyIndex = std::uint64_t;
+using BodyFace = std::array<BodyIndex, 3>;
+
 /// The corners at a vertex, as in TriangleMesh::fan().
 class FanCorners {
 public:
     static constexpr std::size_t kCountMax = 8;
 
-    void add(std::uint32_t corner) noexcept { corners_[count_++] = corner; }
-    const std::uint32_t* begin() const noexcept { return corners_.data(); }
-    const std::uint32_t* end() const noexcept { return corners_.data() + count_; }
-    std::uint32_t front() const noexcept { return corners_.front(); }
-    std::uint32_t back() const noexcept { return corners_[count_ - 1]; }
+    void add(BodyIndex corner) noexcept { corners_[count_++] = corner; }
+    const BodyIndex* begin() const noexcept { return corners_.data(); }
+    const BodyIndex* end() const noexcept { return corners_.data() + count_; }
+    BodyIndex front() const noexcept { return corners_.front(); }
+    BodyIndex back() const noexcept { return corners_[count_ - 1]; }
     std::size_t size() const noexcept { return count_; }
 
 private:
-    std::array<std::uint32_t, kCountMax> corners_{};
+    std::array<BodyIndex, kCountMax> corners_{};
     std::size_t count_ = 0;
 };
 
@@ -46,8 +50,8 @@ struct BodySample {
 /// after the last comes the first, unless the vertex is at the border, which has one more edge.
 struct VertexRing {
     static constexpr std::size_t kCountMax = FanCorners::kCountMax + 1;
-    std::array<std::uint32_t, kCountMax> vertices; // at their ends
-    std::array<Vec3, kCountMax> along;             // to their ends
+    std::array<BodyIndex, kCountMax> vertices; // at their ends
+    std::array<Vec3, kCountMax> along;         // to their ends
     std::size_t count = 0;
 };
 
@@ -63,7 +67,8 @@ struct VertexRing {
 /// construction. 60 bytes per 64 cells in addition to the samples.
 class BodyMesh {
 public:
-    static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+    using Index = BodyIndex;
+    static constexpr BodyIndex kNone = std::numeric_limits<BodyIndex>::max();
     static constexpr double kCoordinateMaxM = 1e12;
 
     /// Heights are multiplied by `exaggeration`, above 0. Errors: those of BodyPositions; TooLarge
@@ -81,61 +86,56 @@ public:
     const Ellipsoid& ellipsoid() const noexcept { return positions_.ellipsoid(); }
     double exaggeration() const noexcept { return exaggeration_; }
 
-    ScenePoint vertex(std::uint32_t index) const noexcept
-    {
-        return sampleAt(index % columns_, index / columns_);
-    }
-    MeshFace face(std::uint32_t index) const noexcept
+    ScenePoint vertex(BodyIndex index) const noexcept { return pointOf(sampleOf(index)); }
+    BodyFace face(BodyIndex index) const noexcept
     {
         const std::array<BodySample, 3> at = samplesOf(index);
         return {vertexOf(at[0]), vertexOf(at[1]), vertexOf(at[2])};
     }
-    std::array<ScenePoint, 3> points(std::uint32_t face) const noexcept
+    std::array<ScenePoint, 3> points(BodyIndex face) const noexcept
     {
         const std::array<BodySample, 3> at = samplesOf(face);
         return {pointOf(at[0]), pointOf(at[1]), pointOf(at[2])};
     }
-    Vec3 normal(std::uint32_t face) const noexcept
+    Vec3 normal(BodyIndex face) const noexcept
     {
         const auto [a, b, c] = points(face);
         return cross(b - a, c - a);
     }
-    std::uint32_t across(std::uint32_t corner) const noexcept;
-    FanCorners fan(std::uint32_t vertex) const noexcept;
+    BodyIndex across(BodyIndex corner) const noexcept;
+    FanCorners fan(BodyIndex vertex) const noexcept;
     /// `corners` is fan(vertex), `point` is its position.
     VertexRing
-    ring(std::uint32_t vertex, const ScenePoint& point, const FanCorners& corners) const noexcept;
-    bool isAtBorder(std::uint32_t vertex) const noexcept
+    ring(BodyIndex vertex, const ScenePoint& point, const FanCorners& corners) const noexcept;
+    bool isAtBorder(BodyIndex vertex) const noexcept
     {
         return across(previousCorner(fan(vertex).front())) == kNone;
     }
-    std::uint32_t vertexAt(std::uint32_t corner) const noexcept
+    BodyIndex vertexAt(BodyIndex corner) const noexcept
     {
         return vertexOf(samplesOf(corner / 3)[corner % 3]);
     }
     /// The vertices of the edge opposite a corner, from the next corner to the previous one.
-    std::array<std::uint32_t, 2> edgeEnds(std::uint32_t corner) const noexcept
+    std::array<BodyIndex, 2> edgeEnds(BodyIndex corner) const noexcept
     {
         const std::array<BodySample, 3> at = samplesOf(corner / 3);
-        const std::uint32_t number = corner % 3;
+        const BodyIndex number = corner % 3;
         return {vertexOf(at[number == 2 ? 0 : number + 1]),
                 vertexOf(at[number == 0 ? 2 : number - 1])};
     }
     /// The lesser of the corners opposite the edge between two vertices of a face.
-    std::uint32_t cornerAtEdge(std::uint32_t a, std::uint32_t b) const noexcept;
+    BodyIndex cornerAtEdge(BodyIndex a, BodyIndex b) const noexcept;
 
     // Faces by their samples: over the edges of cells that do not lie across the seam, a walk finds
     // the next vertex by adding, without a division by the number of columns.
 
     /// The samples of a face's corners.
-    std::array<BodySample, 3> samplesOf(std::uint32_t face) const noexcept
+    std::array<BodySample, 3> samplesOf(BodyIndex face) const noexcept
     {
-        const std::uint32_t cell = face / 2;
-        const std::uint32_t row = cell / cell_columns_;
+        const auto [column, row] = cellOf(face / 2);
         if (row >= rows_ - 1) {
             return samplesOfCap(face);
         }
-        const std::uint32_t column = cell - row * cell_columns_;
         const std::uint32_t next = nextColumn(column);
         const bool is_upper = face % 2 == 1;
         const BodySample far{next, row + 1};
@@ -143,9 +143,9 @@ public:
         const bool is_far_second = is_upper != is_mirrored_;
         return {{{column, row}, is_far_second ? far : third, is_far_second ? third : far}};
     }
-    std::uint32_t vertexOf(const BodySample& sample) const noexcept
+    BodyIndex vertexOf(const BodySample& sample) const noexcept
     {
-        return sample.row * columns_ + sample.column;
+        return BodyIndex{sample.row} * columns_ + sample.column;
     }
     ScenePoint pointOf(const BodySample& sample) const noexcept
     {
@@ -153,12 +153,11 @@ public:
     }
     /// The samples of a face if step() finds its neighbors from them; otherwise three for which it
     /// finds none: those of a pole's triangles, and of cells across the seam.
-    std::array<BodySample, 3> stepsFrom(std::uint32_t face) const noexcept
+    std::array<BodySample, 3> stepsFrom(BodyIndex face) const noexcept
     {
         constexpr BodySample kNowhere{std::uint32_t{1} << 30U, 0};
         const std::array<BodySample, 3> at = samplesOf(face);
-        const bool is_plain =
-            face < 2 * cell_columns_ * (rows_ - 1) && at[0].column + 1 != columns_;
+        const bool is_plain = face < firstCapFace() && at[0].column + 1 != columns_;
         return is_plain ? at : std::array{kNowhere, kNowhere, kNowhere};
     }
     /// From a face's corner over the edge between the two others: the far corner of the next face,
@@ -175,7 +174,7 @@ public:
     }
     /// The corner at the first of a face's samples, which are in the order of its corners and from
     /// stepsFrom() or step().
-    std::uint32_t cornerOf(const std::array<BodySample, 3>& at) const noexcept
+    BodyIndex cornerOf(const std::array<BodySample, 3>& at) const noexcept
     {
         const std::uint32_t column = std::min({at[0].column, at[1].column, at[2].column});
         const std::uint32_t row = std::min({at[0].row, at[1].row, at[2].row});
@@ -190,7 +189,7 @@ public:
 
     bool hasVoids() const noexcept { return heights_->heightfield().samples().hasVoids(); }
     /// Whether a sample of the face is void.
-    bool isFilled(std::uint32_t face) const noexcept
+    bool isFilled(BodyIndex face) const noexcept
     {
         const std::array<BodySample, 3> at = samplesOf(face);
         return std::any_of(at.begin(), at.end(), [this](const BodySample& sample) {
@@ -198,12 +197,12 @@ public:
         });
     }
 
-    static std::uint32_t faceOf(std::uint32_t corner) noexcept { return corner / 3; }
-    static std::uint32_t nextCorner(std::uint32_t corner) noexcept
+    static BodyIndex faceOf(BodyIndex corner) noexcept { return corner / 3; }
+    static BodyIndex nextCorner(BodyIndex corner) noexcept
     {
         return corner % 3 == 2 ? corner - 2 : corner + 1;
     }
-    static std::uint32_t previousCorner(std::uint32_t corner) noexcept
+    static BodyIndex previousCorner(BodyIndex corner) noexcept
     {
         return corner % 3 == 0 ? corner + 2 : corner - 1;
     }
@@ -223,7 +222,7 @@ public:
             const Beam beam(mesh_.tree_, from, along, slack);
             mesh_.tree_.alongSegment(from, along, slack, [&](std::uint32_t block, double& t_max) {
                 mesh_.eachFaceOfCells(block, beam,
-                                      [&](std::uint32_t face, const std::array<ScenePoint, 3>& at) {
+                                      [&](BodyIndex face, const std::array<ScenePoint, 3>& at) {
                                           visit(face, at, t_max);
                                       });
             });
@@ -233,7 +232,7 @@ public:
         {
             mesh_.tree_.nearestFirst(point, [&](std::uint32_t block, double& limit) {
                 mesh_.eachFaceOfCells(block, Near(point, limit),
-                                      [&](std::uint32_t face, const std::array<ScenePoint, 3>& at) {
+                                      [&](BodyIndex face, const std::array<ScenePoint, 3>& at) {
                                           visit(face, at, limit);
                                       });
             });
@@ -258,7 +257,7 @@ private:
     static constexpr std::uint32_t kBlockCells = 4; // per side
     // What a corner of a cell's face is, whatever its number: the sample of the cell, the one a row
     // and a column further, and the third.
-    enum Role : std::uint32_t { kFirst, kFar, kThird };
+    enum Role : std::uint8_t { kFirst, kFar, kThird };
 
     BodyMesh(std::shared_ptr<const FilledHeightfield> heights,
              BodyPositions positions,
@@ -292,57 +291,69 @@ private:
     {
         return number == 0U ? kFirst : (number == 1U) == (is_upper != is_mirrored_) ? kFar : kThird;
     }
-    std::uint32_t cellCorner(std::uint32_t cell_column,
-                             std::uint32_t cell_row,
-                             bool is_upper,
-                             Role role) const noexcept
+    BodyIndex cellCorner(std::uint32_t cell_column,
+                         std::uint32_t cell_row,
+                         bool is_upper,
+                         Role role) const noexcept
     {
-        const std::uint32_t cell = cell_row * cell_columns_ + cell_column;
+        const BodyIndex cell = BodyIndex{cell_row} * cell_columns_ + cell_column;
         return 3 * (2 * cell + (is_upper ? 1U : 0U)) + cornerNumber(is_upper, role);
     }
     std::uint32_t nextColumn(std::uint32_t column) const noexcept
     {
         return column + 1 == columns_ ? 0 : column + 1;
     }
+    // The sample of a cell, also of those that count the faces of the poles: rows beyond the last.
+    BodySample cellOf(BodyIndex cell) const noexcept
+    {
+        const BodyIndex row = cell / cell_columns_;
+        return {static_cast<std::uint32_t>(cell - row * cell_columns_),
+                static_cast<std::uint32_t>(row)};
+    }
+    BodySample sampleOf(BodyIndex vertex) const noexcept
+    {
+        const BodyIndex row = vertex / columns_;
+        return {static_cast<std::uint32_t>(vertex - row * columns_),
+                static_cast<std::uint32_t>(row)};
+    }
+    BodyIndex firstCapFace() const noexcept { return BodyIndex{2} * cell_columns_ * (rows_ - 1); }
 
     /// The triangles that close a pole: between the samples of a row, alternately from both ends.
     struct Cap {
-        std::uint32_t first_face = 0; // of columns - 2
+        BodyIndex first_face = 0; // of columns - 2
         std::uint32_t row = 0;
         bool exists = false;
         bool is_turned = false; // its second and third corner are exchanged
     };
-    const Cap& capOf(std::uint32_t face) const noexcept
+    const Cap& capOf(BodyIndex face) const noexcept
     {
         return caps_[1].exists && face >= caps_[1].first_face ? caps_[1] : caps_[0];
     }
     std::array<std::uint32_t, 3> capColumns(std::uint32_t triangle) const noexcept;
-    std::array<BodySample, 3> samplesOfCap(std::uint32_t face) const noexcept
+    std::array<BodySample, 3> samplesOfCap(BodyIndex face) const noexcept
     {
         const Cap& cap = capOf(face);
-        const auto [low, middle, high] = capColumns(face - cap.first_face);
+        const auto [low, middle, high] =
+            capColumns(static_cast<std::uint32_t>(face - cap.first_face));
         return {{{low, cap.row},
                  {cap.is_turned ? high : middle, cap.row},
                  {cap.is_turned ? middle : high, cap.row}}};
     }
-    std::uint32_t
-    capCorner(const Cap& cap, std::uint32_t triangle, std::uint32_t turned) const noexcept
+    BodyIndex capCorner(const Cap& cap, std::uint32_t triangle, std::uint32_t turned) const noexcept
     {
         const std::uint32_t number = cap.is_turned && turned != 0U ? 3U - turned : turned;
         return 3 * (cap.first_face + triangle) + number;
     }
-    std::uint32_t acrossInCap(const Cap& cap, std::uint32_t corner) const noexcept;
-    std::uint32_t capCornerAtEdge(const Cap& cap, std::uint32_t column) const noexcept;
+    BodyIndex acrossInCap(const Cap& cap, BodyIndex corner) const noexcept;
+    BodyIndex capCornerAtEdge(const Cap& cap, std::uint32_t column) const noexcept;
 
     template <typename F>
     void eachFace(std::uint32_t block, F&& visit) const noexcept
     {
         if (block >= cell_blocks_) {
-            const std::uint32_t begin =
-                2 * cell_columns_ * (rows_ - 1) + (block - cell_blocks_) * kCapFaces;
-            const std::uint32_t end =
-                std::min(begin + kCapFaces, static_cast<std::uint32_t>(face_count_));
-            for (std::uint32_t face = begin; face < end; ++face) {
+            const BodyIndex begin = firstCapFace() + BodyIndex{block - cell_blocks_} * kCapFaces;
+            const BodyIndex end = std::min<BodyIndex>(begin + kCapFaces, face_count_);
+            for (BodyIndex face = begin; face < end; ++face) {
                 visit(face);
             }
             return;
@@ -352,9 +363,9 @@ private:
         const std::uint32_t column_end = std::min(column + kBlockCells, cell_columns_);
         const std::uint32_t row_end = std::min(row + kBlockCells, rows_ - 1);
         for (std::uint32_t r = row; r < row_end; ++r) {
-            const std::uint32_t begin = 2 * (r * cell_columns_ + column);
-            const std::uint32_t end = 2 * (r * cell_columns_ + column_end);
-            for (std::uint32_t face = begin; face < end; ++face) {
+            const BodyIndex begin = 2 * (BodyIndex{r} * cell_columns_ + column);
+            const BodyIndex end = 2 * (BodyIndex{r} * cell_columns_ + column_end);
+            for (BodyIndex face = begin; face < end; ++face) {
                 visit(face);
             }
         }
@@ -444,7 +455,7 @@ private:
     void eachFaceOfCells(std::uint32_t block, const Filter& filter, F&& visit) const noexcept
     {
         if (block >= cell_blocks_) {
-            eachFace(block, [&](std::uint32_t face) { visit(face, points(face)); });
+            eachFace(block, [&](BodyIndex face) { visit(face, points(face)); });
             return;
         }
         constexpr std::uint32_t kSide = kBlockCells + 1;
@@ -473,9 +484,8 @@ private:
                 if (!filter.mayMeet(range)) {
                     continue;
                 }
-                const std::uint32_t lower = 2 * ((row + r) * cell_columns_ + column + c);
-                const auto offer = [&](std::uint32_t face, std::uint32_t third,
-                                       bool is_far_second) {
+                const BodyIndex lower = 2 * (BodyIndex{row + r} * cell_columns_ + column + c);
+                const auto offer = [&](BodyIndex face, std::uint32_t third, bool is_far_second) {
                     visit(face, std::array{at[first], at[is_far_second ? far : third],
                                            at[is_far_second ? third : far]});
                 };

@@ -12,7 +12,7 @@
 namespace marsview {
 namespace {
 
-constexpr std::uint32_t kNone = LayerPatch::kNone;
+constexpr BodyIndex kNone = LayerPatch::kNone;
 constexpr auto nextCorner = BodyMesh::nextCorner;
 constexpr auto previousCorner = BodyMesh::previousCorner;
 
@@ -26,9 +26,9 @@ constexpr const char* kCannotCut = "the border of a map cannot be cut out of the
 constexpr const char* kLeadsBeyond = "the border of a map leads beyond the maps below it";
 
 struct RimEdge {
-    std::uint32_t face; // of the upper map, to the left
-    std::uint32_t from;
-    std::uint32_t to;
+    BodyIndex face; // of the upper map, to the left
+    BodyIndex from;
+    BodyIndex to;
 };
 
 Error cannotCut(const char* why)
@@ -56,7 +56,7 @@ public:
         if (below_.empty()) {
             return removeHidden();
         }
-        std::vector<std::vector<std::uint32_t>> ways;
+        std::vector<std::vector<BodyIndex>> ways;
         for (const RimEdge& edge : rim_) {
             if (monitor_.isCanceled()) {
                 return canceled();
@@ -79,8 +79,8 @@ private:
         if (!map_.mesh->hasVoids()) {
             return;
         }
-        const auto count = static_cast<std::uint32_t>(map_.mesh->faceCount());
-        for (std::uint32_t face = 0; face < count; ++face) {
+        const auto count = map_.mesh->faceCount();
+        for (BodyIndex face = 0; face < count; ++face) {
             if (!map_.mesh->isFilled(face)) {
                 continue;
             }
@@ -95,19 +95,19 @@ private:
     void findRim()
     {
         std::vector<RimEdge> edges;
-        std::unordered_map<std::uint32_t, std::vector<std::size_t>> from;
-        const auto count = static_cast<std::uint32_t>(map_.mesh->faceCount());
-        for (std::uint32_t own = 0; own < count; ++own) {
+        std::unordered_map<BodyIndex, std::vector<std::size_t>> from;
+        const auto count = map_.mesh->faceCount();
+        for (BodyIndex own = 0; own < count; ++own) {
             if (map_.is_gone[own]) {
                 continue;
             }
-            for (std::uint32_t i = 0; i < 3; ++i) {
-                const std::uint32_t beyond = map_.mesh->across(3 * own + i);
+            for (BodyIndex i = 0; i < 3; ++i) {
+                const BodyIndex beyond = map_.mesh->across(3 * own + i);
                 if (beyond != kNone && !map_.is_gone[beyond / 3]) {
                     continue;
                 }
-                const std::uint32_t face = map_.first_face + own;
-                const MeshFace vertices = patch_.face(face);
+                const BodyIndex face = map_.first_face + own;
+                const BodyFace vertices = patch_.face(face);
                 from[vertices[(i + 1) % 3]].push_back(edges.size());
                 edges.push_back({face, vertices[(i + 1) % 3], vertices[(i + 2) % 3]});
                 if (beyond != kNone) {
@@ -139,7 +139,7 @@ private:
     {
         std::size_t outside = 0;
         for (std::size_t i = 0; i < rim_.size(); ++i) {
-            const std::uint32_t vertex = rim_[i].from;
+            const BodyIndex vertex = rim_[i].from;
             if (below_.contains(vertex)) {
                 continue;
             }
@@ -147,9 +147,9 @@ private:
                 return canceled();
             }
             const Vec3 up = patch_.up(vertex);
-            std::optional<std::uint32_t> face;
+            std::optional<BodyIndex> face;
             if (i > 0 && rim_[i - 1].to == vertex && below_.contains(rim_[i - 1].from)) {
-                const std::uint32_t near = patch_.cornerAt(below_.at(rim_[i - 1].from));
+                const BodyIndex near = patch_.cornerAt(below_.at(rim_[i - 1].from));
                 face = near == kNone ? std::nullopt : patch_.walkTo(near / 3, up);
             }
             if (!face) {
@@ -169,10 +169,10 @@ private:
     {
         for (std::size_t i = index_ + 1; i < patch_.maps().size(); ++i) {
             const LayerPatch::Map& other = patch_.maps()[i];
-            const auto count = static_cast<std::uint32_t>(other.mesh->vertexCount());
+            const auto count = other.mesh->vertexCount();
             std::size_t looked_at = 0;
             std::size_t covered = 0;
-            for (std::uint32_t vertex = 0; vertex < count; ++vertex) {
+            for (BodyIndex vertex = 0; vertex < count; ++vertex) {
                 if (vertex != 0 && !other.mesh->isAtBorder(vertex)) {
                     continue;
                 }
@@ -182,13 +182,13 @@ private:
             if (covered != 0 && covered != looked_at) {
                 return cannotCut(kLeadsBeyond);
             }
-            for (std::uint32_t face = 0; covered != 0 && face < other.mesh->faceCount(); ++face) {
+            for (BodyIndex face = 0; covered != 0 && face < other.mesh->faceCount(); ++face) {
                 patch_.removeFace(other.first_face + face);
             }
             for (std::size_t cut = 0; covered != 0 && cut < patch_.cutFaces().size(); ++cut) {
-                const std::uint32_t origin = patch_.cutFaces()[cut].origin;
+                const BodyIndex origin = patch_.cutFaces()[cut].origin;
                 if (patch_.mapOf(origin) == i) {
-                    patch_.removeFace(patch_.mapFaces() + static_cast<std::uint32_t>(cut));
+                    patch_.removeFace(patch_.mapFaces() + static_cast<BodyIndex>(cut));
                 }
             }
         }
@@ -201,23 +201,23 @@ private:
         return found && !patch_.isCut(*found) && patch_.mapOf(*found) == index_;
     }
 
-    Status link(const std::vector<std::vector<std::uint32_t>>& ways)
+    Status link(const std::vector<std::vector<BodyIndex>>& ways)
     {
         struct Joint {
-            std::uint32_t upper;
-            std::uint32_t lower; // outside
+            BodyIndex upper;
+            BodyIndex lower; // outside
         };
         std::vector<Joint> joints;
-        std::vector<std::uint32_t> inside;
+        std::vector<BodyIndex> inside;
         const Error failure = cannotCut(kCannotCut);
         // The upper edges are split where the lower ones are.
-        std::vector<std::vector<std::uint32_t>> uppers;
+        std::vector<std::vector<BodyIndex>> uppers;
         for (std::size_t i = 0; i < rim_.size(); ++i) {
             const RimEdge& edge = rim_[i];
-            const std::vector<std::uint32_t>& way = ways[i];
-            std::vector<std::uint32_t> upper{edge.from};
+            const std::vector<BodyIndex>& way = ways[i];
+            std::vector<BodyIndex> upper{edge.from};
             for (std::size_t k = 1; k + 1 < way.size(); ++k) {
-                const std::uint32_t corner = patch_.partAtEdge(edge.face, upper.back(), edge.to);
+                const BodyIndex corner = patch_.partAtEdge(edge.face, upper.back(), edge.to);
                 if (corner == kNone) {
                     return failure;
                 }
@@ -231,16 +231,16 @@ private:
             uppers.push_back(std::move(upper));
         }
         for (std::size_t i = 0; i < rim_.size(); ++i) {
-            const std::vector<std::uint32_t>& way = ways[i];
+            const std::vector<BodyIndex>& way = ways[i];
             for (std::size_t k = 0; k + 1 < way.size(); ++k) {
-                const std::uint32_t outside = patch_.cornerAtEdge(way[k + 1], way[k]);
+                const BodyIndex outside = patch_.cornerAtEdge(way[k + 1], way[k]);
                 if (outside == kNone) {
                     return failure;
                 }
                 const Joint joint{
                     .upper = patch_.partAtEdge(rim_[i].face, uppers[i][k], uppers[i][k + 1]),
                     .lower = patch_.cutCorner(outside)};
-                const std::uint32_t covered = patch_.cornerAtEdge(way[k], way[k + 1]);
+                const BodyIndex covered = patch_.cornerAtEdge(way[k], way[k + 1]);
                 if (joint.upper == kNone || covered == kNone) {
                     return failure;
                 }
@@ -266,24 +266,24 @@ private:
         return Done{};
     }
 
-    void removeCovered(const std::vector<std::uint32_t>& inside)
+    void removeCovered(const std::vector<BodyIndex>& inside)
     {
-        std::unordered_set<std::uint32_t> border(inside.begin(), inside.end());
-        std::vector<std::uint32_t> faces;
-        const auto take = [&](std::uint32_t face) {
+        std::unordered_set<BodyIndex> border(inside.begin(), inside.end());
+        std::vector<BodyIndex> faces;
+        const auto take = [&](BodyIndex face) {
             if (!patch_.isGone(face)) {
                 patch_.removeFace(face);
                 faces.push_back(face);
             }
         };
-        for (const std::uint32_t corner : inside) {
+        for (const BodyIndex corner : inside) {
             take(corner / 3);
         }
         while (!faces.empty()) {
-            const std::uint32_t face = faces.back();
+            const BodyIndex face = faces.back();
             faces.pop_back();
-            for (std::uint32_t corner = 3 * face; corner < 3 * face + 3; ++corner) {
-                const std::uint32_t beyond = patch_.across(corner);
+            for (BodyIndex corner = 3 * face; corner < 3 * face + 3; ++corner) {
+                const BodyIndex beyond = patch_.across(corner);
                 if (beyond != kNone && !border.contains(corner)) {
                     take(beyond / 3);
                 }
@@ -297,8 +297,8 @@ private:
     JobMonitor& monitor_;
     std::vector<RimEdge> rim_;
     double tolerance_ = 0.0;
-    std::unordered_map<std::uint32_t, std::uint32_t> below_; // of vertices of the rim
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> twins_;
+    std::unordered_map<BodyIndex, BodyIndex> below_; // of vertices of the rim
+    std::vector<std::pair<BodyIndex, BodyIndex>> twins_;
 };
 
 class Walls {
@@ -311,7 +311,7 @@ public:
     {
         weldLevelEnds();
         splitCrossed();
-        eachCliff([this](std::uint32_t corner, std::uint32_t beyond) { addWall(corner, beyond); });
+        eachCliff([this](BodyIndex corner, BodyIndex beyond) { addWall(corner, beyond); });
         for (std::size_t i = 0; i < walls_.size(); ++i) {
             joinLeftEnd(walls_[i]);
         }
@@ -329,27 +329,27 @@ public:
 private:
     // A step of the way up at one end of a wall: the corner opposite it.
     struct Step {
-        std::uint32_t from;
-        std::uint32_t to;
-        std::uint32_t corner;
+        BodyIndex from;
+        BodyIndex to;
+        BodyIndex corner;
     };
     // Seen from free space, over the lower face: the higher face's edge leads from left to right.
     struct Wall {
-        std::uint32_t high; // corners opposite the edge, in both faces
-        std::uint32_t low;
-        std::uint32_t top = kNone; // in the wall's faces
-        std::uint32_t bottom = kNone;
+        BodyIndex high; // corners opposite the edge, in both faces
+        BodyIndex low;
+        BodyIndex top = kNone; // in the wall's faces
+        BodyIndex bottom = kNone;
         std::vector<Step> left{};
         std::vector<Step> right{};
     };
 
     // Rise of one vertex over its twin, without the rounding of heights.
-    double rise(std::uint32_t upper, std::uint32_t lower) const
+    double rise(BodyIndex upper, BodyIndex lower) const
     {
         return upper == lower ? 0.0
                               : dot(patch_.point(upper) - patch_.point(lower), patch_.up(lower));
     }
-    void join(std::uint32_t a, std::uint32_t b)
+    void join(BodyIndex a, BodyIndex b)
     {
         patch_.setAcross(a, b);
         patch_.setAcross(b, a);
@@ -359,14 +359,14 @@ private:
     template <typename F>
     void eachCliff(F&& visit)
     {
-        for (std::uint32_t i = 0; i < patch_.cutFaces().size(); ++i) {
-            for (std::uint32_t k = 0; k < 3; ++k) {
+        for (BodyIndex i = 0; i < patch_.cutFaces().size(); ++i) {
+            for (BodyIndex k = 0; k < 3; ++k) {
                 const LayerPatch::Face& face = patch_.cutFaces()[i];
                 if (face.is_gone || face.origin == kNone || face.across[k] == kNone) {
                     continue;
                 }
-                const std::uint32_t corner = 3 * (patch_.mapFaces() + i) + k;
-                const std::uint32_t beyond = face.across[k];
+                const BodyIndex corner = 3 * (patch_.mapFaces() + i) + k;
+                const BodyIndex beyond = face.across[k];
                 const bool is_first = !patch_.isCut(beyond / 3) || corner < beyond;
                 const bool is_cliff =
                     face.vertices[(k + 1) % 3] != patch_.vertexAt(previousCorner(beyond)) ||
@@ -382,10 +382,10 @@ private:
     // become one.
     void weldLevelEnds()
     {
-        eachCliff([this](std::uint32_t corner, std::uint32_t beyond) {
-            for (const std::uint32_t at : {nextCorner(corner), previousCorner(corner),
-                                           nextCorner(beyond), previousCorner(beyond)}) {
-                const std::uint32_t vertex = patch_.vertexAt(at);
+        eachCliff([this](BodyIndex corner, BodyIndex beyond) {
+            for (const BodyIndex at : {nextCorner(corner), previousCorner(corner),
+                                       nextCorner(beyond), previousCorner(beyond)}) {
+                const BodyIndex vertex = patch_.vertexAt(at);
                 auto& stack = stacks_[patch_.placeOf(vertex)];
                 if (std::find(stack.begin(), stack.end(), vertex) == stack.end()) {
                     stack.push_back(vertex);
@@ -397,12 +397,12 @@ private:
         });
         constexpr double kLevelShare = 1e-6; // of the shortest edge
         const double level_m = std::max(kLevelShare * shortest_m_, 1e-6);
-        std::unordered_map<std::uint32_t, std::uint32_t> welded;
+        std::unordered_map<BodyIndex, BodyIndex> welded;
         for (auto& [place, stack] : stacks_) {
             std::sort(stack.begin(), stack.end(),
-                      [this](std::uint32_t a, std::uint32_t b) { return rise(a, b) < 0.0; });
-            std::vector<std::uint32_t> levels;
-            for (const std::uint32_t vertex : stack) {
+                      [this](BodyIndex a, BodyIndex b) { return rise(a, b) < 0.0; });
+            std::vector<BodyIndex> levels;
+            for (const BodyIndex vertex : stack) {
                 if (levels.empty() || rise(vertex, levels.back()) > level_m) {
                     levels.push_back(vertex);
                 } else if (levels.back() < patch_.mapVertices()) {
@@ -420,15 +420,15 @@ private:
         for (const auto& [from, to] : welded) {
             if (from < patch_.mapVertices()) {
                 const LayerPatch::Map& map = patch_.maps()[patch_.mapOfVertex(from)];
-                for (const std::uint32_t corner : map.mesh->fan(from - map.first_vertex)) {
+                for (const BodyIndex corner : map.mesh->fan(from - map.first_vertex)) {
                     if (!map.is_gone[corner / 3]) {
                         patch_.cutCorner(corner + 3 * map.first_face);
                     }
                 }
             }
         }
-        for (std::uint32_t i = 0; i < patch_.cutFaces().size(); ++i) {
-            for (std::uint32_t k = 0; k < 3 && !patch_.cutFaces()[i].is_gone; ++k) {
+        for (BodyIndex i = 0; i < patch_.cutFaces().size(); ++i) {
+            for (BodyIndex k = 0; k < 3 && !patch_.cutFaces()[i].is_gone; ++k) {
                 if (const auto to = welded.find(patch_.cutFaces()[i].vertices[k]);
                     to != welded.end()) {
                     patch_.setVertex(3 * (patch_.mapFaces() + i) + k, to->second);
@@ -440,7 +440,7 @@ private:
     // Where the two surfaces cross between the ends of an edge, it is split there.
     void splitCrossed()
     {
-        eachCliff([this](std::uint32_t corner, std::uint32_t beyond) {
+        eachCliff([this](BodyIndex corner, BodyIndex beyond) {
             const double at_from =
                 rise(patch_.vertexAt(nextCorner(corner)), patch_.vertexAt(previousCorner(beyond)));
             const double at_to =
@@ -449,27 +449,27 @@ private:
                 const double share = at_from / (at_from - at_to);
                 const Vec3 from = patch_.up(patch_.vertexAt(nextCorner(corner)));
                 const Vec3 to = patch_.up(patch_.vertexAt(previousCorner(corner)));
-                const std::uint32_t middle =
+                const BodyIndex middle =
                     patch_.splitEdge(corner, share, normalized(from + (to - from) * share));
-                const std::uint32_t vertex = patch_.vertexAt(middle);
+                const BodyIndex vertex = patch_.vertexAt(middle);
                 // The same vertex on the other side, in both of its faces.
-                const std::uint32_t beyond_second = patch_.across(previousCorner(middle));
-                const std::uint32_t first = patch_.across(nextCorner(middle));
-                const std::uint32_t beyond_first = patch_.across(previousCorner(first));
+                const BodyIndex beyond_second = patch_.across(previousCorner(middle));
+                const BodyIndex first = patch_.across(nextCorner(middle));
+                const BodyIndex beyond_first = patch_.across(previousCorner(first));
                 patch_.setVertex(previousCorner(beyond_second), vertex);
                 patch_.setVertex(nextCorner(beyond_first), vertex);
             }
         });
     }
 
-    void addWall(std::uint32_t corner, std::uint32_t beyond)
+    void addWall(BodyIndex corner, BodyIndex beyond)
     {
         const double rises =
             rise(patch_.vertexAt(nextCorner(corner)), patch_.vertexAt(previousCorner(beyond))) +
             rise(patch_.vertexAt(previousCorner(corner)), patch_.vertexAt(nextCorner(beyond)));
         Wall wall{.high = rises > 0.0 ? corner : beyond, .low = rises > 0.0 ? beyond : corner};
-        const auto levels = [this](std::uint32_t low, std::uint32_t high) {
-            std::vector<std::uint32_t> way{low};
+        const auto levels = [this](BodyIndex low, BodyIndex high) {
+            std::vector<BodyIndex> way{low};
             if (low != high) {
                 const auto stack = stacks_.find(patch_.placeOf(low));
                 if (stack != stacks_.end()) {
@@ -484,19 +484,19 @@ private:
             }
             return way;
         };
-        const std::vector<std::uint32_t> left = levels(patch_.vertexAt(previousCorner(wall.low)),
-                                                       patch_.vertexAt(nextCorner(wall.high)));
-        const std::vector<std::uint32_t> right = levels(patch_.vertexAt(nextCorner(wall.low)),
-                                                        patch_.vertexAt(previousCorner(wall.high)));
+        const std::vector<BodyIndex> left = levels(patch_.vertexAt(previousCorner(wall.low)),
+                                                   patch_.vertexAt(nextCorner(wall.high)));
+        const std::vector<BodyIndex> right = levels(patch_.vertexAt(nextCorner(wall.low)),
+                                                    patch_.vertexAt(previousCorner(wall.high)));
         std::size_t i = 0;
         std::size_t k = 0;
         while (i + 1 < left.size() || k + 1 < right.size()) {
             const bool is_left = k + 1 == right.size() ||
                                  (i + 1 < left.size() &&
                                   (i + 1) * (right.size() - 1) <= (k + 1) * (left.size() - 1));
-            const std::uint32_t third = is_left ? left[i + 1] : right[k + 1];
-            const std::uint32_t first = 3 * patch_.addFace({.vertices = {left[i], right[k], third},
-                                                            .across = {kNone, kNone, kNone}});
+            const BodyIndex third = is_left ? left[i + 1] : right[k + 1];
+            const BodyIndex first = 3 * patch_.addFace({.vertices = {left[i], right[k], third},
+                                                        .across = {kNone, kNone, kNone}});
             if (wall.bottom == kNone) {
                 wall.bottom = first + 2;
             } else {
@@ -521,10 +521,10 @@ private:
     void joinLeftEnd(const Wall& wall)
     {
         for (const Step& step : wall.left) {
-            const std::uint32_t begin = previousCorner(wall.low);
-            std::uint32_t corner = begin;
+            const BodyIndex begin = previousCorner(wall.low);
+            BodyIndex corner = begin;
             do {
-                const std::uint32_t side = previousCorner(corner);
+                const BodyIndex side = previousCorner(corner);
                 if (const auto next = wall_at_.find(side); next != wall_at_.end()) {
                     const auto& steps = walls_[next->second].right;
                     const auto found =
@@ -544,16 +544,16 @@ private:
     // Where faces of a vertex do not hang together, they get vertices of their own.
     void separateFans()
     {
-        std::unordered_set<std::uint32_t> seen;    // corners of cut faces
-        std::unordered_set<std::uint32_t> has_one; // vertices
-        for (std::uint32_t i = 0; i < patch_.cutFaces().size(); ++i) {
-            for (std::uint32_t k = 0; k < 3; ++k) {
-                const std::uint32_t begin = 3 * (patch_.mapFaces() + i) + k;
+        std::unordered_set<BodyIndex> seen;    // corners of cut faces
+        std::unordered_set<BodyIndex> has_one; // vertices
+        for (BodyIndex i = 0; i < patch_.cutFaces().size(); ++i) {
+            for (BodyIndex k = 0; k < 3; ++k) {
+                const BodyIndex begin = 3 * (patch_.mapFaces() + i) + k;
                 if (patch_.cutFaces()[i].is_gone || seen.contains(begin)) {
                     continue;
                 }
-                std::vector<std::uint32_t> fan{begin};
-                std::uint32_t corner = patch_.turned(begin);
+                std::vector<BodyIndex> fan{begin};
+                BodyIndex corner = patch_.turned(begin);
                 for (; corner != kNone && corner != begin; corner = patch_.turned(corner)) {
                     fan.push_back(corner);
                 }
@@ -563,12 +563,12 @@ private:
                         fan.push_back(corner);
                     }
                 }
-                const std::uint32_t vertex = patch_.vertexAt(begin);
+                const BodyIndex vertex = patch_.vertexAt(begin);
                 const bool is_first = has_one.insert(vertex).second;
-                const std::uint32_t own =
+                const BodyIndex own =
                     is_first ? vertex : patch_.addVertex(patch_.point(vertex), patch_.up(vertex));
-                for (const std::uint32_t at : fan) {
-                    const std::uint32_t cut = is_first ? at : patch_.cutCorner(at);
+                for (const BodyIndex at : fan) {
+                    const BodyIndex cut = is_first ? at : patch_.cutCorner(at);
                     if (!is_first) {
                         patch_.setVertex(cut, own);
                     }
@@ -579,11 +579,11 @@ private:
     }
 
     LayerPatch& patch_;
-    std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> stacks_; // by place
+    std::unordered_map<BodyIndex, std::vector<BodyIndex>> stacks_; // by place
     double shortest_m_ = std::numeric_limits<double>::infinity();
     std::vector<Wall> walls_;
-    std::unordered_map<std::uint32_t, std::size_t> wall_at_; // of the corners that walls join
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> vertical_;
+    std::unordered_map<BodyIndex, std::size_t> wall_at_; // of the corners that walls join
+    std::vector<std::pair<BodyIndex, BodyIndex>> vertical_;
 };
 
 } // namespace

@@ -54,12 +54,12 @@ LayerPatch::LayerPatch(const std::vector<std::shared_ptr<const BodyMesh>>& maps)
     for (const auto& mesh : maps) {
         maps_.push_back({.mesh = mesh, .first_vertex = map_vertices_, .first_face = map_faces_});
         maps_.back().is_gone.assign(mesh->faceCount(), false);
-        map_vertices_ += static_cast<std::uint32_t>(mesh->vertexCount());
-        map_faces_ += static_cast<std::uint32_t>(mesh->faceCount());
+        map_vertices_ += mesh->vertexCount();
+        map_faces_ += mesh->faceCount();
     }
 }
 
-std::size_t LayerPatch::mapOf(std::uint32_t face) const noexcept
+std::size_t LayerPatch::mapOf(BodyIndex face) const noexcept
 {
     std::size_t map = maps_.size() - 1;
     while (face < maps_[map].first_face) {
@@ -68,7 +68,7 @@ std::size_t LayerPatch::mapOf(std::uint32_t face) const noexcept
     return map;
 }
 
-std::size_t LayerPatch::mapOfVertex(std::uint32_t vertex) const noexcept
+std::size_t LayerPatch::mapOfVertex(BodyIndex vertex) const noexcept
 {
     std::size_t map = maps_.size() - 1;
     while (vertex < maps_[map].first_vertex) {
@@ -77,7 +77,7 @@ std::size_t LayerPatch::mapOfVertex(std::uint32_t vertex) const noexcept
     return map;
 }
 
-bool LayerPatch::isGone(std::uint32_t face) const noexcept
+bool LayerPatch::isGone(BodyIndex face) const noexcept
 {
     if (isCut(face)) {
         return cut_[face - map_faces_].is_gone;
@@ -86,17 +86,17 @@ bool LayerPatch::isGone(std::uint32_t face) const noexcept
     return map.is_gone[face - map.first_face];
 }
 
-MeshFace LayerPatch::face(std::uint32_t face) const noexcept
+BodyFace LayerPatch::face(BodyIndex face) const noexcept
 {
     if (isCut(face)) {
         return cut_[face - map_faces_].vertices;
     }
     const Map& map = maps_[mapOf(face)];
-    const MeshFace own = map.mesh->face(face - map.first_face);
+    const BodyFace own = map.mesh->face(face - map.first_face);
     return {own[0] + map.first_vertex, own[1] + map.first_vertex, own[2] + map.first_vertex};
 }
 
-ScenePoint LayerPatch::point(std::uint32_t vertex) const noexcept
+ScenePoint LayerPatch::point(BodyIndex vertex) const noexcept
 {
     if (vertex >= map_vertices_) {
         return points_[vertex - map_vertices_];
@@ -105,15 +105,15 @@ ScenePoint LayerPatch::point(std::uint32_t vertex) const noexcept
     return map.mesh->vertex(vertex - map.first_vertex);
 }
 
-Vec3 LayerPatch::up(std::uint32_t vertex) const
+Vec3 LayerPatch::up(BodyIndex vertex) const
 {
     return vertex >= map_vertices_ ? ups_[vertex - map_vertices_]
                                    : verticalAt(ellipsoid(), point(vertex)).up;
 }
 
-std::uint32_t LayerPatch::across(std::uint32_t corner) const noexcept
+BodyIndex LayerPatch::across(BodyIndex corner) const noexcept
 {
-    const std::uint32_t face = corner / 3;
+    const BodyIndex face = corner / 3;
     if (isCut(face)) {
         return cut_[face - map_faces_].across[corner % 3];
     }
@@ -121,21 +121,21 @@ std::uint32_t LayerPatch::across(std::uint32_t corner) const noexcept
         return link->second;
     }
     const Map& map = maps_[mapOf(face)];
-    const std::uint32_t beyond = map.mesh->across(corner - 3 * map.first_face);
+    const BodyIndex beyond = map.mesh->across(corner - 3 * map.first_face);
     return beyond == kNone ? kNone : beyond + 3 * map.first_face;
 }
 
-std::uint32_t LayerPatch::cornerAt(std::uint32_t vertex) const noexcept
+BodyIndex LayerPatch::cornerAt(BodyIndex vertex) const noexcept
 {
     if (const auto known = corners_.find(vertex); known != corners_.end()) {
-        const std::uint32_t corner = known->second;
+        const BodyIndex corner = known->second;
         if (!isGone(corner / 3) && vertexAt(corner) == vertex) {
             return corner;
         }
     }
     if (vertex < map_vertices_) {
         const Map& map = maps_[mapOfVertex(vertex)];
-        for (const std::uint32_t corner : map.mesh->fan(vertex - map.first_vertex)) {
+        for (const BodyIndex corner : map.mesh->fan(vertex - map.first_vertex)) {
             if (!map.is_gone[corner / 3]) {
                 return corner + 3 * map.first_face;
             }
@@ -144,19 +144,19 @@ std::uint32_t LayerPatch::cornerAt(std::uint32_t vertex) const noexcept
     return kNone;
 }
 
-std::uint32_t LayerPatch::turned(std::uint32_t corner) const noexcept
+BodyIndex LayerPatch::turned(BodyIndex corner) const noexcept
 {
-    const std::uint32_t beyond = across(nextCorner(corner));
+    const BodyIndex beyond = across(nextCorner(corner));
     return beyond == kNone ? kNone : nextCorner(beyond);
 }
 
-std::uint32_t LayerPatch::turnedBack(std::uint32_t corner) const noexcept
+BodyIndex LayerPatch::turnedBack(BodyIndex corner) const noexcept
 {
-    const std::uint32_t before = across(previousCorner(corner));
+    const BodyIndex before = across(previousCorner(corner));
     return before == kNone ? kNone : previousCorner(before);
 }
 
-std::uint32_t LayerPatch::placeOf(std::uint32_t vertex) const noexcept
+BodyIndex LayerPatch::placeOf(BodyIndex vertex) const noexcept
 {
     for (auto twin = twins_.find(vertex); twin != twins_.end(); twin = twins_.find(vertex)) {
         vertex = twin->second;
@@ -164,7 +164,7 @@ std::uint32_t LayerPatch::placeOf(std::uint32_t vertex) const noexcept
     return vertex;
 }
 
-void LayerPatch::setAcross(std::uint32_t corner, std::uint32_t beyond)
+void LayerPatch::setAcross(BodyIndex corner, BodyIndex beyond)
 {
     if (isCut(corner / 3)) {
         cut_[corner / 3 - map_faces_].across[corner % 3] = beyond;
@@ -173,7 +173,7 @@ void LayerPatch::setAcross(std::uint32_t corner, std::uint32_t beyond)
     }
 }
 
-void LayerPatch::removeFace(std::uint32_t face)
+void LayerPatch::removeFace(BodyIndex face)
 {
     if (isCut(face)) {
         cut_[face - map_faces_].is_gone = true;
@@ -183,7 +183,7 @@ void LayerPatch::removeFace(std::uint32_t face)
     }
 }
 
-void LayerPatch::setTwins(std::uint32_t a, std::uint32_t b)
+void LayerPatch::setTwins(BodyIndex a, BodyIndex b)
 {
     a = placeOf(a);
     b = placeOf(b);
@@ -192,23 +192,23 @@ void LayerPatch::setTwins(std::uint32_t a, std::uint32_t b)
     }
 }
 
-void LayerPatch::setVertex(std::uint32_t corner, std::uint32_t vertex)
+void LayerPatch::setVertex(BodyIndex corner, BodyIndex vertex)
 {
     cut_[corner / 3 - map_faces_].vertices[corner % 3] = vertex;
     corners_[vertex] = corner;
 }
 
-std::uint32_t LayerPatch::addVertex(const ScenePoint& point, const Vec3& up)
+BodyIndex LayerPatch::addVertex(const ScenePoint& point, const Vec3& up)
 {
     points_.push_back(point);
     ups_.push_back(up);
-    return map_vertices_ + static_cast<std::uint32_t>(points_.size() - 1);
+    return map_vertices_ + static_cast<BodyIndex>(points_.size() - 1);
 }
 
-std::uint32_t LayerPatch::addFace(const Face& face)
+BodyIndex LayerPatch::addFace(const Face& face)
 {
     cut_.push_back(face);
-    const std::uint32_t number = map_faces_ + static_cast<std::uint32_t>(cut_.size() - 1);
+    const BodyIndex number = map_faces_ + static_cast<BodyIndex>(cut_.size() - 1);
     if (face.origin != kNone) {
         parts_[face.origin].push_back(number);
     }
@@ -216,9 +216,9 @@ std::uint32_t LayerPatch::addFace(const Face& face)
     return number;
 }
 
-void LayerPatch::note(std::uint32_t face)
+void LayerPatch::note(BodyIndex face)
 {
-    for (std::uint32_t i = 0; i < 3; ++i) {
+    for (BodyIndex i = 0; i < 3; ++i) {
         corners_[cut_[face - map_faces_].vertices[i]] = 3 * face + i;
     }
 }
@@ -227,24 +227,24 @@ void LayerPatch::noteAll()
 {
     for (std::size_t i = 0; i < cut_.size(); ++i) {
         if (!cut_[i].is_gone) {
-            note(map_faces_ + static_cast<std::uint32_t>(i));
+            note(map_faces_ + static_cast<BodyIndex>(i));
         }
     }
 }
 
-std::uint32_t LayerPatch::cutCorner(std::uint32_t corner)
+BodyIndex LayerPatch::cutCorner(BodyIndex corner)
 {
-    const std::uint32_t old = corner / 3;
+    const BodyIndex old = corner / 3;
     if (isCut(old)) {
         return corner;
     }
     Face copy{.vertices = face(old), .across = {}, .origin = old};
-    for (std::uint32_t i = 0; i < 3; ++i) {
+    for (BodyIndex i = 0; i < 3; ++i) {
         copy.across[i] = across(3 * old + i);
     }
     removeFace(old);
-    const std::uint32_t number = addFace(copy);
-    for (std::uint32_t i = 0; i < 3; ++i) {
+    const BodyIndex number = addFace(copy);
+    for (BodyIndex i = 0; i < 3; ++i) {
         if (copy.across[i] != kNone) {
             setAcross(copy.across[i], 3 * number + i);
         }
@@ -253,11 +253,11 @@ std::uint32_t LayerPatch::cutCorner(std::uint32_t corner)
     return 3 * number + corner % 3;
 }
 
-std::uint32_t LayerPatch::partAtEdge(std::uint32_t face, std::uint32_t from, std::uint32_t to) const
+BodyIndex LayerPatch::partAtEdge(BodyIndex face, BodyIndex from, BodyIndex to) const
 {
-    const auto look_at = [&](std::uint32_t number) {
-        const MeshFace vertices = this->face(number);
-        for (std::uint32_t i = 0; i < 3; ++i) {
+    const auto look_at = [&](BodyIndex number) {
+        const BodyFace vertices = this->face(number);
+        for (BodyIndex i = 0; i < 3; ++i) {
             if (vertices[(i + 1) % 3] == from && vertices[(i + 2) % 3] == to) {
                 return 3 * number + i;
             }
@@ -268,9 +268,9 @@ std::uint32_t LayerPatch::partAtEdge(std::uint32_t face, std::uint32_t from, std
         return look_at(face);
     }
     if (const auto parts = parts_.find(face); parts != parts_.end()) {
-        for (const std::uint32_t part : parts->second) {
+        for (const BodyIndex part : parts->second) {
             if (!isGone(part)) {
-                if (const std::uint32_t corner = look_at(part); corner != kNone) {
+                if (const BodyIndex corner = look_at(part); corner != kNone) {
                     return corner;
                 }
             }
@@ -279,11 +279,11 @@ std::uint32_t LayerPatch::partAtEdge(std::uint32_t face, std::uint32_t from, std
     return kNone;
 }
 
-std::uint32_t LayerPatch::cornerAtEdge(std::uint32_t from, std::uint32_t to) const
+BodyIndex LayerPatch::cornerAtEdge(BodyIndex from, BodyIndex to) const
 {
-    const std::uint32_t place = placeOf(to);
-    const std::uint32_t first = cornerAt(from);
-    std::uint32_t corner = first;
+    const BodyIndex place = placeOf(to);
+    const BodyIndex first = cornerAt(from);
+    BodyIndex corner = first;
     while (corner != kNone) {
         if (placeOf(vertexAt(nextCorner(corner))) == place) {
             return previousCorner(corner);
@@ -301,34 +301,33 @@ std::uint32_t LayerPatch::cornerAtEdge(std::uint32_t from, std::uint32_t to) con
     return kNone;
 }
 
-std::uint32_t LayerPatch::splitEdgeAt(std::uint32_t corner, const Vec3& up)
+BodyIndex LayerPatch::splitEdgeAt(BodyIndex corner, const Vec3& up)
 {
     return splitEdge(corner, shareBeside(corner, up), up);
 }
 
-std::uint32_t LayerPatch::splitEdge(std::uint32_t corner, double share, const Vec3& up)
+BodyIndex LayerPatch::splitEdge(BodyIndex corner, double share, const Vec3& up)
 {
     corner = cutCorner(corner);
-    std::uint32_t beyond = across(corner);
+    BodyIndex beyond = across(corner);
     if (beyond != kNone) {
         beyond = cutCorner(beyond);
     }
     // Each side becomes two faces: (tip, from, middle), in place, and (tip, middle, to).
     struct Side {
-        std::uint32_t first = 0;
-        std::uint32_t second = 0;
-        std::uint32_t middle = 0;
+        BodyIndex first = 0;
+        BodyIndex second = 0;
+        BodyIndex middle = 0;
     };
-    const auto split = [this](std::uint32_t at, std::uint32_t middle) {
+    const auto split = [this](BodyIndex at, BodyIndex middle) {
         const Face old = cut_[at / 3 - map_faces_];
-        const std::uint32_t tip = at % 3;
-        const std::uint32_t from = (tip + 1) % 3;
-        const std::uint32_t to = (tip + 2) % 3;
-        const std::uint32_t first = at / 3;
-        const std::uint32_t second =
-            addFace({.vertices = {old.vertices[tip], middle, old.vertices[to]},
-                     .across = {kNone, old.across[from], 3 * first + 1},
-                     .origin = old.origin});
+        const BodyIndex tip = at % 3;
+        const BodyIndex from = (tip + 1) % 3;
+        const BodyIndex to = (tip + 2) % 3;
+        const BodyIndex first = at / 3;
+        const BodyIndex second = addFace({.vertices = {old.vertices[tip], middle, old.vertices[to]},
+                                          .across = {kNone, old.across[from], 3 * first + 1},
+                                          .origin = old.origin});
         if (old.across[from] != kNone) {
             setAcross(old.across[from], 3 * second + 1);
         }
@@ -341,20 +340,20 @@ std::uint32_t LayerPatch::splitEdge(std::uint32_t corner, double share, const Ve
         note(first);
         return Side{first, second, middle};
     };
-    const auto between = [this](std::uint32_t from, std::uint32_t to, double at) {
+    const auto between = [this](BodyIndex from, BodyIndex to, double at) {
         const ScenePoint begin = point(from);
         return begin + (point(to) - begin) * at;
     };
-    const std::uint32_t from = vertexAt(nextCorner(corner));
-    const std::uint32_t to = vertexAt(previousCorner(corner));
-    const std::uint32_t middle = addVertex(between(from, to, share), up);
+    const BodyIndex from = vertexAt(nextCorner(corner));
+    const BodyIndex to = vertexAt(previousCorner(corner));
+    const BodyIndex middle = addVertex(between(from, to, share), up);
     if (beyond == kNone) {
         const Side here = split(corner, middle);
         return 3 * here.second + 1;
     }
-    const std::uint32_t other_from = vertexAt(previousCorner(beyond));
-    const std::uint32_t other_to = vertexAt(nextCorner(beyond));
-    std::uint32_t other_middle = middle;
+    const BodyIndex other_from = vertexAt(previousCorner(beyond));
+    const BodyIndex other_to = vertexAt(nextCorner(beyond));
+    BodyIndex other_middle = middle;
     if (other_from != from || other_to != to) {
         other_middle = addVertex(between(other_from, other_to, share), up);
         setTwins(other_middle, middle);
@@ -368,27 +367,27 @@ std::uint32_t LayerPatch::splitEdge(std::uint32_t corner, double share, const Ve
     return 3 * here.second + 1;
 }
 
-double LayerPatch::shareBeside(std::uint32_t corner, const Vec3& up) const
+double LayerPatch::shareBeside(BodyIndex corner, const Vec3& up) const
 {
-    const std::uint32_t from = vertexAt(nextCorner(corner));
-    const std::uint32_t to = vertexAt(previousCorner(corner));
+    const BodyIndex from = vertexAt(nextCorner(corner));
+    const BodyIndex to = vertexAt(previousCorner(corner));
     const Vec3 along = this->up(to) - this->up(from);
     return zeroOn(ellipsoid(), point(from), point(to),
                   [&](const Vec3& at) { return dot(at - up, along); });
 }
 
-std::optional<std::uint32_t> LayerPatch::walkTo(std::uint32_t face, const Vec3& up) const
+std::optional<BodyIndex> LayerPatch::walkTo(BodyIndex face, const Vec3& up) const
 {
     // A straight way meets few faces; more are those of a walk that goes around in circles.
     constexpr int kStepsMax = 1'000'000;
     for (int step = 0; step < kStepsMax; ++step) {
-        const MeshFace vertices = this->face(face);
+        const BodyFace vertices = this->face(face);
         const std::array<Vec3, 3> at{this->up(vertices[0]), this->up(vertices[1]),
                                      this->up(vertices[2])};
         constexpr double kRounding = 1e-14;
         double farthest = kRounding;
-        std::uint32_t way = 3;
-        for (std::uint32_t i = 0; i < 3; ++i) {
+        BodyIndex way = 3;
+        for (BodyIndex i = 0; i < 3; ++i) {
             const Vec3& a = at[(i + 1) % 3];
             const Vec3& b = at[(i + 2) % 3];
             const double beyond = -areaOf(a, b, up) / length(b - a);
@@ -400,7 +399,7 @@ std::optional<std::uint32_t> LayerPatch::walkTo(std::uint32_t face, const Vec3& 
         if (way == 3) {
             return face;
         }
-        const std::uint32_t next = across(3 * face + way);
+        const BodyIndex next = across(3 * face + way);
         if (next == kNone) {
             return std::nullopt;
         }
@@ -409,7 +408,7 @@ std::optional<std::uint32_t> LayerPatch::walkTo(std::uint32_t face, const Vec3& 
     return std::nullopt;
 }
 
-std::optional<std::uint32_t> LayerPatch::find(std::size_t first, const ScenePoint& point) const
+std::optional<BodyIndex> LayerPatch::find(std::size_t first, const ScenePoint& point) const
 {
     const BodyVertical vertical = verticalAt(ellipsoid(), point);
     constexpr double kDepthShare = 0.9;
@@ -417,17 +416,17 @@ std::optional<std::uint32_t> LayerPatch::find(std::size_t first, const ScenePoin
         kDepthShare * std::min(ellipsoid().equatorial_m, ellipsoid().polar_m) + vertical.height_m;
     for (std::size_t i = first; i < maps_.size(); ++i) {
         const Map& map = maps_[i];
-        const MeshCast cast = castSegment(*map.mesh, {.base = map.mesh->highAbove(point)},
-                                          MeshEnd{point - vertical.up * depth_m, {}});
+        const auto cast = castSegment(*map.mesh, {.base = map.mesh->highAbove(point)},
+                                      MeshEnd{point - vertical.up * depth_m, {}});
         if (!cast.hit) {
             continue;
         }
-        const std::uint32_t face = cast.hit->face + map.first_face;
+        const BodyIndex face = cast.hit->face + map.first_face;
         if (!isGone(face)) {
             return face;
         }
         if (const auto parts = parts_.find(face); parts != parts_.end()) {
-            for (const std::uint32_t part : parts->second) {
+            for (const BodyIndex part : parts->second) {
                 if (!isGone(part)) {
                     if (const auto found = walkTo(part, vertical.up)) {
                         return found;
@@ -439,10 +438,10 @@ std::optional<std::uint32_t> LayerPatch::find(std::size_t first, const ScenePoin
     return std::nullopt;
 }
 
-std::uint32_t LayerPatch::insert(std::uint32_t face, const Vec3& up, double tolerance)
+BodyIndex LayerPatch::insert(BodyIndex face, const Vec3& up, double tolerance)
 {
-    const std::uint32_t first = cutCorner(3 * face);
-    const MeshFace vertices = this->face(first / 3);
+    const BodyIndex first = cutCorner(3 * face);
+    const BodyFace vertices = this->face(first / 3);
     const std::array<Vec3, 3> at{this->up(vertices[0]), this->up(vertices[1]),
                                  this->up(vertices[2])};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -450,7 +449,7 @@ std::uint32_t LayerPatch::insert(std::uint32_t face, const Vec3& up, double tole
             return vertices[i];
         }
     }
-    for (std::uint32_t i = 0; i < 3; ++i) {
+    for (BodyIndex i = 0; i < 3; ++i) {
         const Vec3& a = at[(i + 1) % 3];
         const Vec3 along = at[(i + 2) % 3] - a;
         if (areaOf(a, at[(i + 2) % 3], up) <= tolerance * length(along)) {
@@ -466,17 +465,16 @@ std::uint32_t LayerPatch::insert(std::uint32_t face, const Vec3& up, double tole
     const ScenePoint foot{a2 * up.x / size, a2 * up.y / size, b2 * up.z / size};
     const ScenePoint p0 = point(vertices[0]);
     const Vec3 normal = cross(point(vertices[1]) - p0, point(vertices[2]) - p0);
-    const std::uint32_t middle =
-        addVertex(foot + up * (dot(normal, p0 - foot) / dot(normal, up)), up);
+    const BodyIndex middle = addVertex(foot + up * (dot(normal, p0 - foot) / dot(normal, up)), up);
     const Face old = cut_[first / 3 - map_faces_];
-    const std::uint32_t own = first / 3;
+    const BodyIndex own = first / 3;
     // (0, 1, middle) in place, (1, 2, middle), (2, 0, middle).
-    const std::uint32_t second = addFace({.vertices = {old.vertices[1], old.vertices[2], middle},
-                                          .across = {kNone, 3 * own, old.across[0]},
-                                          .origin = old.origin});
-    const std::uint32_t third = addFace({.vertices = {old.vertices[2], old.vertices[0], middle},
-                                         .across = {3 * own + 1, 3 * second, old.across[1]},
-                                         .origin = old.origin});
+    const BodyIndex second = addFace({.vertices = {old.vertices[1], old.vertices[2], middle},
+                                      .across = {kNone, 3 * own, old.across[0]},
+                                      .origin = old.origin});
+    const BodyIndex third = addFace({.vertices = {old.vertices[2], old.vertices[0], middle},
+                                     .across = {3 * own + 1, 3 * second, old.across[1]},
+                                     .origin = old.origin});
     cut_[second - map_faces_].across[0] = 3 * third + 1;
     cut_[own - map_faces_] = {.vertices = {old.vertices[0], old.vertices[1], middle},
                               .across = {3 * second + 1, 3 * third, old.across[2]},
@@ -492,27 +490,27 @@ std::uint32_t LayerPatch::insert(std::uint32_t face, const Vec3& up, double tole
     return middle;
 }
 
-std::optional<std::vector<std::uint32_t>>
-LayerPatch::connect(std::uint32_t from, std::uint32_t to, double tolerance)
+std::optional<std::vector<BodyIndex>>
+LayerPatch::connect(BodyIndex from, BodyIndex to, double tolerance)
 {
-    std::vector<std::uint32_t> way{from};
-    const std::uint32_t goal = placeOf(to);
+    std::vector<BodyIndex> way{from};
+    const BodyIndex goal = placeOf(to);
     const Vec3 end = up(to);
     constexpr std::size_t kWayMax = 10'000'000;
     while (way.size() < kWayMax) {
-        const std::uint32_t first = cornerAt(way.back());
+        const BodyIndex first = cornerAt(way.back());
         const Vec3 begin = up(way.back());
         const Vec3 along = end - begin;
         const double distance = length(along);
-        std::uint32_t through = kNone; // a vertex on the way
-        std::uint32_t crossed = kNone; // the corner at `begin` of the face that the way leads over
+        BodyIndex through = kNone; // a vertex on the way
+        BodyIndex crossed = kNone; // the corner at `begin` of the face that the way leads over
         if (first == kNone) {
             return std::nullopt;
         }
-        std::uint32_t corner = first;
+        BodyIndex corner = first;
         do {
-            const std::uint32_t a = vertexAt(nextCorner(corner));
-            const std::uint32_t b = vertexAt(previousCorner(corner));
+            const BodyIndex a = vertexAt(nextCorner(corner));
+            const BodyIndex b = vertexAt(previousCorner(corner));
             if (placeOf(a) == goal || placeOf(b) == goal) {
                 way.push_back(to);
                 return way;

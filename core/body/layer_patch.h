@@ -22,107 +22,99 @@ namespace marsview {
 /// each end, which are *twins*. A corner is as in TriangleMesh.
 class LayerPatch {
 public:
-    static constexpr std::uint32_t kNone = BodyMesh::kNone;
+    static constexpr BodyIndex kNone = BodyMesh::kNone;
 
     struct Map {
         std::shared_ptr<const BodyMesh> mesh;
-        std::uint32_t first_vertex = 0;
-        std::uint32_t first_face = 0;
+        BodyIndex first_vertex = 0;
+        BodyIndex first_face = 0;
         std::vector<bool> is_gone{}; // faces that are cut or covered
     };
     struct Face {
-        std::array<std::uint32_t, 3> vertices;
-        std::array<std::uint32_t, 3> across;
-        std::uint32_t origin = kNone; // the face of a map that it is part of; none for a wall
+        std::array<BodyIndex, 3> vertices;
+        std::array<BodyIndex, 3> across;
+        BodyIndex origin = kNone; // the face of a map that it is part of; none for a wall
         bool is_gone = false;
     };
 
-    /// The vertices fit into 32 bits, and so do three times the faces.
     explicit LayerPatch(const std::vector<std::shared_ptr<const BodyMesh>>& maps);
 
     const std::vector<Map>& maps() const noexcept { return maps_; }
     const std::vector<Face>& cutFaces() const noexcept { return cut_; }
     const std::vector<ScenePoint>& cutVertices() const noexcept { return points_; }
-    const std::unordered_map<std::uint32_t, std::uint32_t>& links() const noexcept
-    {
-        return links_;
-    }
+    const std::unordered_map<BodyIndex, BodyIndex>& links() const noexcept { return links_; }
     const Ellipsoid& ellipsoid() const noexcept
     {
         return maps_.front().mesh->positions().ellipsoid();
     }
-    std::uint32_t mapFaces() const noexcept { return map_faces_; }
-    std::uint32_t mapVertices() const noexcept { return map_vertices_; }
-    bool isCut(std::uint32_t face) const noexcept { return face >= map_faces_; }
-    bool isGone(std::uint32_t face) const noexcept;
-    std::size_t mapOf(std::uint32_t face) const noexcept;
-    std::size_t mapOfVertex(std::uint32_t vertex) const noexcept;
+    BodyIndex mapFaces() const noexcept { return map_faces_; }
+    BodyIndex mapVertices() const noexcept { return map_vertices_; }
+    bool isCut(BodyIndex face) const noexcept { return face >= map_faces_; }
+    bool isGone(BodyIndex face) const noexcept;
+    std::size_t mapOf(BodyIndex face) const noexcept;
+    std::size_t mapOfVertex(BodyIndex vertex) const noexcept;
 
-    MeshFace face(std::uint32_t face) const noexcept;
-    std::uint32_t vertexAt(std::uint32_t corner) const noexcept
-    {
-        return face(corner / 3)[corner % 3];
-    }
-    ScenePoint point(std::uint32_t vertex) const noexcept;
+    BodyFace face(BodyIndex face) const noexcept;
+    BodyIndex vertexAt(BodyIndex corner) const noexcept { return face(corner / 3)[corner % 3]; }
+    ScenePoint point(BodyIndex vertex) const noexcept;
     /// The place of a vertex.
-    Vec3 up(std::uint32_t vertex) const;
-    std::uint32_t across(std::uint32_t corner) const noexcept;
+    Vec3 up(BodyIndex vertex) const;
+    BodyIndex across(BodyIndex corner) const noexcept;
     /// A corner at the vertex, of a face that is not gone; kNone without one.
-    std::uint32_t cornerAt(std::uint32_t vertex) const noexcept;
+    BodyIndex cornerAt(BodyIndex vertex) const noexcept;
     /// The next corner at the same place, counter-clockwise or clockwise; kNone at a border.
-    std::uint32_t turned(std::uint32_t corner) const noexcept;
-    std::uint32_t turnedBack(std::uint32_t corner) const noexcept;
+    BodyIndex turned(BodyIndex corner) const noexcept;
+    BodyIndex turnedBack(BodyIndex corner) const noexcept;
     /// One vertex of all that are twins.
-    std::uint32_t placeOf(std::uint32_t vertex) const noexcept;
+    BodyIndex placeOf(BodyIndex vertex) const noexcept;
 
-    void setAcross(std::uint32_t corner, std::uint32_t beyond);
-    void removeFace(std::uint32_t face);
-    void setTwins(std::uint32_t a, std::uint32_t b);
-    void setVertex(std::uint32_t corner, std::uint32_t vertex);
-    std::uint32_t addVertex(const ScenePoint& point, const Vec3& up);
-    std::uint32_t addFace(const Face& face);
+    void setAcross(BodyIndex corner, BodyIndex beyond);
+    void removeFace(BodyIndex face);
+    void setTwins(BodyIndex a, BodyIndex b);
+    void setVertex(BodyIndex corner, BodyIndex vertex);
+    BodyIndex addVertex(const ScenePoint& point, const Vec3& up);
+    BodyIndex addFace(const Face& face);
     /// To be called after faces have been removed, so that cornerAt() finds others.
     void noteAll();
     /// The corner of a cut face that replaces a face of a map, or `corner` if that is one.
-    std::uint32_t cutCorner(std::uint32_t corner);
+    BodyIndex cutCorner(BodyIndex corner);
     /// Of a face of a map that was cut, or the face itself: the corner opposite the edge from one
     /// vertex to the other; kNone if there is no such edge.
-    std::uint32_t partAtEdge(std::uint32_t face, std::uint32_t from, std::uint32_t to) const;
+    BodyIndex partAtEdge(BodyIndex face, BodyIndex from, BodyIndex to) const;
     /// The corner opposite the edge from one place to the other; kNone if there is no such edge.
-    std::uint32_t cornerAtEdge(std::uint32_t from, std::uint32_t to) const;
+    BodyIndex cornerAtEdge(BodyIndex from, BodyIndex to) const;
 
     /// Puts a vertex with the place `up` on the edge opposite a corner, at a share of the way from
     /// the edge's first end, on both of its sides. Returns its corner in the face of its second
     /// half.
-    std::uint32_t splitEdge(std::uint32_t corner, double share, const Vec3& up);
+    BodyIndex splitEdge(BodyIndex corner, double share, const Vec3& up);
     /// The same at the share at which the edge passes the place.
-    std::uint32_t splitEdgeAt(std::uint32_t corner, const Vec3& up);
+    BodyIndex splitEdgeAt(BodyIndex corner, const Vec3& up);
     /// The share of the way along the edge opposite a corner at which it passes a place.
-    double shareBeside(std::uint32_t corner, const Vec3& up) const;
+    double shareBeside(BodyIndex corner, const Vec3& up) const;
     /// The face straight above or below a place, found from another face.
-    std::optional<std::uint32_t> walkTo(std::uint32_t face, const Vec3& up) const;
+    std::optional<BodyIndex> walkTo(BodyIndex face, const Vec3& up) const;
     /// The same among faces of the maps from `first` on.
-    std::optional<std::uint32_t> find(std::size_t first, const ScenePoint& point) const;
+    std::optional<BodyIndex> find(std::size_t first, const ScenePoint& point) const;
     /// A vertex straight above or below a place in a face; an existing one within `tolerance`.
-    std::uint32_t insert(std::uint32_t face, const Vec3& up, double tolerance);
+    BodyIndex insert(BodyIndex face, const Vec3& up, double tolerance);
     /// Inserts edges along the straight way between two vertices. Returns the vertices on it, the
     /// first one included; nothing if it leads over a border.
-    std::optional<std::vector<std::uint32_t>>
-    connect(std::uint32_t from, std::uint32_t to, double tolerance);
+    std::optional<std::vector<BodyIndex>> connect(BodyIndex from, BodyIndex to, double tolerance);
 
 private:
-    void note(std::uint32_t face);
+    void note(BodyIndex face);
 
     std::vector<Map> maps_;
-    std::uint32_t map_faces_ = 0;
-    std::uint32_t map_vertices_ = 0;
+    BodyIndex map_faces_ = 0;
+    BodyIndex map_vertices_ = 0;
     std::vector<Face> cut_;
     std::vector<ScenePoint> points_;
     std::vector<Vec3> ups_;
-    std::unordered_map<std::uint32_t, std::uint32_t> links_;   // of corners of maps: across
-    std::unordered_map<std::uint32_t, std::uint32_t> corners_; // some corner of a vertex
-    std::unordered_map<std::uint32_t, std::uint32_t> twins_;
-    std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> parts_; // of faces of maps
+    std::unordered_map<BodyIndex, BodyIndex> links_;   // of corners of maps: across
+    std::unordered_map<BodyIndex, BodyIndex> corners_; // some corner of a vertex
+    std::unordered_map<BodyIndex, BodyIndex> twins_;
+    std::unordered_map<BodyIndex, std::vector<BodyIndex>> parts_; // of faces of maps
 };
 
 /// Twice the area of the triangle between three directions; positive if counter-clockwise.

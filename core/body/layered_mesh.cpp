@@ -3,6 +3,7 @@
 #include "core/base/check.h"
 #include "core/body/layer_cut.h"
 
+#include <fmt/format.h>
 #include <numeric>
 #include <unordered_map>
 #include <utility>
@@ -13,15 +14,10 @@ Result<std::shared_ptr<const LayeredMesh>>
 LayeredMesh::build(const std::vector<std::shared_ptr<const BodyMesh>>& maps, JobMonitor& monitor)
 {
     MARSVIEW_CHECK(!maps.empty());
-    std::size_t faces = 0;
-    std::size_t vertices = 0;
-    for (const auto& map : maps) {
-        faces += map->faceCount();
-        vertices += map->vertexCount();
-    }
-    constexpr std::size_t kFacesMax = 1'400'000'000; // so that corner indices fit, with cut faces
-    if (faces > kFacesMax || vertices > kFacesMax || maps.size() > kMapsMax) {
-        return Error{ErrorCode::TooLarge, "the maps have too many samples to be joined"};
+    if (maps.size() > kMapsMax) {
+        return Error{ErrorCode::TooLarge,
+                     fmt::format("{} maps lie on top of each other; up to {} can be joined",
+                                 maps.size(), kMapsMax)};
     }
     LayerPatch patch(maps);
     for (std::size_t i = maps.size() - 1; i-- > 0;) {
@@ -42,12 +38,12 @@ LayeredMesh::build(const std::vector<std::shared_ptr<const BodyMesh>>& maps, Job
         mesh->maps_.back().is_linked = map.is_gone;
     }
     // Cut faces that are not gone, by new numbers.
-    std::vector<std::uint32_t> numbers(patch.cutFaces().size(), kNone);
-    std::uint32_t count = mesh->map_faces_;
+    std::vector<BodyIndex> numbers(patch.cutFaces().size(), kNone);
+    BodyIndex count = mesh->map_faces_;
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         numbers[i] = patch.cutFaces()[i].is_gone ? kNone : count++;
     }
-    const auto renumbered = [&](std::uint32_t corner) {
+    const auto renumbered = [&](BodyIndex corner) {
         return corner == kNone || corner / 3 < mesh->map_faces_
                    ? corner
                    : 3 * numbers[corner / 3 - mesh->map_faces_] + corner % 3;
@@ -81,9 +77,9 @@ LayeredMesh::build(const std::vector<std::shared_ptr<const BodyMesh>>& maps, Job
         }
     }
 
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> begins; // a vertex, one of its corners
-    for (std::uint32_t i = 0; i < mesh->cut_faces_.size(); ++i) {
-        for (std::uint32_t k = 0; k < 3; ++k) {
+    std::vector<std::pair<BodyIndex, BodyIndex>> begins; // a vertex, one of its corners
+    for (BodyIndex i = 0; i < mesh->cut_faces_.size(); ++i) {
+        for (BodyIndex k = 0; k < 3; ++k) {
             begins.emplace_back(mesh->cut_faces_[i][k], 3 * (mesh->map_faces_ + i) + k);
         }
     }
@@ -93,26 +89,26 @@ LayeredMesh::build(const std::vector<std::shared_ptr<const BodyMesh>>& maps, Job
         if (i > 0 && begins[i - 1].first == vertex) {
             continue;
         }
-        mesh->fans_.push_back({vertex, static_cast<std::uint32_t>(mesh->fan_corners_.size())});
-        std::uint32_t first = some;
-        for (std::uint32_t before = mesh->across(previousCorner(first)); before != kNone;
+        mesh->fans_.push_back({vertex, mesh->fan_corners_.size()});
+        BodyIndex first = some;
+        for (BodyIndex before = mesh->across(previousCorner(first)); before != kNone;
              before = mesh->across(previousCorner(first))) {
             first = previousCorner(before);
             if (first == some) {
                 break;
             }
         }
-        std::uint32_t corner = first;
+        BodyIndex corner = first;
         do {
             mesh->fan_corners_.push_back(corner);
-            const std::uint32_t beyond = mesh->across(nextCorner(corner));
+            const BodyIndex beyond = mesh->across(nextCorner(corner));
             corner = beyond == kNone ? first : nextCorner(beyond);
         } while (corner != first);
     }
-    mesh->fans_.push_back({kNone, static_cast<std::uint32_t>(mesh->fan_corners_.size())});
+    mesh->fans_.push_back({kNone, mesh->fan_corners_.size()});
 
     std::vector<TriangleTree::Bounds> bounds(mesh->cut_faces_.size());
-    for (std::uint32_t i = 0; i < bounds.size(); ++i) {
+    for (BodyIndex i = 0; i < bounds.size(); ++i) {
         for (const ScenePoint& point : mesh->points(mesh->map_faces_ + i)) {
             bounds[i].add(point);
         }
@@ -123,36 +119,35 @@ LayeredMesh::build(const std::vector<std::shared_ptr<const BodyMesh>>& maps, Job
     return std::shared_ptr<const LayeredMesh>(std::move(mesh));
 }
 
-std::uint32_t LayeredMesh::across(std::uint32_t corner) const noexcept
+BodyIndex LayeredMesh::across(BodyIndex corner) const noexcept
 {
-    const std::uint32_t face = corner / 3;
+    const BodyIndex face = corner / 3;
     if (face >= map_faces_) {
         return cut_across_[face - map_faces_][corner % 3];
     }
     const Map& map = mapOf(face);
     if (!map.is_linked.empty() && map.is_linked[face - map.first_face]) {
-        const auto link =
-            std::lower_bound(links_.begin(), links_.end(), corner,
-                             [](const Link& a, std::uint32_t b) { return a.corner < b; });
+        const auto link = std::lower_bound(links_.begin(), links_.end(), corner,
+                                           [](const Link& a, BodyIndex b) { return a.corner < b; });
         if (link != links_.end() && link->corner == corner) {
             return link->beyond;
         }
     }
-    const std::uint32_t beyond = map.mesh->across(corner - 3 * map.first_face);
+    const BodyIndex beyond = map.mesh->across(corner - 3 * map.first_face);
     return beyond == kNone ? kNone : beyond + 3 * map.first_face;
 }
 
-LayeredFan LayeredMesh::listedFan(std::uint32_t vertex) const noexcept
+LayeredFan LayeredMesh::listedFan(BodyIndex vertex) const noexcept
 {
     const auto fan = std::lower_bound(fans_.begin(), fans_.end(), vertex,
-                                      [](const Fan& a, std::uint32_t b) { return a.vertex < b; });
+                                      [](const Fan& a, BodyIndex b) { return a.vertex < b; });
     if (fan == fans_.end() || fan->vertex != vertex) {
         return {nullptr, 0};
     }
     return {fan_corners_.data() + fan->begin, (fan + 1)->begin - fan->begin};
 }
 
-LayeredFan LayeredMesh::fan(std::uint32_t vertex) const noexcept
+LayeredFan LayeredMesh::fan(BodyIndex vertex) const noexcept
 {
     if (vertex >= map_vertices_) {
         return listedFan(vertex);
@@ -161,7 +156,7 @@ LayeredFan LayeredMesh::fan(std::uint32_t vertex) const noexcept
     const FanCorners corners = map.mesh->fan(vertex - map.first_vertex);
     if (!map.is_linked.empty() &&
         std::any_of(corners.begin(), corners.end(),
-                    [&map](std::uint32_t corner) { return map.is_linked[corner / 3]; })) {
+                    [&map](BodyIndex corner) { return map.is_linked[corner / 3]; })) {
         if (const LayeredFan listed = listedFan(vertex); listed.size() > 0) {
             return listed;
         }

@@ -15,30 +15,27 @@ namespace marsview {
 /// The corners at a vertex, as in TriangleMesh::fan(): few, or those of a stored list.
 class LayeredFan {
 public:
-    LayeredFan(const FanCorners& corners, std::uint32_t first) noexcept
-        : size_(static_cast<std::uint32_t>(corners.size()))
+    LayeredFan(const FanCorners& corners, BodyIndex first) noexcept
+        : size_(corners.size())
     {
         std::transform(corners.begin(), corners.end(), few_.begin(),
-                       [first](std::uint32_t corner) { return corner + first; });
+                       [first](BodyIndex corner) { return corner + first; });
     }
-    LayeredFan(const std::uint32_t* corners, std::size_t count) noexcept
+    LayeredFan(const BodyIndex* corners, std::size_t count) noexcept
         : listed_(corners)
-        , size_(static_cast<std::uint32_t>(count))
+        , size_(count)
     {}
 
-    const std::uint32_t* begin() const noexcept
-    {
-        return listed_ != nullptr ? listed_ : few_.data();
-    }
-    const std::uint32_t* end() const noexcept { return begin() + size_; }
-    std::uint32_t front() const noexcept { return *begin(); }
-    std::uint32_t back() const noexcept { return *(end() - 1); }
+    const BodyIndex* begin() const noexcept { return listed_ != nullptr ? listed_ : few_.data(); }
+    const BodyIndex* end() const noexcept { return begin() + size_; }
+    BodyIndex front() const noexcept { return *begin(); }
+    BodyIndex back() const noexcept { return *(end() - 1); }
     std::size_t size() const noexcept { return size_; }
 
 private:
-    std::array<std::uint32_t, FanCorners::kCountMax> few_{};
-    const std::uint32_t* listed_ = nullptr;
-    std::uint32_t size_;
+    std::array<BodyIndex, FanCorners::kCountMax> few_{};
+    const BodyIndex* listed_ = nullptr;
+    std::size_t size_;
 };
 
 /// At each place the surface is that of the uppermost map with data there, and where no map has
@@ -53,13 +50,14 @@ private:
 /// About 150 bytes per edge of a border, and two bits per face of each map.
 class LayeredMesh {
 public:
-    static constexpr std::uint32_t kNone = BodyMesh::kNone;
+    using Index = BodyIndex;
+    static constexpr Index kNone = BodyMesh::kNone;
     static constexpr double kCoordinateMaxM = BodyMesh::kCoordinateMaxM;
     static constexpr std::size_t kMapsMax = 32;
 
     /// The uppermost map first; all with the same ellipsoid and exaggeration. Errors: Unsupported
     /// where the border of a map leads beyond the maps below it, or cannot be cut out of them;
-    /// TooLarge above 1.4 billion triangles or kMapsMax maps; Canceled.
+    /// TooLarge above kMapsMax maps; Canceled.
     static Result<std::shared_ptr<const LayeredMesh>>
     build(const std::vector<std::shared_ptr<const BodyMesh>>& maps, JobMonitor& monitor);
 
@@ -76,7 +74,7 @@ public:
     {
         return maps_.front().mesh->positions().ellipsoid();
     }
-    bool isGone(std::uint32_t face) const noexcept
+    bool isGone(BodyIndex face) const noexcept
     {
         if (face >= map_faces_) {
             return false;
@@ -85,14 +83,14 @@ public:
         return !map.is_gone.empty() && map.is_gone[face - map.first_face];
     }
     /// Cut faces and walls: those from here on.
-    std::uint32_t firstCutFace() const noexcept { return map_faces_; }
+    BodyIndex firstCutFace() const noexcept { return map_faces_; }
     /// Whether a face is part of a wall.
-    bool isWall(std::uint32_t face) const noexcept
+    bool isWall(BodyIndex face) const noexcept
     {
         return face >= map_faces_ && is_wall_[face - map_faces_];
     }
 
-    ScenePoint vertex(std::uint32_t index) const noexcept
+    ScenePoint vertex(BodyIndex index) const noexcept
     {
         if (index >= map_vertices_) {
             return cut_vertices_[index - map_vertices_];
@@ -100,45 +98,39 @@ public:
         const Map& map = mapOfVertex(index);
         return map.mesh->vertex(index - map.first_vertex);
     }
-    MeshFace face(std::uint32_t index) const noexcept
+    BodyFace face(BodyIndex index) const noexcept
     {
         if (index >= map_faces_) {
             return cut_faces_[index - map_faces_];
         }
         const Map& map = mapOf(index);
-        const MeshFace own = map.mesh->face(index - map.first_face);
+        const BodyFace own = map.mesh->face(index - map.first_face);
         return {own[0] + map.first_vertex, own[1] + map.first_vertex, own[2] + map.first_vertex};
     }
-    std::array<ScenePoint, 3> points(std::uint32_t face) const noexcept
+    std::array<ScenePoint, 3> points(BodyIndex face) const noexcept
     {
         if (face >= map_faces_) {
-            const MeshFace& f = cut_faces_[face - map_faces_];
+            const BodyFace& f = cut_faces_[face - map_faces_];
             return {vertex(f[0]), vertex(f[1]), vertex(f[2])};
         }
         const Map& map = mapOf(face);
         return map.mesh->points(face - map.first_face);
     }
-    Vec3 normal(std::uint32_t face) const noexcept
+    Vec3 normal(BodyIndex face) const noexcept
     {
         const auto [a, b, c] = points(face);
         return cross(b - a, c - a);
     }
-    std::uint32_t across(std::uint32_t corner) const noexcept;
-    LayeredFan fan(std::uint32_t vertex) const noexcept;
-    bool isAtBorder(std::uint32_t vertex) const noexcept
+    BodyIndex across(BodyIndex corner) const noexcept;
+    LayeredFan fan(BodyIndex vertex) const noexcept;
+    bool isAtBorder(BodyIndex vertex) const noexcept
     {
         return across(previousCorner(fan(vertex).front())) == kNone;
     }
-    std::uint32_t vertexAt(std::uint32_t corner) const noexcept
-    {
-        return face(corner / 3)[corner % 3];
-    }
-    static std::uint32_t faceOf(std::uint32_t corner) noexcept { return corner / 3; }
-    static std::uint32_t nextCorner(std::uint32_t corner) noexcept
-    {
-        return BodyMesh::nextCorner(corner);
-    }
-    static std::uint32_t previousCorner(std::uint32_t corner) noexcept
+    BodyIndex vertexAt(BodyIndex corner) const noexcept { return face(corner / 3)[corner % 3]; }
+    static BodyIndex faceOf(BodyIndex corner) noexcept { return corner / 3; }
+    static BodyIndex nextCorner(BodyIndex corner) noexcept { return BodyMesh::nextCorner(corner); }
+    static BodyIndex previousCorner(BodyIndex corner) noexcept
     {
         return BodyMesh::previousCorner(corner);
     }
@@ -155,7 +147,7 @@ public:
         pointsAlong(const Vec3& from, const Vec3& along, double slack, F&& visit) const noexcept
         {
             double t_least = 1.0;
-            const auto look_at = [&](std::uint32_t face, const std::array<ScenePoint, 3>& at,
+            const auto look_at = [&](BodyIndex face, const std::array<ScenePoint, 3>& at,
                                      double& t_max) {
                 t_max = std::min(t_max, t_least);
                 visit(face, at, t_max);
@@ -164,14 +156,14 @@ public:
             for (const Map& map : mesh_.maps_) {
                 const auto tree = map.mesh->tree();
                 tree.pointsAlong(from + (middle() - tree.middle()), along, slack,
-                                 [&](std::uint32_t face, const auto& at, double& t_max) {
+                                 [&](BodyIndex face, const auto& at, double& t_max) {
                                      if (map.is_gone.empty() || !map.is_gone[face]) {
                                          look_at(face + map.first_face, at, t_max);
                                      }
                                  });
             }
             mesh_.cut_tree_.alongSegment(from + (middle() - mesh_.cut_tree_.middle()), along, slack,
-                                         [&](std::uint32_t face, double& t_max) {
+                                         [&](BodyIndex face, double& t_max) {
                                              look_at(face + mesh_.map_faces_,
                                                      mesh_.points(face + mesh_.map_faces_), t_max);
                                          });
@@ -180,21 +172,21 @@ public:
         void pointsNearest(const ScenePoint& point, F&& visit) const noexcept
         {
             double least = std::numeric_limits<double>::infinity();
-            const auto look_at = [&](std::uint32_t face, const std::array<ScenePoint, 3>& at,
+            const auto look_at = [&](BodyIndex face, const std::array<ScenePoint, 3>& at,
                                      double& limit) {
                 limit = std::min(limit, least);
                 visit(face, at, limit);
                 least = std::min(limit, least);
             };
             for (const Map& map : mesh_.maps_) {
-                map.mesh->tree().pointsNearest(
-                    point, [&](std::uint32_t face, const auto& at, double& limit) {
-                        if (map.is_gone.empty() || !map.is_gone[face]) {
-                            look_at(face + map.first_face, at, limit);
-                        }
-                    });
+                map.mesh->tree().pointsNearest(point,
+                                               [&](BodyIndex face, const auto& at, double& limit) {
+                                                   if (map.is_gone.empty() || !map.is_gone[face]) {
+                                                       look_at(face + map.first_face, at, limit);
+                                                   }
+                                               });
             }
-            mesh_.cut_tree_.nearestFirst(point, [&](std::uint32_t face, double& limit) {
+            mesh_.cut_tree_.nearestFirst(point, [&](BodyIndex face, double& limit) {
                 look_at(face + mesh_.map_faces_, mesh_.points(face + mesh_.map_faces_), limit);
             });
         }
@@ -202,14 +194,14 @@ public:
         void inBox(const ScenePoint& low, const ScenePoint& high, F&& visit) const noexcept
         {
             for (const Map& map : mesh_.maps_) {
-                map.mesh->tree().inBox(low, high, [&](std::uint32_t face) {
+                map.mesh->tree().inBox(low, high, [&](BodyIndex face) {
                     if (map.is_gone.empty() || !map.is_gone[face]) {
                         visit(face + map.first_face);
                     }
                 });
             }
             mesh_.cut_tree_.inBox(low, high,
-                                  [&](std::uint32_t face) { visit(face + mesh_.map_faces_); });
+                                  [&](BodyIndex face) { visit(face + mesh_.map_faces_); });
         }
 
     private:
@@ -224,25 +216,25 @@ public:
 private:
     struct Map {
         std::shared_ptr<const BodyMesh> mesh;
-        std::uint32_t first_vertex = 0;
-        std::uint32_t first_face = 0;
+        BodyIndex first_vertex = 0;
+        BodyIndex first_face = 0;
         // By face; empty if the map is neither cut nor covered.
         std::vector<bool> is_gone{};
         std::vector<bool> is_linked{}; // gone, or links_ has one of its corners
     };
     struct Link {
-        std::uint32_t corner;
-        std::uint32_t beyond;
+        BodyIndex corner;
+        BodyIndex beyond;
     };
     struct Fan {
-        std::uint32_t vertex;
-        std::uint32_t begin; // in fan_corners_
+        BodyIndex vertex;
+        BodyIndex begin; // in fan_corners_
     };
 
     LayeredMesh() = default;
 
     // At most kMapsMax steps.
-    const Map& mapOf(std::uint32_t face) const noexcept
+    const Map& mapOf(BodyIndex face) const noexcept
     {
         std::size_t map = maps_.size() - 1;
         while (face < maps_[map].first_face) {
@@ -250,7 +242,7 @@ private:
         }
         return maps_[map];
     }
-    const Map& mapOfVertex(std::uint32_t vertex) const noexcept
+    const Map& mapOfVertex(BodyIndex vertex) const noexcept
     {
         std::size_t map = maps_.size() - 1;
         while (vertex < maps_[map].first_vertex) {
@@ -258,18 +250,18 @@ private:
         }
         return maps_[map];
     }
-    LayeredFan listedFan(std::uint32_t vertex) const noexcept;
+    LayeredFan listedFan(BodyIndex vertex) const noexcept;
 
     std::vector<Map> maps_;
-    std::uint32_t map_faces_ = 0;
-    std::uint32_t map_vertices_ = 0;
+    BodyIndex map_faces_ = 0;
+    BodyIndex map_vertices_ = 0;
     std::vector<ScenePoint> cut_vertices_;
-    std::vector<MeshFace> cut_faces_;
-    std::vector<std::array<std::uint32_t, 3>> cut_across_;
+    std::vector<BodyFace> cut_faces_;
+    std::vector<std::array<BodyIndex, 3>> cut_across_;
     std::vector<bool> is_wall_;
     std::vector<Link> links_; // of corners of maps whose neighbors are cut faces, by corner
     std::vector<Fan> fans_;   // of the vertices of cut faces, by vertex, and an end
-    std::vector<std::uint32_t> fan_corners_;
+    std::vector<BodyIndex> fan_corners_;
     TriangleTree cut_tree_;
 };
 

@@ -49,7 +49,7 @@ belowOn(const BasicMeshSurface<Mesh>& surface, const ScenePoint& point, double l
     ScenePoint border;
     constexpr int kRounds = 2;
     for (int i = 0; i < kRounds; ++i) {
-        const MeshPlace place = nearestPlace(mesh, at);
+        const auto place = nearestPlace(mesh, at);
         const auto corners = mesh.points(place.face);
         // A little inside, where a cast finds the surface.
         constexpr double kInside = 1e-6;

@@ -16,20 +16,27 @@
 
 namespace marsview {
 
-/// A vertex, edge or face of a TriangleMesh.
-struct MeshVertex {
-    std::uint32_t index = 0;
-    bool operator==(const MeshVertex&) const = default;
+/// A vertex, edge or face of a mesh, by Mesh::Index.
+template <typename Index>
+struct BasicMeshVertex {
+    Index index = 0;
+    bool operator==(const BasicMeshVertex&) const = default;
 };
 /// The edge opposite a corner; of the two corners that have it, the lesser.
-struct MeshEdge {
-    std::uint32_t corner = 0;
-    bool operator==(const MeshEdge&) const = default;
+template <typename Index>
+struct BasicMeshEdge {
+    Index corner = 0;
+    bool operator==(const BasicMeshEdge&) const = default;
 };
-struct MeshSide {
-    std::uint32_t face = 0;
-    bool operator==(const MeshSide&) const = default;
+template <typename Index>
+struct BasicMeshSide {
+    Index face = 0;
+    bool operator==(const BasicMeshSide&) const = default;
 };
+/// Those of a TriangleMesh.
+using MeshVertex = BasicMeshVertex<TriangleMesh::Index>;
+using MeshEdge = BasicMeshEdge<TriangleMesh::Index>;
+using MeshSide = BasicMeshSide<TriangleMesh::Index>;
 /// The position is `scene` + `rest`. Between two goals, `rest` keeps what the coordinates cannot
 /// resolve; otherwise events on a path of nanometers far from the origin would be misjudged. `rest`
 /// is zero for a goal given by the caller.
@@ -67,7 +74,7 @@ struct MeshSteps<Mesh> {
 };
 template <typename Mesh>
 struct MeshFan {
-    MeshVertex vertex;
+    BasicMeshVertex<typename Mesh::Index> vertex;
     ScenePoint point;
     MeshCorners<Mesh> corners; // TriangleMesh::fan
     MeshRing<Mesh> ring{};
@@ -77,9 +84,10 @@ struct MeshFan {
 /// their own edge, so that they are exact where the goal is near it.
 template <typename Mesh>
 struct MeshFacet {
-    std::array<MeshVertex, 3> vertices; // counter-clockwise seen from free space
-    double scale;                       // |normal|²
-    std::uint32_t corner;               // of the mesh, the first; kNone: found from `steps`
+    using Vertex = BasicMeshVertex<typename Mesh::Index>;
+    std::array<Vertex, 3> vertices; // counter-clockwise seen from free space
+    double scale;                   // |normal|²
+    typename Mesh::Index corner;    // of the mesh, the first; kNone: found from `steps`
     [[no_unique_address]] MeshSteps<Mesh> steps;
     std::array<ScenePoint, 3> points;
     Vec3 normal;
@@ -128,9 +136,10 @@ private:
 template <typename Mesh>
 class BasicMeshSurface {
 public:
-    using Vertex = MeshVertex;
-    using Edge = MeshEdge;
-    using Face = MeshSide;
+    using Index = typename Mesh::Index;
+    using Vertex = BasicMeshVertex<Index>;
+    using Edge = BasicMeshEdge<Index>;
+    using Face = BasicMeshSide<Index>;
     using Goal = MeshGoal;
     using Fan = MeshFan<Mesh>;
     using Facet = MeshFacet<Mesh>;
@@ -184,12 +193,12 @@ public:
     }
     std::array<Vertex, 3> corners(Face face) const noexcept
     {
-        const MeshFace f = mesh_->face(face.face);
+        const auto f = mesh_->face(face.face);
         return {Vertex{f[0]}, Vertex{f[1]}, Vertex{f[2]}};
     }
     Facet facet(Face face, std::size_t first) const noexcept
     {
-        return facetAt(3 * face.face + static_cast<std::uint32_t>(first));
+        return facetAt(3 * face.face + static_cast<Index>(first));
     }
     Face faceOf(const Facet& facet) const noexcept { return {Mesh::faceOf(cornerOf(facet, 0))}; }
     EdgeFacets edgeFacets(Edge edge) const noexcept
@@ -288,10 +297,10 @@ public:
             }
             return;
         }
-        for (const std::uint32_t corner : fan.corners) {
+        for (const Index corner : fan.corners) {
             function(spokeTo(fan, mesh_->vertexAt(Mesh::nextCorner(corner))));
         }
-        const std::uint32_t last = fan.corners.back();
+        const Index last = fan.corners.back();
         if (mesh_->across(Mesh::nextCorner(last)) == Mesh::kNone) {
             function(spokeTo(fan, mesh_->vertexAt(Mesh::previousCorner(last))));
         }
@@ -301,7 +310,7 @@ public:
     {
         if constexpr (MeshWithRings<Mesh>) {
             std::size_t i = 0;
-            for (const std::uint32_t corner : fan.corners) {
+            for (const Index corner : fan.corners) {
                 const std::size_t next = i + 1 < fan.ring.edges.count ? i + 1 : 0;
                 function(Face{Mesh::faceOf(corner)}, spokeAt(fan, i), spokeAt(fan, next));
                 i = next;
@@ -310,7 +319,7 @@ public:
         }
         // Each sector begins at the spoke at which the one before it ends.
         Spoke begin = spokeTo(fan, mesh_->vertexAt(Mesh::nextCorner(fan.corners.front())));
-        for (const std::uint32_t corner : fan.corners) {
+        for (const Index corner : fan.corners) {
             const Spoke end = spokeTo(fan, mesh_->vertexAt(Mesh::previousCorner(corner)));
             function(Face{Mesh::faceOf(corner)}, begin, end);
             begin = end;
@@ -328,14 +337,14 @@ public:
     void eachFaceNear(const ScenePoint& low, const ScenePoint& high, F&& function) const noexcept
     {
         mesh_->tree().inBox(low, high,
-                            [&](std::uint32_t face) { function(Face{face}, mesh_->points(face)); });
+                            [&](Index face) { function(Face{face}, mesh_->points(face)); });
     }
 
     std::uint32_t stepsMax() const noexcept { return steps_max_; }
     std::uint32_t stepsAlong(double /*way*/) const noexcept { return steps_max_; }
 
 private:
-    static std::uint32_t turnedCorner(const Facet& facet, std::size_t i) noexcept
+    static Index turnedCorner(const Facet& facet, std::size_t i) noexcept
     {
         return facet.corner == Mesh::kNone ? Mesh::kNone
                : i == 0                    ? facet.corner
@@ -353,7 +362,7 @@ private:
             return {};
         }
     }
-    std::uint32_t cornerOf(const Facet& facet, std::size_t i) const noexcept
+    Index cornerOf(const Facet& facet, std::size_t i) const noexcept
     {
         if constexpr (MeshOfSamples<Mesh>) {
             if (facet.corner == Mesh::kNone) {
@@ -369,13 +378,13 @@ private:
         const auto& at = facet.steps.at;
         return M::step(at[opposite], at[(opposite + 1) % 3], at[(opposite + 2) % 3]);
     }
-    Facet facetAt(std::uint32_t corner) const noexcept
+    Facet facetAt(Index corner) const noexcept
     {
-        const std::uint32_t face = Mesh::faceOf(corner);
-        const std::uint32_t first = corner % 3;
-        const std::uint32_t second = (first + 1) % 3;
-        const std::uint32_t third = (first + 2) % 3;
-        const MeshFace all = mesh_->face(face);
+        const Index face = Mesh::faceOf(corner);
+        const Index first = corner % 3;
+        const Index second = (first + 1) % 3;
+        const Index third = (first + 2) % 3;
+        const auto all = mesh_->face(face);
         const auto points = mesh_->points(face);
         MeshSteps<Mesh> steps{};
         if constexpr (MeshOfSamples<Mesh>) {
@@ -385,7 +394,7 @@ private:
         return facetOf(corner, {Vertex{all[first]}, Vertex{all[second]}, Vertex{all[third]}},
                        {points[first], points[second], points[third]}, steps);
     }
-    static Facet facetOf(std::uint32_t corner,
+    static Facet facetOf(Index corner,
                          const std::array<Vertex, 3>& vertices,
                          const std::array<ScenePoint, 3>& points,
                          const MeshSteps<Mesh>& steps) noexcept
@@ -401,17 +410,17 @@ private:
                 .normal = normal,
                 .inward = {cross(normal, b - a), cross(b, normal), cross(normal, a)}};
     }
-    Edge edgeOpposite(std::uint32_t corner) const noexcept
+    Edge edgeOpposite(Index corner) const noexcept
     {
         return {std::min(corner, mesh_->across(corner))};
     }
-    static std::optional<Wing> wingAt(std::uint32_t corner) noexcept
+    static std::optional<Wing> wingAt(Index corner) noexcept
     {
         return corner == Mesh::kNone
                    ? std::nullopt
                    : std::optional(Wing{{Mesh::faceOf(corner)}, static_cast<int>(corner % 3)});
     }
-    Spoke spokeTo(const Fan& fan, std::uint32_t vertex) const noexcept
+    Spoke spokeTo(const Fan& fan, Index vertex) const noexcept
     {
         return {{vertex}, mesh_->vertex(vertex) - fan.point};
     }
@@ -428,9 +437,9 @@ private:
             return mesh_->across(Mesh::previousCorner(fan.corners.front())) == Mesh::kNone;
         }
     }
-    bool isValley(std::uint32_t corner) const noexcept;
+    bool isValley(Index corner) const noexcept;
     std::optional<Face> wayOutOfMixed(const Fan& fan, const Goal& goal) const noexcept;
-    Contact contactFrom(const MeshPlace& place) const noexcept;
+    Contact contactFrom(const BasicMeshPlace<Index>& place) const noexcept;
 
     std::shared_ptr<const Mesh> mesh_;
     std::uint32_t steps_max_;

@@ -38,7 +38,8 @@ BasicMeshSurface<Mesh>::BasicMeshSurface(std::shared_ptr<const Mesh> mesh)
 }
 
 template <typename Mesh>
-auto BasicMeshSurface<Mesh>::contactFrom(const MeshPlace& place) const noexcept -> Contact
+auto BasicMeshSurface<Mesh>::contactFrom(const BasicMeshPlace<Index>& place) const noexcept
+    -> Contact
 {
     return contactOnFace(*this, Face{place.face}, place.weights);
 }
@@ -47,7 +48,7 @@ template <typename Mesh>
 auto BasicMeshSurface<Mesh>::contactAt(const Goal& goal) const noexcept -> Contact
 {
     if constexpr (requires { mesh_->highAbove(goal.scene); }) {
-        const MeshCast down =
+        const auto down =
             castSegment(*mesh_, {.base = mesh_->highAbove(goal.scene)}, mesh_surface::endAt(goal));
         if (down.hit) {
             return contactFrom(*down.hit);
@@ -86,9 +87,9 @@ auto BasicMeshSurface<Mesh>::edgeBetween(Vertex a, Vertex b) const noexcept -> E
     if constexpr (MeshOfSamples<Mesh>) {
         return {mesh_->cornerAtEdge(a.index, b.index)};
     }
-    for (const std::uint32_t corner : mesh_->fan(a.index)) {
-        const std::uint32_t next = Mesh::nextCorner(corner);
-        const std::uint32_t previous = Mesh::previousCorner(corner);
+    for (const Index corner : mesh_->fan(a.index)) {
+        const Index next = Mesh::nextCorner(corner);
+        const Index previous = Mesh::previousCorner(corner);
         if (mesh_->vertexAt(next) == b.index) {
             return edgeOpposite(previous);
         }
@@ -102,7 +103,7 @@ auto BasicMeshSurface<Mesh>::edgeBetween(Vertex a, Vertex b) const noexcept -> E
 // Whether the edge opposite a corner, which is not at the border, is a valley or flat. Exact, like
 // the side of its faces on which the goal is: together they decide what counts as free space.
 template <typename Mesh>
-bool BasicMeshSurface<Mesh>::isValley(std::uint32_t corner) const noexcept
+bool BasicMeshSurface<Mesh>::isValley(Index corner) const noexcept
 {
     return sideOf(*mesh_, Mesh::faceOf(corner),
                   {mesh_->vertex(mesh_->vertexAt(mesh_->across(corner)))}) >= 0;
@@ -149,7 +150,7 @@ auto BasicMeshSurface<Mesh>::wayOutOfMixed(const Fan& fan, const Goal& goal) con
     };
     const Vec3 to_goal = goal.from(fan.point);
     const double goal_length = length(to_goal);
-    const auto sector_at = [&](std::uint32_t corner) {
+    const auto sector_at = [&](Index corner) {
         Sector sector{};
         sector.a = mesh_->vertex(mesh_->vertexAt(Mesh::nextCorner(corner))) - fan.point;
         sector.b = mesh_->vertex(mesh_->vertexAt(Mesh::previousCorner(corner))) - fan.point;
@@ -177,7 +178,7 @@ auto BasicMeshSurface<Mesh>::wayOutOfMixed(const Fan& fan, const Goal& goal) con
     };
     const bool is_at_border = isAtBorder(fan);
     Vec3 pseudonormal{};
-    for (const std::uint32_t corner : fan.corners) {
+    for (const Index corner : fan.corners) {
         const Face face{Mesh::faceOf(corner)};
         const Sector sector = sector_at(corner);
         pseudonormal = pseudonormal + sector.normal * std::atan2(length(cross(sector.a, sector.b)),
@@ -188,7 +189,7 @@ auto BasicMeshSurface<Mesh>::wayOutOfMixed(const Fan& fan, const Goal& goal) con
         }
         // The spoke that the sector ends at, and the first one of a border.
         const double distance = from_spoke(sector.b);
-        const std::uint32_t beyond = mesh_->across(Mesh::nextCorner(corner));
+        const Index beyond = mesh_->across(Mesh::nextCorner(corner));
         if (beyond == Mesh::kNone) {
             offer(distance, true, face);
         } else if (distance < kInfinity) {
@@ -223,8 +224,8 @@ auto BasicMeshSurface<Mesh>::wayOut(const Contact& contact, const Goal& goal) co
                    ? std::optional(contact.face)
                    : std::nullopt;
     }
-    const std::uint32_t corner = contact.edge.corner;
-    const std::uint32_t beyond = mesh_->across(corner);
+    const Index corner = contact.edge.corner;
+    const Index beyond = mesh_->across(corner);
     const Face here{Mesh::faceOf(corner)};
     const int above_here = sideOf(*mesh_, here.face, mesh_surface::endAt(goal));
     if (beyond == Mesh::kNone) {
@@ -250,7 +251,7 @@ auto BasicMeshSurface<Mesh>::wayOut(const Contact& contact, const Goal& goal) co
     if (above_here <= 0 || above_there <= 0) {
         return std::nullopt;
     }
-    const auto rises = [&](std::uint32_t face) {
+    const auto rises = [&](Index face) {
         const Vec3 normal = mesh_->normal(face);
         const Vec3 to_goal = goal.from(mesh_->vertex(mesh_->face(face)[0]));
         const double above = dot(normal, to_goal);
@@ -265,8 +266,8 @@ auto BasicMeshSurface<Mesh>::castFrom(const Contact& contact,
                                       Face over,
                                       const Goal& goal) const noexcept -> Cast
 {
-    MeshStart start;
-    const auto size_of = [this](std::uint32_t face) {
+    MeshStart<Index> start;
+    const auto size_of = [this](Index face) {
         const auto [a, b, c] = mesh_->points(face);
         return std::sqrt(std::max({dot(b - a, b - a), dot(c - b, c - b), dot(a - c, a - c)}));
     };
@@ -276,14 +277,14 @@ auto BasicMeshSurface<Mesh>::castFrom(const Contact& contact,
     } else if (contact.feature == ContactFeature::Edge) {
         const auto [from, to] = ends(contact.edge);
         start.base = mesh_->vertex(from.index);
-        const std::uint32_t here = Mesh::faceOf(contact.edge.corner);
-        const std::uint32_t beyond = mesh_->across(contact.edge.corner);
+        const Index here = Mesh::faceOf(contact.edge.corner);
+        const Index beyond = mesh_->across(contact.edge.corner);
         start.skipped_faces[0] = here;
         start.size_m = size_of(here);
         const Vec3 normal = normalized(mesh_->normal(here));
         Vec3 lift = normal;
         if (beyond != Mesh::kNone) {
-            const std::uint32_t there = Mesh::faceOf(beyond);
+            const Index there = Mesh::faceOf(beyond);
             start.skipped_faces[1] = there;
             start.size_m = std::max(start.size_m, size_of(there));
             const Vec3 other = normalized(mesh_->normal(there));
@@ -302,14 +303,14 @@ auto BasicMeshSurface<Mesh>::castFrom(const Contact& contact,
         start.offset = (a * contact.weights[1] + b * contact.weights[2]) +
                        normalized(cross(a, b)) * (mesh_surface::kLift * start.size_m);
     }
-    const MeshCast cast = castSegment(*mesh_, start, mesh_surface::endAt(goal));
+    const auto cast = castSegment(*mesh_, start, mesh_surface::endAt(goal));
     return {cast.hit ? std::optional(contactFrom(*cast.hit)) : std::nullopt, cast.faces};
 }
 
 template <typename Mesh>
 auto BasicMeshSurface<Mesh>::castFree(const Goal& from, const Goal& to) const noexcept -> Cast
 {
-    const MeshCast cast =
+    const auto cast =
         castSegment(*mesh_, {.base = from.scene, .offset = from.rest}, mesh_surface::endAt(to));
     return {cast.hit ? std::optional(contactFrom(*cast.hit)) : std::nullopt, cast.faces};
 }

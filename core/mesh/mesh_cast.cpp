@@ -6,7 +6,8 @@
 namespace marsview {
 
 template int sideOf(const TriangleMesh&, std::uint32_t, const MeshEnd&) noexcept;
-template MeshCast castSegment(const TriangleMesh&, const MeshStart&, const MeshEnd&) noexcept;
+template MeshCast
+castSegment(const TriangleMesh&, const MeshStart<TriangleMesh::Index>&, const MeshEnd&) noexcept;
 template MeshPlace nearestPlace(const TriangleMesh&, const ScenePoint&) noexcept;
 
 // C. Ericson, "Real-time collision detection", 2005, section 5.1.5.

@@ -33,7 +33,11 @@ inline constexpr double kOnFace = 256.0 * kCastEpsilon;
 template <typename Mesh>
 class SegmentCast {
 public:
-    SegmentCast(const Mesh& mesh, const MeshStart& start, const MeshEnd& goal) noexcept
+    using Index = typename Mesh::Index;
+    using Start = MeshStart<Index>;
+    using Cast = BasicMeshCast<Index>;
+
+    SegmentCast(const Mesh& mesh, const Start& start, const MeshEnd& goal) noexcept
         : mesh_(mesh)
         , start_(start)
         , goal_(goal)
@@ -50,7 +54,7 @@ public:
         along_size_ = sizeOf(along_);
     }
 
-    MeshCast cast() noexcept
+    Cast cast() noexcept
     {
         if (along_ == Vec3{}) {
             return {};
@@ -59,14 +63,14 @@ public:
         const Vec3 from = (start_.base - tree.middle()) + start_.offset;
         const double slack = 4.0 * kOnFace * start_.size_m;
         using Points = std::array<ScenePoint, 3>;
-        const auto look_at = [this](std::uint32_t face, const Points& points, double& t_max) {
+        const auto look_at = [this](Index face, const Points& points, double& t_max) {
             ++result_.faces;
             look(face, points, t_max);
         };
         if constexpr (requires { tree.pointsAlong(from, along_, slack, look_at); }) {
             tree.pointsAlong(from, along_, slack, look_at);
         } else {
-            tree.alongSegment(from, along_, slack, [&](std::uint32_t face, double& t_max) {
+            tree.alongSegment(from, along_, slack, [&](Index face, double& t_max) {
                 look_at(face, mesh_.points(face), t_max);
             });
         }
@@ -99,7 +103,7 @@ private:
         return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
     }
 
-    bool isSkipped(std::uint32_t index) const noexcept
+    bool isSkipped(Index index) const noexcept
     {
         if (index == start_.skipped_faces[0] || index == start_.skipped_faces[1]) {
             return true;
@@ -107,12 +111,12 @@ private:
         if (start_.skipped_vertex == Mesh::kNone) {
             return false;
         }
-        const MeshFace face = mesh_.face(index);
+        const auto face = mesh_.face(index);
         return face[0] == start_.skipped_vertex || face[1] == start_.skipped_vertex ||
                face[2] == start_.skipped_vertex;
     }
 
-    void look(std::uint32_t index, const std::array<ScenePoint, 3>& points, double& t_max) noexcept
+    void look(Index index, const std::array<ScenePoint, 3>& points, double& t_max) noexcept
     {
         if (isSkipped(index)) {
             return;
@@ -183,11 +187,11 @@ private:
         }
         t_max = t;
         rest_ = rest;
-        result_.hit = MeshPlace{index, {w0 / sum, w1 / sum, w2 / sum}};
+        result_.hit = BasicMeshPlace<Index>{index, {w0 / sum, w1 / sum, w2 / sum}};
     }
 
     // Whether the start is on the face, as far as rounding allows; then that is the hit.
-    bool beginsOn(std::uint32_t index,
+    bool beginsOn(Index index,
                   const Vec3& v0,
                   const Vec3& v1,
                   const Vec3& v2,
@@ -218,12 +222,12 @@ private:
             weight /= sum;
         }
         rest_ = 1.0;
-        result_.hit = MeshPlace{index, weights};
+        result_.hit = BasicMeshPlace<Index>{index, weights};
         return true;
     }
 
     const Mesh& mesh_;
-    const MeshStart& start_;
+    const Start& start_;
     const MeshEnd& goal_;
     Vec3 along_;
     int axis_;
@@ -232,30 +236,34 @@ private:
     bool is_forward_;
     double along_size_;
     double rest_ = 1.0;
-    MeshCast result_;
+    Cast result_;
 };
 
 } // namespace mesh_cast
 
 template <typename Mesh>
-int sideOf(const Mesh& mesh, std::uint32_t face, const MeshEnd& end) noexcept
+int sideOf(const Mesh& mesh, typename Mesh::Index face, const MeshEnd& end) noexcept
 {
     const auto points = mesh.points(face);
     return sideOfPlane(points[0], points[1], points[2], end.point, end.rest);
 }
 
 template <typename Mesh>
-MeshCast castSegment(const Mesh& mesh, const MeshStart& start, const MeshEnd& goal) noexcept
+BasicMeshCast<typename Mesh::Index> castSegment(const Mesh& mesh,
+                                                const MeshStart<typename Mesh::Index>& start,
+                                                const MeshEnd& goal) noexcept
 {
     return mesh_cast::SegmentCast<Mesh>(mesh, start, goal).cast();
 }
 
 template <typename Mesh>
-MeshPlace nearestPlace(const Mesh& mesh, const ScenePoint& point) noexcept
+BasicMeshPlace<typename Mesh::Index> nearestPlace(const Mesh& mesh,
+                                                  const ScenePoint& point) noexcept
 {
-    MeshPlace nearest;
+    using Index = typename Mesh::Index;
+    BasicMeshPlace<Index> nearest;
     using Points = std::array<ScenePoint, 3>;
-    const auto look_at = [&](std::uint32_t index, const Points& points, double& limit) {
+    const auto look_at = [&](Index index, const Points& points, double& limit) {
         const Vec3 a = points[0] - point;
         const Vec3 b = points[1] - point;
         const Vec3 c = points[2] - point;
@@ -271,9 +279,8 @@ MeshPlace nearestPlace(const Mesh& mesh, const ScenePoint& point) noexcept
     if constexpr (requires { tree.pointsNearest(point, look_at); }) {
         tree.pointsNearest(point, look_at);
     } else {
-        tree.nearestFirst(point, [&](std::uint32_t index, double& limit) {
-            look_at(index, mesh.points(index), limit);
-        });
+        tree.nearestFirst(
+            point, [&](Index index, double& limit) { look_at(index, mesh.points(index), limit); });
     }
     return nearest;
 }

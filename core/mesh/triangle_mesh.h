@@ -28,7 +28,8 @@ struct TriangleSoup {
 /// face.
 class TriangleMesh {
 public:
-    static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+    using Index = std::uint32_t; // of a vertex, a face or a corner
+    static constexpr Index kNone = std::numeric_limits<Index>::max();
     /// More are refused, so that corner indices fit.
     static constexpr std::size_t kFacesMax = std::size_t{1} << 30U;
     /// Farther coordinates, in meters, are refused.

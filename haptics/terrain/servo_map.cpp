@@ -81,7 +81,7 @@ bool isAgainstWall(const LayeredMesh& mesh, const ScenePoint& proxy, const Vec3&
     constexpr double kReachM = 1e-4; // positions on a planet are known to a nanometer
     const Vec3 around{kReachM, kReachM, kReachM};
     bool is_against = false;
-    mesh.tree().inBox(proxy - around, proxy + around, [&](std::uint32_t face) {
+    mesh.tree().inBox(proxy - around, proxy + around, [&](BodyIndex face) {
         if (is_against || !mesh.isWall(face)) {
             return;
         }

@@ -79,7 +79,7 @@ double steepestCosine(const BodyMesh& mesh,
     const BodyPositions::Foot foot = footOf(positions.ellipsoid(), place);
     const Vec3 to_goal = goal - proxy;
     double steepest = cosine(to_goal, foot.normal);
-    const auto consider = [&](std::uint32_t face) {
+    const auto consider = [&](BodyIndex face) {
         constexpr double kOn = 1e-9; // of the face's size
         const auto points = mesh.points(face);
         const double size =
@@ -115,14 +115,14 @@ double steepestCosine(const BodyMesh& mesh,
         for (std::int64_t c = column - 1; c <= column + 1; ++c) {
             const std::int64_t turned = (c % cell_columns + cell_columns) % cell_columns;
             if (positions.wraps() || turned == c) {
-                const auto face = static_cast<std::uint32_t>(2 * (r * cell_columns + turned));
+                const auto face = static_cast<BodyIndex>(2 * (r * cell_columns + turned));
                 consider(face);
                 consider(face + 1);
             }
         }
     }
     if (row <= 0 || row + 1 >= cell_rows) { // the triangles that close the poles
-        for (auto face = static_cast<std::uint32_t>(2 * cell_columns * cell_rows);
+        for (auto face = static_cast<BodyIndex>(2 * cell_columns * cell_rows);
              face < mesh.faceCount(); ++face) {
             consider(face);
         }

@@ -32,7 +32,7 @@ TEST_P(PairMesh, IsAClosedSurfaceWithoutFaults)
     const auto listed = TriangleMesh::build(soup, monitor);
     ASSERT_TRUE(listed) << listed.error().message;
     // A sphere: V - E + F = 2, and an edge has two faces.
-    std::set<std::uint32_t> vertices;
+    std::set<BodyIndex> vertices;
     for (const MeshFace& face : soup.faces) {
         vertices.insert(face.begin(), face.end());
     }
@@ -46,13 +46,13 @@ TEST_P(NestedMesh, ItsCornersAreNeighborsOfEachOther)
     const auto mesh = LayeredMesh::build(test::meshesOf(GetParam()), monitor);
     ASSERT_TRUE(mesh) << mesh.error().message;
     const LayeredMesh& m = **mesh;
-    std::map<std::uint32_t, std::size_t> corners; // of a vertex
-    for (std::uint32_t face = 0; face < m.faceCount(); ++face) {
+    std::map<BodyIndex, std::size_t> corners; // of a vertex
+    for (BodyIndex face = 0; face < m.faceCount(); ++face) {
         if (m.isGone(face)) {
             continue;
         }
-        for (std::uint32_t corner = 3 * face; corner < 3 * face + 3; ++corner) {
-            const std::uint32_t beyond = m.across(corner);
+        for (BodyIndex corner = 3 * face; corner < 3 * face + 3; ++corner) {
+            const BodyIndex beyond = m.across(corner);
             ASSERT_NE(beyond, LayeredMesh::kNone);
             ASSERT_FALSE(m.isGone(beyond / 3));
             ASSERT_EQ(m.across(beyond), corner);
@@ -67,9 +67,9 @@ TEST_P(NestedMesh, ItsCornersAreNeighborsOfEachOther)
         const LayeredFan fan = m.fan(vertex);
         ASSERT_EQ(fan.size(), count);
         for (std::size_t i = 0; i < fan.size(); ++i) {
-            const std::uint32_t corner = fan.begin()[i];
+            const BodyIndex corner = fan.begin()[i];
             ASSERT_EQ(m.vertexAt(corner), vertex);
-            const std::uint32_t next = fan.begin()[(i + 1) % fan.size()];
+            const BodyIndex next = fan.begin()[(i + 1) % fan.size()];
             ASSERT_EQ(LayeredMesh::nextCorner(m.across(LayeredMesh::nextCorner(corner))), next);
         }
     }

@@ -67,14 +67,20 @@ std::shared_ptr<const BodyMesh> bodyMesh(const BodyMap& map, double exaggeration
     return *mesh;
 }
 
+MeshFace listedFace(const BodyFace& face)
+{
+    return {static_cast<std::uint32_t>(face[0]), static_cast<std::uint32_t>(face[1]),
+            static_cast<std::uint32_t>(face[2])};
+}
+
 std::shared_ptr<const TriangleMesh> listedMesh(const BodyMesh& mesh)
 {
     TriangleSoup soup;
-    for (std::uint32_t v = 0; v < mesh.vertexCount(); ++v) {
+    for (BodyIndex v = 0; v < mesh.vertexCount(); ++v) {
         soup.vertices.push_back(mesh.vertex(v));
     }
-    for (std::uint32_t f = 0; f < mesh.faceCount(); ++f) {
-        soup.faces.push_back(mesh.face(f));
+    for (BodyIndex f = 0; f < mesh.faceCount(); ++f) {
+        soup.faces.push_back(listedFace(mesh.face(f)));
     }
     JobMonitor monitor;
     const auto listed = TriangleMesh::build(std::move(soup), monitor);

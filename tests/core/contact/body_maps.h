@@ -33,6 +33,8 @@ std::vector<BodyMap> bodyMaps();
 Georeference georeferenceOf(const BodyMap& map);
 std::shared_ptr<const FilledHeightfield> fractalMap(const BodyMap& map);
 std::shared_ptr<const BodyMesh> bodyMesh(const BodyMap& map, double exaggeration);
+/// A face of a small mesh.
+MeshFace listedFace(const BodyFace& face);
 /// The same triangles as a list.
 std::shared_ptr<const TriangleMesh> listedMesh(const BodyMesh& mesh);
 

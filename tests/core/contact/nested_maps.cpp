@@ -158,12 +158,12 @@ std::vector<std::shared_ptr<const BodyMesh>> meshesOf(const NestedMaps& maps, do
 TriangleSoup listOf(const LayeredMesh& mesh)
 {
     TriangleSoup soup;
-    for (std::uint32_t i = 0; i < mesh.vertexCount(); ++i) {
+    for (BodyIndex i = 0; i < mesh.vertexCount(); ++i) {
         soup.vertices.push_back(mesh.vertex(i));
     }
-    for (std::uint32_t face = 0; face < mesh.faceCount(); ++face) {
+    for (BodyIndex face = 0; face < mesh.faceCount(); ++face) {
         if (!mesh.isGone(face)) {
-            soup.faces.push_back(mesh.face(face));
+            soup.faces.push_back(listedFace(mesh.face(face)));
         }
     }
     return soup;
@@ -171,7 +171,7 @@ TriangleSoup listOf(const LayeredMesh& mesh)
 
 double cellOf(const BodyMesh& mesh)
 {
-    const auto middle = static_cast<std::uint32_t>(
+    const auto middle = static_cast<BodyIndex>(
         mesh.positions().rows() / 2 * mesh.positions().columns() + mesh.positions().columns() / 2);
     return 0.5 *
            (length(mesh.vertex(middle + 1) - mesh.vertex(middle)) +
@@ -206,8 +206,8 @@ double distanceToRim(const BodyMesh& mesh, const ScenePoint& place)
         const BodyVertical vertical = verticalAt(mesh.ellipsoid(), point);
         return point - vertical.up * vertical.height_m;
     };
-    for (std::uint32_t corner = 0; corner < 3 * mesh.faceCount(); ++corner) {
-        const std::uint32_t beyond = mesh.across(corner);
+    for (BodyIndex corner = 0; corner < 3 * mesh.faceCount(); ++corner) {
+        const BodyIndex beyond = mesh.across(corner);
         if (mesh.isFilled(corner / 3) ||
             (beyond != BodyMesh::kNone && !mesh.isFilled(beyond / 3))) {
             continue;
@@ -226,7 +226,7 @@ std::optional<Below> below(const LayeredMesh& mesh, const ScenePoint& place)
 {
     const Vec3 up = verticalAt(mesh.ellipsoid(), place).up;
     std::optional<Below> highest;
-    for (std::uint32_t face = 0; face < mesh.faceCount(); ++face) {
+    for (BodyIndex face = 0; face < mesh.faceCount(); ++face) {
         if (mesh.isGone(face) || mesh.isWall(face)) {
             continue;
         }
@@ -247,7 +247,7 @@ std::optional<Below> uppermostBelow(const std::vector<std::shared_ptr<const Body
 {
     const Vec3 up = verticalAt(maps.front()->ellipsoid(), place).up;
     for (std::size_t i = 0; i < maps.size(); ++i) {
-        for (std::uint32_t face = 0; face < maps[i]->faceCount(); ++face) {
+        for (BodyIndex face = 0; face < maps[i]->faceCount(); ++face) {
             if (i + 1 < maps.size() && maps[i]->isFilled(face)) {
                 continue;
             }

@@ -317,7 +317,7 @@ double distanceM(const ScenePoint& point, const BodyMesh& mesh)
     constexpr double kAroundM = 10.0;
     const Vec3 around{kAroundM, kAroundM, kAroundM};
     double nearest_m = kAroundM;
-    mesh.tree().inBox(point - around, point + around, [&](std::uint32_t face) {
+    mesh.tree().inBox(point - around, point + around, [&](BodyIndex face) {
         const auto [a, b, c] = mesh.points(face);
         const Vec3 normal = normalized(cross(b - a, c - a));
         const double above_m = dot(point - a, normal);
