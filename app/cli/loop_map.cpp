@@ -14,29 +14,40 @@ Status putOnBody(const MapOptions& map,
                  JobMonitor& monitor,
                  LoopMap& result)
 {
-    if (!result.opened->filled()) {
-        return Error{ErrorCode::TooLarge,
-                     fmt::format("{}: is kept in tiles; only a map in memory can be touched on its "
-                                 "body, raise MARSVIEW_HELD_MB or reduce the map",
-                                 map.path)};
-    }
+    const auto failed = [&map](const Error& error) {
+        return Error{error.code, fmt::format("{}: {}", map.path, error.message)};
+    };
     const Georeference& georeference = result.opened->georeference();
-    auto mesh =
-        BodyMesh::build(result.opened->filled(), georeference, options.exaggeration, monitor);
-    if (!mesh) {
-        return Error{mesh.error().code, fmt::format("{}: {}", map.path, mesh.error().message)};
-    }
     auto grid = BodyGrid::make(georeference, monitor);
     if (!grid) {
-        return Error{grid.error().code, fmt::format("{}: {}", map.path, grid.error().message)};
+        return failed(grid.error());
     }
-    result.mesh = std::move(mesh).value();
     result.grid = std::move(grid).value();
     result.cell_m = 0.5 * (georeference.pixelWidthMeters() + georeference.pixelHeightMeters());
-    result.map =
-        makeServoMap({result.opened, &georeference}, result.mesh,
-                     {.kind = options.kind,
-                      .contact = {.radius_m = options.radius_m.value_or(0.5 * result.cell_m)}});
+    const double radius_m = options.radius_m.value_or(0.5 * result.cell_m);
+    if (result.opened->filled()) {
+        auto mesh =
+            BodyMesh::build(result.opened->filled(), georeference, options.exaggeration, monitor);
+        if (!mesh) {
+            return failed(mesh.error());
+        }
+        result.mesh = std::move(mesh).value();
+        result.map = makeServoMap({result.opened, &georeference}, result.mesh,
+                                  {.kind = options.kind, .contact = {.radius_m = radius_m}});
+        return Done{};
+    }
+    const Heightfield& heightfield = result.opened->heightfield();
+    const auto tiled = TiledBodyMesh::build(
+        result.grid,
+        std::make_shared<const TileHeights>(result.opened->levels(), heightfield.scale()),
+        options.exaggeration, monitor);
+    if (!tiled) {
+        return failed(tiled.error());
+    }
+    result.touch = std::make_unique<TouchMap>(
+        SceneMap{.map = result.opened, .frame = georeference.sceneFrame()}, MapEnds::Meet);
+    result.map = result.touch->make(options.kind, *tiled, radius_m);
+    result.mesh = (*tiled)->over(result.map->terrain->terrain());
     return Done{};
 }
 

@@ -25,7 +25,7 @@ struct LoopMapOptions {
 /// Loads tiles during its lifetime. Until the loop has ended only the servo thread may use the map.
 struct LoopMap {
     std::shared_ptr<const Map> opened;
-    std::unique_ptr<TouchMap> touch;      // null on the body
+    std::unique_ptr<TouchMap> touch;      // null for a map in memory on the body
     std::shared_ptr<const BodyMesh> mesh; // these two: on the body
     std::shared_ptr<const BodyGrid> grid;
     std::shared_ptr<ServoMap> map;
@@ -33,7 +33,6 @@ struct LoopMap {
     double cell_m = 1.0; // scene meters, the mean of both sides
 };
 
-/// A map in tiles is refused on the body.
 Result<LoopMap>
 openLoopMap(const MapOptions& map, const LoopMapOptions& options, JobMonitor& monitor);
 

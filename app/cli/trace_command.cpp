@@ -140,7 +140,7 @@ private:
                 const auto toucher =
                     felt != nullptr ? touchers_.find(felt->changed_part) : touchers_.end();
                 if (toucher != touchers_.end()) {
-                    toucher->second.map_model->terrainChanged();
+                    toucher->second.model->terrainChanged();
                 }
             }
         }

@@ -1,5 +1,6 @@
 #include "app/cli/trace_subject.h"
 
+#include "core/body/tiled_body_mesh.h"
 #include "core/contact/body_goal_frame.h"
 #include "core/contact/body_surface.h"
 #include "core/contact/resident_heights.h"
@@ -51,10 +52,61 @@ TraceFrame bodyFrame(const BodyGoalFrame& frame)
     };
 }
 
-Toucher mapToucher(std::unique_ptr<MapContactModel> model, const GoalFrame& frame)
+// The resources with which a recording's map is opened: in tiles, if it was recorded so.
+MapResources resourcesFor(const GoalRecording& recording)
 {
-    MapContactModel* map_model = model.get();
-    return {.model = std::move(model), .map_model = map_model, .frame = frameOf(frame)};
+    MapResources resources = defaultMapResources();
+    if (!recording.ground.empty()) {
+        resources.held_bytes_max = 0;
+    }
+    return resources;
+}
+
+// The terrain of a map in tiles: that of the recording, if it was made on this map.
+Result<std::shared_ptr<const TiledTerrain>>
+tiledTerrain(const Map& map, const GoalRecording& recording, TraceSubject& subject)
+{
+    const Heightfield& heightfield = map.heightfield();
+    const TiledRaster& raster = heightfield.tiles()->raster();
+    const auto heights = std::make_shared<const TileHeights>(map.levels(), heightfield.scale());
+    if (!subject.is_recorded_on || recording.ground.empty()) {
+        subject.waiting = std::make_shared<const WaitingTerrain>(raster, heights);
+        return std::shared_ptr<const TiledTerrain>(subject.waiting);
+    }
+    auto recorded = RecordedGround::make(raster, heights);
+    if (!recorded) {
+        return std::move(recorded).error();
+    }
+    subject.recorded = std::move(recorded).value();
+    return subject.recorded->terrain();
+}
+
+// The triangles of a map on its body.
+Result<std::shared_ptr<const BodyMesh>> bodyMesh(const Map& map,
+                                                 const GoalRecording& recording,
+                                                 double exaggeration,
+                                                 JobMonitor& monitor,
+                                                 TraceSubject& subject)
+{
+    if (map.filled()) {
+        return BodyMesh::build(map.filled(), map.georeference(), exaggeration, monitor);
+    }
+    auto grid = BodyGrid::make(map.georeference(), monitor);
+    if (!grid) {
+        return std::move(grid).error();
+    }
+    auto terrain = tiledTerrain(map, recording, subject);
+    if (!terrain) {
+        return std::move(terrain).error();
+    }
+    const auto tiled = TiledBodyMesh::build(
+        std::move(grid).value(),
+        std::make_shared<const TileHeights>(map.levels(), map.heightfield().scale()), exaggeration,
+        monitor);
+    if (!tiled) {
+        return tiled.error();
+    }
+    return (*tiled)->over(std::move(terrain).value());
 }
 
 bool isRecordedOn(const GoalRecording& recording, const Georeference& map)
@@ -87,7 +139,6 @@ meshSubject(const MapOptions& options, double exaggeration, JobMonitor& monitor)
     TraceSubject subject;
     subject.make = [surface, exaggeration](const TraceTouch& touch) {
         return Toucher{.model = makeContactModel(touch.kind, surface, {.radius_m = touch.radius_m}),
-                       .map_model = nullptr,
                        .frame = meshFrame(exaggeration)};
     };
     return subject;
@@ -99,32 +150,25 @@ Result<TraceSubject> bodySubject(const MapOptions& options,
                                  JobMonitor& monitor)
 {
     const Result<std::shared_ptr<const Map>> opened =
-        openMap(options.spec(), defaultMapResources(), monitor);
+        openMap(options.spec(), resourcesFor(recording), monitor);
     if (!opened) {
         return opened.error();
     }
     const std::shared_ptr<const Map>& map = *opened;
-    if (!map->filled()) {
-        return Error{ErrorCode::TooLarge,
-                     fmt::format("{}: is kept in tiles; only a map in memory can be traced on its "
-                                 "body, raise MARSVIEW_HELD_MB or reduce the map",
-                                 options.path)};
-    }
     const Georeference& georeference = map->georeference();
-    const auto mesh = BodyMesh::build(map->filled(), georeference, exaggeration, monitor);
+    TraceSubject subject;
+    subject.is_recorded_on = isRecordedOn(recording, georeference);
+    const auto mesh = bodyMesh(*map, recording, exaggeration, monitor, subject);
     if (!mesh) {
         return Error{mesh.error().code, fmt::format("{}: {}", options.path, mesh.error().message)};
     }
     const BodyGoalFrame frame =
         bodyGoalFrame(georeference, (*mesh)->positions().ellipsoid(), exaggeration);
-    TraceSubject subject;
     subject.map = map;
     subject.is_on_body = true;
-    subject.is_recorded_on = isRecordedOn(recording, georeference);
     subject.radius_m = (georeference.pixelWidthMeters() + georeference.pixelHeightMeters()) / 4.0;
     subject.make = [surface = BodySurface(*mesh), frame](const TraceTouch& touch) {
         return Toucher{.model = makeContactModel(touch.kind, surface, {.radius_m = touch.radius_m}),
-                       .map_model = nullptr,
                        .frame = bodyFrame(frame)};
     };
     return subject;
@@ -133,11 +177,8 @@ Result<TraceSubject> bodySubject(const MapOptions& options,
 Result<TraceSubject>
 mapSubject(const MapOptions& options, const GoalRecording& recording, JobMonitor& monitor)
 {
-    MapResources resources = defaultMapResources();
-    if (!recording.ground.empty()) {
-        resources.held_bytes_max = 0; // in tiles, as it was recorded
-    }
-    Result<std::shared_ptr<const Map>> opened = openMap(options.spec(), resources, monitor);
+    Result<std::shared_ptr<const Map>> opened =
+        openMap(options.spec(), resourcesFor(recording), monitor);
     if (!opened) {
         return std::move(opened).error();
     }
@@ -156,31 +197,21 @@ mapSubject(const MapOptions& options, const GoalRecording& recording, JobMonitor
         subject.make = [goal_frame, filled = map->filled()](const TraceTouch& touch) {
             const GoalFrame frame = goal_frame(touch);
             const HeightfieldSurface surface(filled, frame.frame(), touch.exaggeration);
-            return mapToucher(makeContactModel(touch.kind, surface, {.radius_m = touch.radius_m}),
-                              frame);
+            return Toucher{.model =
+                               makeContactModel(touch.kind, surface, {.radius_m = touch.radius_m}),
+                           .frame = frameOf(frame)};
         };
         return subject;
     }
-    const Heightfield& heightfield = map->heightfield();
-    const TiledRaster& raster = heightfield.tiles()->raster();
-    const auto heights = std::make_shared<const TileHeights>(map->levels(), heightfield.scale());
-    std::shared_ptr<const TiledTerrain> terrain;
-    if (subject.is_recorded_on && !recording.ground.empty()) {
-        auto recorded = RecordedGround::make(raster, heights);
-        if (!recorded) {
-            return std::move(recorded).error();
-        }
-        subject.recorded = std::move(recorded).value();
-        terrain = subject.recorded->terrain();
-    } else {
-        subject.waiting = std::make_shared<const WaitingTerrain>(raster, heights);
-        terrain = subject.waiting;
+    auto tiled = tiledTerrain(*map, recording, subject);
+    if (!tiled) {
+        return std::move(tiled).error();
     }
-    subject.make = [goal_frame, terrain](const TraceTouch& touch) {
+    subject.make = [goal_frame, terrain = std::move(tiled).value()](const TraceTouch& touch) {
         const GoalFrame frame = goal_frame(touch);
         const TiledHeightfieldSurface surface(terrain, frame.frame(), touch.exaggeration);
-        return mapToucher(makeContactModel(touch.kind, surface, {.radius_m = touch.radius_m}),
-                          frame);
+        return Toucher{.model = makeContactModel(touch.kind, surface, {.radius_m = touch.radius_m}),
+                       .frame = frameOf(frame)};
     };
     return subject;
 }

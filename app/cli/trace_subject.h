@@ -33,7 +33,6 @@ struct TraceTouch {
 
 struct Toucher {
     std::unique_ptr<ContactModel> model;
-    MapContactModel* map_model = nullptr; // the same model, if over a map
     TraceFrame frame;
 };
 
@@ -55,7 +54,8 @@ Result<TraceSubject>
 meshSubject(const MapOptions& options, double exaggeration, JobMonitor& monitor);
 
 /// The map on its body; the errors of BodyMesh are added to those of opening. `exaggeration`
-/// applies to all models over the subject.
+/// applies to all models over the subject. A tiled map has the tiles of the recording, if that was
+/// made on such a map.
 Result<TraceSubject> bodySubject(const MapOptions& options,
                                  const GoalRecording& recording,
                                  double exaggeration,

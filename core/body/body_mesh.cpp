@@ -11,32 +11,21 @@
 
 namespace marsview {
 
-BodyMesh::BodyMesh(std::shared_ptr<const FilledHeightfield> heights,
-                   BodyPositions positions,
+BodyMesh::BodyMesh(std::shared_ptr<const BodyPositions> positions,
+                   const ElevationScale& scale,
                    double exaggeration)
-    : heights_(std::move(heights))
-    , positions_(std::move(positions))
+    : positions_(std::move(positions))
     , exaggeration_(exaggeration)
-    , scale_(heights_->heightfield().scale())
-    , columns_(static_cast<std::uint32_t>(positions_.columns()))
-    , rows_(static_cast<std::uint32_t>(positions_.rows()))
-    , cell_columns_(positions_.wraps() ? columns_ : columns_ - 1)
-    , is_mirrored_(positions_.isMirrored())
+    , scale_(scale)
+    , columns_(static_cast<std::uint32_t>(positions_->columns()))
+    , rows_(static_cast<std::uint32_t>(positions_->rows()))
+    , cell_columns_(positions_->wraps() ? columns_ : columns_ - 1)
+    , is_mirrored_(positions_->isMirrored())
     , face_count_(std::size_t{2} * cell_columns_ * (rows_ - 1))
     , blocks_per_row_((cell_columns_ + kBlockCells - 1) / kBlockCells)
-    , cell_blocks_(blocks_per_row_ * ((rows_ - 1 + kBlockCells - 1) / kBlockCells))
+    , cell_leaves_(blocks_per_row_ * ((rows_ - 1 + kBlockCells - 1) / kBlockCells))
 {
-    const SampleGrid& samples = heights_->heightfield().samples();
-    if (!samples.hasVoids()) {
-        samples.visit([this](auto view) {
-            if constexpr (std::is_same_v<decltype(view), GridView<const std::int16_t>>) {
-                int16_ = view.data();
-            } else if constexpr (std::is_same_v<decltype(view), GridView<const float>>) {
-                float_ = view.data();
-            }
-        });
-    }
-    const std::array<bool, 2> closes{positions_.closesAtFirstRow(), positions_.closesAtLastRow()};
+    const std::array<bool, 2> closes{positions_->closesAtFirstRow(), positions_->closesAtLastRow()};
     for (std::size_t i = 0; i < caps_.size(); ++i) {
         if (closes[i]) {
             caps_[i] = {.first_face = face_count_,
@@ -62,7 +51,20 @@ BodyMesh::build(std::shared_ptr<const FilledHeightfield> heights,
         return std::move(positions).error();
     }
     std::shared_ptr<BodyMesh> mesh(
-        new BodyMesh(std::move(heights), std::move(positions).value(), exaggeration));
+        new BodyMesh(std::make_shared<const BodyPositions>(std::move(positions).value()),
+                     heights->heightfield().scale(), exaggeration));
+    mesh->heights_ = std::move(heights);
+    const SampleGrid& samples = mesh->heights_->heightfield().samples();
+    mesh->raster_columns_ = samples.columns();
+    if (!samples.hasVoids()) {
+        samples.visit([&mesh](auto view) {
+            if constexpr (std::is_same_v<decltype(view), GridView<const std::int16_t>>) {
+                mesh->int16_ = view.data();
+            } else if constexpr (std::is_same_v<decltype(view), GridView<const float>>) {
+                mesh->float_ = view.data();
+            }
+        });
+    }
     if (Status built = mesh->buildTree(monitor); !built) {
         return std::move(built).error();
     }
@@ -83,7 +85,7 @@ BodyIndex BodyMesh::across(BodyIndex corner) const noexcept
     case kFirst:
         if (is_upper) { // the side at the next column
             return column + 1 < cell_columns_ ? cellCorner(column + 1, row, false, kFar)
-                   : positions_.wraps()       ? cellCorner(0, row, false, kFar)
+                   : positions_->wraps()      ? cellCorner(0, row, false, kFar)
                                               : kNone;
         }
         return row + 1 < rows_ - 1 ? cellCorner(column, row + 1, true, kFar)
@@ -97,9 +99,9 @@ BodyIndex BodyMesh::across(BodyIndex corner) const noexcept
                : caps_[0].exists ? capCornerAtEdge(caps_[0], column)
                                  : kNone;
     }
-    return column > 0           ? cellCorner(column - 1, row, true, kFirst)
-           : positions_.wraps() ? cellCorner(cell_columns_ - 1, row, true, kFirst)
-                                : kNone;
+    return column > 0            ? cellCorner(column - 1, row, true, kFirst)
+           : positions_->wraps() ? cellCorner(cell_columns_ - 1, row, true, kFirst)
+                                 : kNone;
 }
 
 // Even triangles have an edge of the row at the low end, odd ones at the high end. Corner 0 is at
@@ -276,17 +278,36 @@ BodyMesh::ring(BodyIndex vertex, const ScenePoint& point, const FanCorners& corn
 
 ScenePoint BodyMesh::highAbove(const ScenePoint& point) const noexcept
 {
-    const auto [up, height_m] = verticalAt(positions_.ellipsoid(), point);
+    const auto [up, height_m] = verticalAt(positions_->ellipsoid(), point);
     // Above the highest sample by more than the rounding of coordinates.
     const double rise_m = highest_m_ - height_m + 1e-3 * std::abs(highest_m_) + 1.0;
     return point + up * std::max(rise_m, 1.0);
+}
+
+// To the bit as of a map in memory, if the sample's tile is in memory.
+double BodyMesh::tiledHeight(std::size_t column, std::size_t raster_row) const noexcept
+{
+    const auto c = static_cast<std::int32_t>(column);
+    const auto r = static_cast<std::int32_t>(raster_row);
+    double height_m = 0.0;
+    if (const std::int16_t* raw =
+            tile_type_ == SampleType::Int16 ? terrain_->plainSample<std::int16_t>(c, r) : nullptr) {
+        height_m = scale_.height(static_cast<double>(*raw));
+    } else if (const float* value = tile_type_ == SampleType::Float32
+                                        ? terrain_->plainSample<float>(c, r)
+                                        : nullptr) {
+        height_m = scale_.height(static_cast<double>(*value));
+    } else {
+        height_m = terrain_->sample(column, raster_row);
+    }
+    return std::clamp(exaggeration_ * height_m, nodes_->lowest(), nodes_->highest());
 }
 
 Status BodyMesh::buildTree(JobMonitor& monitor)
 {
     const auto cap_faces = static_cast<std::uint32_t>(face_count_ - firstCapFace());
     const std::uint32_t cap_blocks = (cap_faces + kCapFaces - 1) / kCapFaces;
-    std::vector<TriangleTree::Bounds> bounds(cell_blocks_ + cap_blocks);
+    std::vector<TriangleTree::Bounds> bounds(cell_leaves_ + cap_blocks);
     for (std::uint32_t block_row = 0; block_row * kBlockCells < rows_ - 1; ++block_row) {
         monitor.report(static_cast<double>(block_row) * kBlockCells / static_cast<double>(rows_));
         if (monitor.isCanceled()) {
@@ -305,20 +326,15 @@ Status BodyMesh::buildTree(JobMonitor& monitor)
             }
         }
     }
-    for (std::uint32_t block = cell_blocks_; block < bounds.size(); ++block) {
-        eachFace(block, [&](BodyIndex face) {
+    for (std::uint32_t block = cell_leaves_; block < bounds.size(); ++block) {
+        eachCapFace(block, [&](BodyIndex face) {
             for (const ScenePoint& point : points(face)) {
                 bounds[block].add(point);
             }
         });
     }
-    for (std::uint32_t row = 0; row < rows_; ++row) {
-        for (std::uint32_t column = 0; column < columns_; ++column) {
-            const double height_m = heightAt(column, row);
-            highest_m_ = row == 0 && column == 0 ? height_m : std::max(highest_m_, height_m);
-        }
-    }
-    tree_ = TriangleTree(bounds);
+    highest_m_ = exaggeration_ * heights_->maximum(heights_->levelCount() - 1, 0, 0);
+    tree_ = std::make_shared<const TriangleTree>(bounds);
     return Done{};
 }
 

@@ -4,6 +4,8 @@
 #include "core/base/job_monitor.h"
 #include "core/base/result.h"
 #include "core/body/body_positions.h"
+#include "core/body/tiled_body_nodes.h"
+#include "core/levels/tiled_terrain.h"
 #include "core/mesh/triangle_tree.h"
 #include "core/terrain/filled_heightfield.h"
 
@@ -63,8 +65,10 @@ struct VertexRing {
 ///
 /// Faces 2i and 2i + 1 are the lower and the upper one of cell i, those of the poles come last.
 /// Vertex i is sample (i mod columns, i div columns) of the positions. A *corner* is
-/// 3 × face + 0, 1 or 2, as in TriangleMesh. Immutable, any thread, allocates nothing after
-/// construction. 60 bytes per 64 cells in addition to the samples.
+/// 3 × face + 0, 1 or 2, as in TriangleMesh. Allocates nothing after construction. Of a map in
+/// memory it is immutable, for any thread, and takes 60 bytes per 64 cells in addition to the
+/// samples. Of a map in tiles (TiledBodyMesh) it is as constant as its terrain, and for the thread
+/// that has that.
 class BodyMesh {
 public:
     using Index = BodyIndex;
@@ -82,8 +86,8 @@ public:
 
     std::size_t vertexCount() const noexcept { return std::size_t{columns_} * rows_; }
     std::size_t faceCount() const noexcept { return face_count_; }
-    const BodyPositions& positions() const noexcept { return positions_; }
-    const Ellipsoid& ellipsoid() const noexcept { return positions_.ellipsoid(); }
+    const BodyPositions& positions() const noexcept { return *positions_; }
+    const Ellipsoid& ellipsoid() const noexcept { return positions_->ellipsoid(); }
     double exaggeration() const noexcept { return exaggeration_; }
 
     ScenePoint vertex(BodyIndex index) const noexcept { return pointOf(sampleOf(index)); }
@@ -187,13 +191,19 @@ public:
                                                : kFirst);
     }
 
-    bool hasVoids() const noexcept { return heights_->heightfield().samples().hasVoids(); }
+    bool hasVoids() const noexcept
+    {
+        return heights_ ? heights_->heightfield().samples().hasVoids()
+                        : nodes_->heights().layout().has_voids;
+    }
     /// Whether a sample of the face is void.
     bool isFilled(BodyIndex face) const noexcept
     {
         const std::array<BodySample, 3> at = samplesOf(face);
         return std::any_of(at.begin(), at.end(), [this](const BodySample& sample) {
-            return heights_->isVoid(sample.column, sample.row + positions_.firstRow());
+            const std::size_t row = sample.row + positions_->firstRow();
+            return heights_ ? heights_->isVoid(sample.column, row)
+                            : terrain_->isVoid(sample.column, row);
         });
     }
 
@@ -214,34 +224,36 @@ public:
     /// nearestFirst(), pointsAlong() and pointsNearest() call visit(face, points, t_max or limit).
     class Tree {
     public:
-        const ScenePoint& middle() const noexcept { return mesh_.tree_.middle(); }
+        const ScenePoint& middle() const noexcept { return mesh_.tree_->middle(); }
         template <typename F>
         void
         pointsAlong(const Vec3& from, const Vec3& along, double slack, F&& visit) const noexcept
         {
-            const Beam beam(mesh_.tree_, from, along, slack);
-            mesh_.tree_.alongSegment(from, along, slack, [&](std::uint32_t block, double& t_max) {
-                mesh_.eachFaceOfCells(block, beam,
-                                      [&](BodyIndex face, const std::array<ScenePoint, 3>& at) {
-                                          visit(face, at, t_max);
-                                      });
+            const Beam beam(*mesh_.tree_, from, along, slack);
+            mesh_.tree_->alongSegment(from, along, slack, [&](std::uint32_t leaf, double& t_max) {
+                mesh_.eachFaceIn(leaf, beam.until(t_max), beam,
+                                 [&](BodyIndex face, const std::array<ScenePoint, 3>& at) {
+                                     visit(face, at, t_max);
+                                 });
             });
         }
         template <typename F>
         void pointsNearest(const ScenePoint& point, F&& visit) const noexcept
         {
-            mesh_.tree_.nearestFirst(point, [&](std::uint32_t block, double& limit) {
-                mesh_.eachFaceOfCells(block, Near(point, limit),
-                                      [&](BodyIndex face, const std::array<ScenePoint, 3>& at) {
-                                          visit(face, at, limit);
-                                      });
+            mesh_.tree_->nearestFirst(point, [&](std::uint32_t leaf, double& limit) {
+                const Near near(point, limit);
+                mesh_.eachFaceIn(leaf, near, near,
+                                 [&](BodyIndex face, const std::array<ScenePoint, 3>& at) {
+                                     visit(face, at, limit);
+                                 });
             });
         }
         template <typename F>
         void inBox(const ScenePoint& low, const ScenePoint& high, F&& visit) const noexcept
         {
-            mesh_.tree_.inBox(low, high,
-                              [&](std::uint32_t block) { mesh_.eachFace(block, visit); });
+            const Box box{low, high};
+            mesh_.tree_->inBox(low, high,
+                               [&](std::uint32_t leaf) { mesh_.eachFace(leaf, box, visit); });
         }
 
     private:
@@ -254,31 +266,37 @@ public:
     Tree tree() const noexcept { return Tree(*this); }
 
 private:
-    static constexpr std::uint32_t kBlockCells = 4; // per side
+    friend class TiledBodyMesh;
+
+    using Cells = TiledBodyNodes::Cells;
+    static constexpr std::uint32_t kBlockCells = TiledBodyNodes::kBlockCells; // per side
     // What a corner of a cell's face is, whatever its number: the sample of the cell, the one a row
     // and a column further, and the third.
     enum Role : std::uint8_t { kFirst, kFar, kThird };
 
-    BodyMesh(std::shared_ptr<const FilledHeightfield> heights,
-             BodyPositions positions,
+    BodyMesh(std::shared_ptr<const BodyPositions> positions,
+             const ElevationScale& scale,
              double exaggeration);
 
     ScenePoint sampleAt(std::uint32_t column, std::uint32_t row) const noexcept
     {
-        return positions_.at(column, row, heightAt(column, row));
+        return positions_->at(column, row, heightAt(column, row));
     }
     // In scene meters. Samples without voids are read by their type.
     double heightAt(std::uint32_t column, std::uint32_t row) const noexcept
     {
-        const std::size_t raster_row = row + positions_.firstRow();
-        const std::size_t index = raster_row * heights_->columns() + column;
+        const std::size_t raster_row = row + positions_->firstRow();
+        const std::size_t index = raster_row * raster_columns_ + column;
         if (int16_ != nullptr) {
             return exaggeration_ * scale_.height(static_cast<double>(int16_[index]));
         }
-        return exaggeration_ * (float_ != nullptr
-                                    ? scale_.height(static_cast<double>(float_[index]))
-                                    : heights_->sample(column, raster_row));
+        if (float_ != nullptr) {
+            return exaggeration_ * scale_.height(static_cast<double>(float_[index]));
+        }
+        return heights_ ? exaggeration_ * heights_->sample(column, raster_row)
+                        : tiledHeight(column, raster_row);
     }
+    double tiledHeight(std::size_t column, std::size_t raster_row) const noexcept;
     bool isInside(std::uint32_t column, std::uint32_t row) const noexcept
     {
         return row > 0 && row + 1 < rows_ && column > 0 && column + 1 < columns_;
@@ -347,30 +365,46 @@ private:
     BodyIndex acrossInCap(const Cap& cap, BodyIndex corner) const noexcept;
     BodyIndex capCornerAtEdge(const Cap& cap, std::uint32_t column) const noexcept;
 
-    template <typename F>
-    void eachFace(std::uint32_t block, F&& visit) const noexcept
+    // The blocks of cells in a leaf of the tree, which has no triangles of a pole: one of a map in
+    // memory, those that `nodes` may meet of a map in tiles.
+    template <typename Nodes, typename F>
+    void eachBlock(std::uint32_t leaf, const Nodes& nodes, F&& visit) const noexcept
     {
-        if (block >= cell_blocks_) {
-            const BodyIndex begin = firstCapFace() + BodyIndex{block - cell_blocks_} * kCapFaces;
-            const BodyIndex end = std::min<BodyIndex>(begin + kCapFaces, face_count_);
-            for (BodyIndex face = begin; face < end; ++face) {
-                visit(face);
-            }
+        if (nodes_) {
+            nodes_->eachBlock(leaf, nodes, visit);
             return;
         }
-        const std::uint32_t column = block % blocks_per_row_ * kBlockCells;
-        const std::uint32_t row = block / blocks_per_row_ * kBlockCells;
-        const std::uint32_t column_end = std::min(column + kBlockCells, cell_columns_);
-        const std::uint32_t row_end = std::min(row + kBlockCells, rows_ - 1);
-        for (std::uint32_t r = row; r < row_end; ++r) {
-            const BodyIndex begin = 2 * (BodyIndex{r} * cell_columns_ + column);
-            const BodyIndex end = 2 * (BodyIndex{r} * cell_columns_ + column_end);
-            for (BodyIndex face = begin; face < end; ++face) {
-                visit(face);
-            }
+        const std::uint32_t column = leaf % blocks_per_row_ * kBlockCells;
+        const std::uint32_t row = leaf / blocks_per_row_ * kBlockCells;
+        visit(Cells{column, row, std::min(kBlockCells, cell_columns_ - column),
+                    std::min(kBlockCells, rows_ - 1 - row)});
+    }
+    template <typename F>
+    void eachCapFace(std::uint32_t leaf, F&& visit) const noexcept
+    {
+        const BodyIndex begin = firstCapFace() + BodyIndex{leaf - cell_leaves_} * kCapFaces;
+        const BodyIndex end = std::min<BodyIndex>(begin + kCapFaces, face_count_);
+        for (BodyIndex face = begin; face < end; ++face) {
+            visit(face);
         }
     }
-    static constexpr std::uint32_t kCapFaces = 8; // of a block
+    template <typename Nodes, typename F>
+    void eachFace(std::uint32_t leaf, const Nodes& nodes, F&& visit) const noexcept
+    {
+        if (leaf >= cell_leaves_) {
+            eachCapFace(leaf, visit);
+            return;
+        }
+        eachBlock(leaf, nodes, [&](const Cells& cells) {
+            for (std::uint32_t r = cells.row; r < cells.row + cells.rows; ++r) {
+                const BodyIndex begin = 2 * (BodyIndex{r} * cell_columns_ + cells.column);
+                for (BodyIndex face = begin; face < begin + BodyIndex{2} * cells.columns; ++face) {
+                    visit(face);
+                }
+            }
+        });
+    }
+    static constexpr std::uint32_t kCapFaces = 8; // of a leaf
 
     /// A straight line, as points are seen along it: sheared along its longest axis, it is the
     /// origin.
@@ -384,6 +418,7 @@ private:
             const double z = std::abs(along.z);
             axis_ = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
             const Vec3 turned = turn(along);
+            length_m_ = turned.z;
             across_ = turned.x / turned.z;
             down_ = turned.y / turned.z;
             // Far more than the rounding of points, and far less than a cell.
@@ -405,6 +440,29 @@ private:
             return contains(range(0)) && contains(range(1));
         }
 
+        /// Its part from the start to a share of its length, for nodes.
+        struct Part {
+            const Beam& beam;
+            const double& share;
+
+            bool mayMeetBox(const TiledBodyNodes::Corners& corners, double beyond_m) const noexcept
+            {
+                TriangleTree::Bounds seen;
+                for (const ScenePoint& corner : corners) {
+                    const Vec3 p = beam.turn(corner - beam.start_);
+                    seen.add({p.x - beam.across_ * p.z, p.y - beam.down_ * p.z, p.z});
+                }
+                const double along_m = beam.margin_m_ + beyond_m;
+                const double beside_m = along_m + beyond_m; // the shear is at most one to one
+                const double end_m = share * beam.length_m_;
+                return seen.low.x <= beside_m && seen.high.x >= -beside_m &&
+                       seen.low.y <= beside_m && seen.high.y >= -beside_m &&
+                       seen.low.z <= std::max(end_m, 0.0) + along_m &&
+                       seen.high.z >= std::min(end_m, 0.0) - along_m;
+            }
+        };
+        Part until(const double& share) const noexcept { return {*this, share}; }
+
     private:
         Vec3 turn(const Vec3& v) const noexcept
         {
@@ -413,6 +471,7 @@ private:
 
         ScenePoint start_;
         int axis_;
+        double length_m_; // along the axis
         double across_;
         double down_;
         double margin_m_;
@@ -443,26 +502,64 @@ private:
             constexpr double kRounding = 1e-12; // more than that of distances
             return (1.0 - kRounding) * least <= limit_;
         }
+        bool mayMeetBox(const TiledBodyNodes::Corners& corners, double beyond_m) const noexcept
+        {
+            std::array<std::pair<double, double>, 3> ranges;
+            ranges.fill({std::numeric_limits<double>::infinity(),
+                         -std::numeric_limits<double>::infinity()});
+            for (const ScenePoint& corner : corners) {
+                const Seen to = seen(corner);
+                for (std::size_t i = 0; i < ranges.size(); ++i) {
+                    ranges[i] = {std::min(ranges[i].first, to[i] - beyond_m),
+                                 std::max(ranges[i].second, to[i] + beyond_m)};
+                }
+            }
+            return mayMeet([&](std::size_t i) { return ranges[i]; });
+        }
 
     private:
         const ScenePoint& point_;
         const double& limit_;
     };
 
+    struct Box {
+        ScenePoint low;
+        ScenePoint high;
+
+        bool mayMeetBox(const TiledBodyNodes::Corners& corners, double beyond_m) const noexcept
+        {
+            TriangleTree::Bounds bounds;
+            for (const ScenePoint& corner : corners) {
+                bounds.add(corner);
+            }
+            const Vec3 around{beyond_m, beyond_m, beyond_m};
+            const ScenePoint from = bounds.low - around;
+            const ScenePoint to = bounds.high + around;
+            return from.x <= high.x && to.x >= low.x && from.y <= high.y && to.y >= low.y &&
+                   from.z <= high.z && to.z >= low.z;
+        }
+    };
+
+    // The faces of a leaf that may be met.
+    template <typename Nodes, typename Filter, typename F>
+    void eachFaceIn(std::uint32_t leaf,
+                    const Nodes& nodes,
+                    const Filter& filter,
+                    F&& visit) const noexcept
+    {
+        if (leaf >= cell_leaves_) {
+            eachCapFace(leaf, [&](BodyIndex face) { visit(face, points(face)); });
+            return;
+        }
+        eachBlock(leaf, nodes, [&](const Cells& cells) { eachFaceOfCells(cells, filter, visit); });
+    }
     // The faces of those cells of a block that `filter` wants from what it sees of their corners.
     // Each point is computed and seen once.
     template <typename Filter, typename F>
-    void eachFaceOfCells(std::uint32_t block, const Filter& filter, F&& visit) const noexcept
+    void eachFaceOfCells(const Cells& cells, const Filter& filter, F&& visit) const noexcept
     {
-        if (block >= cell_blocks_) {
-            eachFace(block, [&](BodyIndex face) { visit(face, points(face)); });
-            return;
-        }
         constexpr std::uint32_t kSide = kBlockCells + 1;
-        const std::uint32_t column = block % blocks_per_row_ * kBlockCells;
-        const std::uint32_t row = block / blocks_per_row_ * kBlockCells;
-        const std::uint32_t columns = std::min(kBlockCells, cell_columns_ - column);
-        const std::uint32_t rows = std::min(kBlockCells, rows_ - 1 - row);
+        const auto [column, row, columns, rows] = cells;
         std::array<ScenePoint, kSide * kSide> at;
         std::array<typename Filter::Seen, kSide * kSide> seen;
         for (std::uint32_t r = 0; r <= rows; ++r) {
@@ -497,12 +594,16 @@ private:
 
     Status buildTree(JobMonitor& monitor);
 
-    std::shared_ptr<const FilledHeightfield> heights_;
-    BodyPositions positions_;
+    std::shared_ptr<const FilledHeightfield> heights_; // of a map in memory
+    std::shared_ptr<const TiledBodyNodes> nodes_;      // these two: of a map in tiles
+    std::shared_ptr<const TiledTerrain> terrain_;
+    SampleType tile_type_ = SampleType::Int16;
+    std::shared_ptr<const BodyPositions> positions_;
     double exaggeration_;
     ElevationScale scale_;
     const std::int16_t* int16_ = nullptr; // the samples, if they have this type and no voids
     const float* float_ = nullptr;
+    std::size_t raster_columns_ = 0; // of these
     std::uint32_t columns_;
     std::uint32_t rows_;
     std::uint32_t cell_columns_;
@@ -510,9 +611,9 @@ private:
     std::array<Cap, 2> caps_; // at the first and the last row
     std::size_t face_count_;
     std::uint32_t blocks_per_row_;
-    std::uint32_t cell_blocks_;
-    double highest_m_ = 0.0; // exaggerated
-    TriangleTree tree_;
+    std::uint32_t cell_leaves_; // of the tree; those of the poles come last
+    double highest_m_ = 0.0;    // exaggerated
+    std::shared_ptr<const TriangleTree> tree_;
 };
 
 } // namespace marsview

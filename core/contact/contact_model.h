@@ -70,21 +70,20 @@ public:
     virtual ContactState rehearse(const ScenePoint& goal) const noexcept = 0;
     /// Where the proxy is, with the counters of the last update.
     virtual ContactState state() const noexcept = 0;
+    /// Heights of the terrain have changed (TiledTerrain). In contact, the proxy stays where it is
+    /// on the map and moves with it; a free proxy keeps its position, or is put onto the surface if
+    /// it would be below.
+    virtual void terrainChanged() noexcept = 0;
 
 protected:
     ContactModel() = default;
 };
 
-/// A contact model over a map.
+/// A contact model over a map in the plane.
 class MapContactModel : public ContactModel {
 public:
-    /// The same terrain at another exaggeration. In contact, the proxy stays where it is on the map
-    /// and moves with it; a free proxy keeps its position, or is put onto the surface if it would
-    /// be below.
+    /// The same terrain at another exaggeration. The proxy is moved as in terrainChanged().
     virtual void setExaggeration(double exaggeration) noexcept = 0;
-    /// Heights of the terrain have changed (ResidentTerrain). The proxy is moved as in
-    /// setExaggeration().
-    virtual void terrainChanged() noexcept = 0;
 };
 
 /// These allocate; the model shares what the surface shares. No height is read: another thread may

@@ -23,6 +23,7 @@ public:
         return M(model_).update(goal);
     }
     ContactState state() const noexcept override { return model_.state(); }
+    void terrainChanged() noexcept override { model_.setSurface(model_.surface()); }
 
 protected:
     M model_;
@@ -38,7 +39,6 @@ public:
         auto surface = this->model_.surface();
         this->model_.setSurface({surface.terrain(), surface.frame(), exaggeration});
     }
-    void terrainChanged() noexcept override { this->model_.setSurface(this->model_.surface()); }
 };
 
 template <typename Interface, typename M>

@@ -105,7 +105,7 @@ extern template class BasicHeightfieldSurface<ResidentHeights<void>>;
 extern template class BasicHeightfieldSurface<ResidentHeights<std::int16_t>>;
 extern template class BasicHeightfieldSurface<ResidentHeights<float>>;
 
-/// A map in tiles. The surface is as constant as its terrain: see MapContactModel::terrainChanged.
+/// A map in tiles. The surface is as constant as its terrain: see ContactModel::terrainChanged.
 using TiledHeightfieldSurface = BasicHeightfieldSurface<ResidentHeights<void>>;
 /// The same, faster, if ResidentHeights<T>::canRead(terrain).
 template <typename T>

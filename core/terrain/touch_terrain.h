@@ -11,7 +11,7 @@ namespace marsview {
 /// it, so that a cast may skip a node that is below it. Read by the servo thread: nothing here
 /// allocates, locks, waits or throws, except in terrain for batch work.
 ///
-/// Terrain may change between two updates of a contact model (MapContactModel::terrainChanged),
+/// Terrain may change between two updates of a contact model (ContactModel::terrainChanged),
 /// never during one.
 // clang-format off: version 14 puts every token of a compound requirement on its own line.
 template <typename T>

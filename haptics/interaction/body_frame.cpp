@@ -34,8 +34,7 @@ SceneBox boundsOf(const BodyMesh& mesh, const Vec3& foot, const Rotation& axes)
     const Rotation to_site = axes.inverse();
     for (std::size_t r = 0; r < steps(rows); ++r) {
         for (std::size_t c = 0; c < steps(columns); ++c) {
-            const ScenePoint point =
-                mesh.vertex(static_cast<std::uint32_t>(at(r, rows) * columns + at(c, columns)));
+            const ScenePoint point = mesh.vertex(BodyIndex{at(r, rows)} * columns + at(c, columns));
             if (dot(point, axes.z) < 0.0) {
                 continue;
             }

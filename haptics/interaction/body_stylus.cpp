@@ -8,6 +8,7 @@ namespace marsview {
 void BodyStylus::setGround(std::vector<Surface> surfaces, SurfaceAt surface_at)
 {
     lift();
+    touch_.reset();
     surfaces_ = std::move(surfaces);
     surface_at_ = std::move(surface_at);
 }
@@ -20,8 +21,7 @@ void BodyStylus::setModel(ContactModelKind kind)
     // Slightly away from the proxy toward the goal, the proxy is the nearest point of the surface.
     constexpr double kHair = 1e-6;
     const auto [proxy, goal] = std::pair(pose_->proxy, pose_->goal);
-    model_.reset();
-    model_ = makeModel();
+    makeModel();
     model_->place(proxy + (goal - proxy) * kHair);
     model_->update(goal);
     keepOnItsSurface(goal);
@@ -38,7 +38,8 @@ void BodyStylus::aim(const BodyAim& at, const StylusButtons& buttons, double poi
     }
     const bool is_pressing = mode == StylusMode::Press;
     if (at.index != at_.index) {
-        model_.reset(); // no wall between two maps holds a pointer, which feels none
+        releaseModel(); // no wall between two maps holds a pointer, which feels none
+        touch_.reset();
     }
     at_ = at;
     point_m_ = point_m;
@@ -47,15 +48,46 @@ void BodyStylus::aim(const BodyAim& at, const StylusButtons& buttons, double poi
     if (is_pressing) {
         press(goal);
     } else {
-        model_.reset(); // a hovering stylus has no height of its own, so ridges cannot obstruct it
+        releaseModel(); // a hovering stylus has no height of its own, so ridges cannot obstruct it
     }
     updatePose(mode, goal);
 }
 
 void BodyStylus::lift()
 {
-    model_.reset();
+    releaseModel();
     pose_.reset();
+}
+
+void BodyStylus::releaseModel()
+{
+    model_.reset();
+    made_.reset();
+    if (touch_) {
+        touch_->release();
+    }
+}
+
+bool BodyStylus::refresh()
+{
+    if (!isWaiting() || !touch_->follow(*made_, pose_->proxy)) {
+        return false;
+    }
+    model_->update(pose_->goal);
+    keepOnItsSurface(pose_->goal);
+    updatePose(pose_->mode, pose_->goal);
+    return true;
+}
+
+void BodyStylus::pressAnew()
+{
+    if (!model_ || pose_->mode != StylusMode::Press) {
+        return;
+    }
+    model_->place(pose_->goal);
+    model_->update(pose_->goal);
+    keepOnItsSurface(pose_->goal);
+    updatePose(pose_->mode, pose_->goal);
 }
 
 void BodyStylus::deepen(double factor)
@@ -64,21 +96,37 @@ void BodyStylus::deepen(double factor)
         std::clamp(reach_.depth_points * factor, kStylusDepthMin, kStylusDepthMax);
 }
 
-std::unique_ptr<ContactModel> BodyStylus::makeModel() const
+void BodyStylus::makeModel()
 {
     const Surface& surface = surfaces_[at_.index];
+    if (surface.tiled) {
+        if (!touch_) {
+            touch_ = std::make_unique<TouchMap>(
+                SceneMap{.map = surface.map, .frame = surface.map->georeference().sceneFrame()},
+                MapEnds::Meet);
+        }
+        made_ = touch_->make(kind_, surface.tiled, surface.radius_m);
+        model_ = {made_, made_->model.get()};
+        return;
+    }
     const ContactModelOptions options{.radius_m = surface.radius_m};
-    return surface.joined ? makeContactModel(kind_, LayeredSurface(surface.joined), options)
-                          : makeContactModel(kind_, BodySurface(surface.mesh), options);
+    model_ = surface.joined ? makeContactModel(kind_, LayeredSurface(surface.joined), options)
+                            : makeContactModel(kind_, BodySurface(surface.mesh), options);
 }
 
 void BodyStylus::press(const ScenePoint& goal)
 {
-    if (at_.index >= surfaces_.size() || !surfaces_[at_.index].mesh) {
+    if (at_.index >= surfaces_.size() || !surfaces_[at_.index].canBePressed()) {
         return;
     }
-    if (!model_) {
-        model_ = makeModel();
+    const bool is_first = !model_;
+    if (is_first) {
+        makeModel();
+    }
+    if (made_) {
+        touch_->follow(*made_, goal);
+    }
+    if (is_first) {
         model_->place(goal); // from straight above: nothing next to it can obstruct it
     }
     model_->update(goal);

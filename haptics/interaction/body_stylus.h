@@ -3,8 +3,10 @@
 
 #include "core/body/body_mesh.h"
 #include "core/body/layered_mesh.h"
+#include "core/body/tiled_body_mesh.h"
 #include "core/contact/contact_model.h"
 #include "haptics/interaction/stylus.h"
+#include "haptics/terrain/touch_map.h"
 
 #include <cstddef>
 #include <functional>
@@ -27,11 +29,16 @@ struct BodyAim {
 class BodyStylus {
 public:
     struct Surface {
-        std::shared_ptr<const BodyMesh> mesh; // null: cannot be pressed yet
+        std::shared_ptr<const BodyMesh> mesh; // of a map in memory
+        /// Of a map in tiles, and that map. Without this and a mesh, nothing can be pressed yet.
+        std::shared_ptr<const TiledBodyMesh> tiled{};
+        std::shared_ptr<const Map> map{};
         /// The map joined with others, which is pressed in place of the mesh; null for a map by
         /// itself. Surfaces that share it are one.
         std::shared_ptr<const LayeredMesh> joined{};
         double radius_m = 1.0; // of the sphere of a VirtualProxy
+
+        bool canBePressed() const noexcept { return mesh || tiled; }
     };
     /// Which surface is the terrain at a point, straight above or below it; nothing without
     /// terrain there.
@@ -47,6 +54,13 @@ public:
     /// The pointer is over this point, where a screen point has the positive length `point_m`.
     /// While the body is grabbed, goal and proxy do not move.
     void aim(const BodyAim& at, const StylusButtons& buttons, double point_m);
+    /// Applies tiles loaded since the last call. Returns true if the proxy may have moved. Call it
+    /// about thirty times a second while isWaiting().
+    bool refresh();
+    /// As Stylus::pressAnew().
+    void pressAnew();
+    /// Whether the surface below the stylus may still change by itself.
+    bool isWaiting() const noexcept { return model_ != nullptr && made_ != nullptr; }
     /// The pointer is not over the terrain, or has left the view.
     void lift();
     /// Changes the pressing depth, within bounds, from the next aim on: deeper if factor > 1.
@@ -58,7 +72,8 @@ public:
     const Vec3& up() const noexcept { return at_.up; }
 
 private:
-    std::unique_ptr<ContactModel> makeModel() const;
+    void makeModel();
+    void releaseModel();
     void press(const ScenePoint& goal);
     void keepOnItsSurface(const ScenePoint& goal);
     bool isOnItsSurface(const ScenePoint& proxy) const;
@@ -70,7 +85,9 @@ private:
     BodyAim at_;
     double point_m_ = 1.0;
     ContactModelKind kind_ = kContactModelDefault;
-    std::unique_ptr<ContactModel> model_; // while in contact
+    std::unique_ptr<TouchMap> touch_;     // of a map in tiles, from its first touch on
+    std::shared_ptr<ServoMap> made_;      // on touch_; while in contact
+    std::shared_ptr<ContactModel> model_; // while in contact
     std::optional<StylusPose> pose_;
 };
 

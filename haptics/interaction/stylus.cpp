@@ -24,7 +24,7 @@ void Stylus::setGround(const SceneSurface& ground, double exaggeration)
         return;
     }
     if (model_) {
-        model_->setExaggeration(exaggeration_);
+        model_->map_model->setExaggeration(exaggeration_);
     }
     updatePose(pose_->mode, stylusGoal(aimedGround(), reach_, model_ != nullptr, point_m_));
 }
@@ -43,9 +43,9 @@ void Stylus::setModel(ContactModelKind kind)
     constexpr double kHair = 1e-6;
     const auto [proxy, goal] = std::pair(pose_->proxy, pose_->goal);
     model_ = makeModel();
-    const ContactState placed = model_->place(proxy + (goal - proxy) * kHair);
+    const ContactState placed = model_->model->place(proxy + (goal - proxy) * kHair);
     if (!placed.is_in_contact || pose_->mode == StylusMode::Press) {
-        model_->update(goal);
+        model_->model->update(goal);
     }
     keepOnItsMap(goal);
     updatePose(pose_->mode, goal);
@@ -95,7 +95,7 @@ bool Stylus::refresh()
     if (!isWaiting() || !touch_->follow(*model_, pose_->proxy)) {
         return false;
     }
-    model_->update(pose_->goal);
+    model_->model->update(pose_->goal);
     keepOnItsMap(pose_->goal);
     updatePose(pose_->mode, pose_->goal);
     return true;
@@ -106,8 +106,8 @@ void Stylus::pressAnew()
     if (!model_ || pose_->mode != StylusMode::Press) {
         return;
     }
-    model_->place(pose_->goal);
-    model_->update(pose_->goal);
+    model_->model->place(pose_->goal);
+    model_->model->update(pose_->goal);
     keepOnItsMap(pose_->goal);
     updatePose(pose_->mode, pose_->goal);
 }
@@ -118,14 +118,13 @@ void Stylus::deepen(double factor)
         std::clamp(reach_.depth_points * factor, kStylusDepthMin, kStylusDepthMax);
 }
 
-std::shared_ptr<MapContactModel> Stylus::makeModel()
+std::shared_ptr<ServoMap> Stylus::makeModel()
 {
     const SceneMap& map = ground_.maps()[at_.index];
     if (!touch_) {
         touch_ = std::make_unique<TouchMap>(map);
     }
-    const std::shared_ptr<ServoMap> made = touch_->make(kind_, exaggeration_);
-    return made ? std::shared_ptr<MapContactModel>(made, made->map_model) : nullptr;
+    return touch_->make(kind_, exaggeration_);
 }
 
 ScenePoint Stylus::aimedGround() const
@@ -141,10 +140,10 @@ void Stylus::press(const ScenePoint& goal)
             return; // the map has no surface there
         }
         touch_->follow(*model_, goal);
-        model_->place(goal); // from straight above: nothing next to it can obstruct it
+        model_->model->place(goal); // from straight above: nothing next to it can obstruct it
     }
     touch_->follow(*model_, goal);
-    model_->update(goal);
+    model_->model->update(goal);
     keepOnItsMap(goal);
 }
 
@@ -155,11 +154,11 @@ void Stylus::keepOnItsMap(const ScenePoint& goal)
     constexpr int kHalvings = 10;
     const ScenePoint ground = aimedGround();
     Vec3 depth = goal - ground;
-    for (int i = 0; i < kHalvings && !isOnItsMap(model_->state().proxy); ++i) {
+    for (int i = 0; i < kHalvings && !isOnItsMap(model_->model->state().proxy); ++i) {
         depth = depth * 0.5;
-        model_->place(ground + depth);
+        model_->model->place(ground + depth);
     }
-    if (!isOnItsMap(model_->state().proxy)) {
+    if (!isOnItsMap(model_->model->state().proxy)) {
         holdAbove(ground);
     }
 }
@@ -170,7 +169,9 @@ void Stylus::holdAbove(const ScenePoint& ground)
 {
     constexpr int kDoublings = 60;
     constexpr int kHalvings = 40;
-    const auto place = [&](double up_m) { return model_->place(ground + Vec3{0.0, 0.0, up_m}); };
+    const auto place = [&](double up_m) {
+        return model_->model->place(ground + Vec3{0.0, 0.0, up_m});
+    };
     double touching_m = 0.0;
     double free_m = ground_.maps()[at_.index].frame.meanCellSideM();
     for (int i = 0; i < kDoublings && place(free_m).is_in_contact; ++i) {
@@ -195,7 +196,7 @@ bool Stylus::isOnItsMap(const ScenePoint& proxy) const
 void Stylus::updatePose(StylusMode mode, const ScenePoint& goal)
 {
     // A press that no contact can be kept for rests on the ground that it was aimed at.
-    pose_ = stylusPose(mode, model_ ? model_->state() : ContactState{}, goal,
+    pose_ = stylusPose(mode, model_ ? model_->model->state() : ContactState{}, goal,
                        mode == StylusMode::Press ? aimedGround() : goal, point_m_);
 }
 

@@ -46,7 +46,7 @@ public:
     const std::optional<StylusPose>& pose() const noexcept { return pose_; }
 
 private:
-    std::shared_ptr<MapContactModel> makeModel();
+    std::shared_ptr<ServoMap> makeModel();
     void releaseModel();
     ScenePoint aimedGround() const;
     void press(const ScenePoint& goal);
@@ -61,8 +61,8 @@ private:
     GroundPoint at_; // the last argument of aim()
     double point_m_ = 1.0;
     ContactModelKind kind_ = kContactModelDefault;
-    std::unique_ptr<TouchMap> touch_;        // for the map aimed at, from the first touch on
-    std::shared_ptr<MapContactModel> model_; // on touch_; while in contact
+    std::unique_ptr<TouchMap> touch_; // for the map aimed at, from the first touch on
+    std::shared_ptr<ServoMap> model_; // on touch_; while in contact
     std::optional<StylusPose> pose_;
 };
 

@@ -488,14 +488,16 @@ private:
             return;
         }
         ServoTerrain& terrain = *map_->terrain;
-        const GridPoint at = onGrid(
-            map_->frame.georeference(),
-            map_->frame.frame().toGrid(state_.has_touched ? state_.contact.proxy
-                                                          : state_.frame.toScene(state_.hand)));
+        const auto [at, column_share] = map_->surface->onGrid(
+            state_.has_touched ? state_.contact.proxy : state_.frame.toScene(state_.hand));
         const double per_s = dt_s_ > 0.0 && state_.has_touched ? 1.0 / dt_s_ : 0.0;
+        const double turn = map_->surface->columnsPerTurn();
+        const double columns = at.column - state_.at.column;
         const HandMotion motion{.at = at,
-                                .columns_per_s = (at.column - state_.at.column) * per_s,
+                                .columns_per_s =
+                                    (turn > 0.0 ? std::remainder(columns, turn) : columns) * per_s,
                                 .rows_per_s = (at.row - state_.at.row) * per_s,
+                                .column_share = column_share,
                                 .time_ns = input_.now.time_since_epoch() / nanoseconds(1),
                                 .is_active = true};
         state_.at = at;
@@ -506,7 +508,7 @@ private:
                                (std::max(stiffness, 1.0) * map_->frame.exaggeration())));
         terrain.resident().resetMisses();
         if (terrain.refresh(motion, dt_s_)) {
-            map_->map_model->terrainChanged();
+            map_->model->terrainChanged();
             result_.has_ground_changed = true;
         }
         if (terrain.silence(input_.now) > options_.terrain_age_max) {

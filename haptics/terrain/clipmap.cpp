@@ -45,6 +45,12 @@ Clipmap::firstTile(double center, std::size_t level, std::size_t tiles, std::siz
     return static_cast<std::size_t>(std::clamp(first, 0.0, most));
 }
 
+std::int64_t Clipmap::firstTileAround(double center, std::size_t level, std::size_t side) noexcept
+{
+    const double width = static_cast<double>(kTileSide << level);
+    return std::llround(center / width - static_cast<double>(side) / 2.0);
+}
+
 Clipmap::Clipmap(std::shared_ptr<const TileHeights> heights,
                  std::shared_ptr<const Tile> top,
                  const std::vector<GridPoint>& centers,
@@ -66,8 +72,15 @@ Clipmap::Clipmap(std::shared_ptr<const TileHeights> heights,
         Level& level = levels_[k];
         level.columns = static_cast<std::uint32_t>(columns);
         level.rows = static_cast<std::uint32_t>(rows);
-        level.first_column =
-            static_cast<std::uint32_t>(firstTile(centers[k].column, k, tile_columns, columns));
+        level.tile_columns = static_cast<std::uint32_t>(tile_columns);
+        if (sides.wraps && columns < tile_columns) {
+            const auto around = static_cast<std::int64_t>(tile_columns);
+            const std::int64_t first = firstTileAround(centers[k].column, k, columns) % around;
+            level.first_column = static_cast<std::uint32_t>(first < 0 ? first + around : first);
+        } else {
+            level.first_column =
+                static_cast<std::uint32_t>(firstTile(centers[k].column, k, tile_columns, columns));
+        }
         level.first_row = static_cast<std::uint32_t>(firstTile(centers[k].row, k, tile_rows, rows));
         level.slots.resize(columns * rows);
     }
@@ -84,23 +97,24 @@ Clipmap::Clipmap(std::shared_ptr<const TileHeights> heights,
     for (std::size_t k = 0; k < squares.size(); ++k) {
         const ShownTiles& square = squares[k];
         MARSVIEW_CHECK(fits(layout, k, square));
-        levels_.push_back({.first_column = square.first_column,
-                           .first_row = square.first_row,
-                           .columns = square.columns,
-                           .rows = square.rows,
-                           .slots = std::vector<Slot>(std::size_t{square.columns} * square.rows)});
+        levels_.push_back(
+            {.first_column = square.first_column,
+             .first_row = square.first_row,
+             .columns = square.columns,
+             .rows = square.rows,
+             .tile_columns = static_cast<std::uint32_t>(layout.tileColumns(TileKind::Samples, k)),
+             .slots = std::vector<Slot>(std::size_t{square.columns} * square.rows)});
     }
     putTop(std::move(top));
 }
 
 bool Clipmap::fits(const TileLayout& layout, std::size_t level, const ShownTiles& square) noexcept
 {
-    const auto along = [](std::size_t first, std::size_t side, std::size_t tiles) {
-        return side > 0 && side <= kSideMax && first < tiles && side <= tiles - first;
-    };
-    return along(square.first_column, square.columns,
-                 layout.tileColumns(TileKind::Samples, level)) &&
-           along(square.first_row, square.rows, layout.tileRows(TileKind::Samples, level));
+    const std::size_t columns = layout.tileColumns(TileKind::Samples, level);
+    const std::size_t rows = layout.tileRows(TileKind::Samples, level);
+    return square.columns > 0 && square.columns <= std::min(kSideMax, columns) &&
+           square.first_column < columns && square.rows > 0 && square.rows <= kSideMax &&
+           square.first_row < rows && square.rows <= rows - square.first_row;
 }
 
 void Clipmap::putTop(std::shared_ptr<const Tile> top)
@@ -129,8 +143,10 @@ void Clipmap::put(std::shared_ptr<const Tile> tile, double difference_m)
                    tile->samples.rows() == layout.tileHeight(id));
     MARSVIEW_CHECK(TileHeights::isTouchable(*tile));
     Level& level = levels_[id.level];
-    level.slots[(id.row - level.first_row) * level.columns + (id.column - level.first_column)] = {
-        std::move(tile), difference_m};
+    const std::uint32_t column =
+        ShownTiles::columnWithin(id.column, level.first_column, level.columns, level.tile_columns);
+    level.slots[(id.row - level.first_row) * level.columns + column] = {std::move(tile),
+                                                                        difference_m};
 }
 
 std::optional<double>

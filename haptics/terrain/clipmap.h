@@ -19,9 +19,11 @@ namespace marsview {
 struct WindowSides {
     std::size_t finest = 8;  // at level 0; 3 to Clipmap::kSideMax
     std::size_t coarser = 4; // at every other level; likewise
+    bool wraps = false;      // around the body: after the last column comes the first
 };
 
-/// The resident tiles of a level, within a square of at most 8 x 8. A small value.
+/// The resident tiles of a level, within a square of at most 8 x 8, which may continue with the
+/// first column after the last one. A small value.
 struct ShownTiles {
     std::uint32_t first_column = 0; // in tiles
     std::uint32_t first_row = 0;
@@ -29,11 +31,23 @@ struct ShownTiles {
     std::uint32_t rows = 0;
     std::uint64_t is_there = 0; // one bit per tile, row by row, starting at the lowest bit
 
-    bool has(std::uint32_t tile_column, std::uint32_t tile_row) const noexcept
+    /// Of a level of `tile_columns`.
+    bool has(std::uint32_t tile_column,
+             std::uint32_t tile_row,
+             std::uint32_t tile_columns) const noexcept
+    {
+        const std::uint32_t c = columnWithin(tile_column, first_column, columns, tile_columns);
+        const std::uint32_t r = tile_row - first_row; // wraps if less
+        return c < columns && r < rows && ((is_there >> (r * columns + c)) & 1U) != 0;
+    }
+    /// The position of a tile's column in a square; `columns` or more outside it.
+    static std::uint32_t columnWithin(std::uint32_t tile_column,
+                                      std::uint32_t first_column,
+                                      std::uint32_t columns,
+                                      std::uint32_t tile_columns) noexcept
     {
         const std::uint32_t c = tile_column - first_column; // wraps if less
-        const std::uint32_t r = tile_row - first_row;
-        return c < columns && r < rows && ((is_there >> (r * columns + c)) & 1U) != 0;
+        return c < columns ? c : c + tile_columns;
     }
     bool operator==(const ShownTiles&) const = default;
 };
@@ -64,7 +78,19 @@ public:
         std::uint32_t first_row = 0;
         std::uint32_t columns = 0;
         std::uint32_t rows = 0;
+        std::uint32_t tile_columns = 0; // of the whole level
         std::vector<Slot> slots;
+
+        /// The column of a tile in a slot.
+        std::uint32_t tileColumn(std::size_t i) const noexcept
+        {
+            const std::uint32_t column = first_column + static_cast<std::uint32_t>(i % columns);
+            return column < tile_columns ? column : column - tile_columns;
+        }
+        std::uint32_t tileRow(std::size_t i) const noexcept
+        {
+            return first_row + static_cast<std::uint32_t>(i / columns);
+        }
     };
     /// The tiles that determine the height of a sample at a level, each once.
     struct Sources {
@@ -80,6 +106,9 @@ public:
     /// a center, which is given in samples of the map.
     static std::size_t
     firstTile(double center, std::size_t level, std::size_t tiles, std::size_t side) noexcept;
+    /// The same where the axis goes around: not within the tiles, but on the center's turn.
+    static std::int64_t
+    firstTileAround(double center, std::size_t level, std::size_t side) noexcept;
 
     /// Whether such a square is valid at a level of a map.
     static bool
@@ -138,7 +167,10 @@ private:
     const Slot* slot(std::size_t level, std::size_t column, std::size_t row) const noexcept
     {
         const Level& l = levels_[level];
-        const std::size_t c = column - l.first_column; // wraps if less
+        std::size_t c = column - l.first_column; // wraps if less
+        if (c >= l.columns) [[unlikely]] {
+            c += l.tile_columns;
+        }
         const std::size_t r = row - l.first_row;
         return c < l.columns && r < l.rows ? &l.slots[r * l.columns + c] : nullptr;
     }

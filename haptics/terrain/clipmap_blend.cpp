@@ -1,10 +1,49 @@
 #include "haptics/terrain/clipmap_blend.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <limits>
 #include <utility>
 
 namespace marsview {
+
+SamplesNear::SamplesNear(const TileLayout& layout,
+                         GridPoint hand,
+                         std::size_t tiles,
+                         bool wraps) noexcept
+{
+    const auto tile_of = [](double position, std::size_t count) {
+        const double inside = position >= 0.0 ? position : 0.0; // also for NaN
+        return static_cast<std::size_t>(std::min(inside, static_cast<double>(count - 1))) /
+               kTileSide;
+    };
+    const auto along = [&](double position, std::size_t count) {
+        const std::size_t tile = tile_of(position, count);
+        return std::pair{(std::max(tile, tiles) - tiles) * kTileSide,
+                         std::min((tile + tiles + 1) * kTileSide, count) - 1};
+    };
+    const auto [left, right] = along(hand.column, layout.columns);
+    const auto [upper, lower] = along(hand.row, layout.rows);
+    here_ = {left, right, upper, lower};
+    beyond_ = here_;
+    if (!wraps) {
+        return;
+    }
+    const std::size_t last = (layout.columns - 1) / kTileSide;
+    const std::size_t tile = tile_of(hand.column, layout.columns);
+    if (tile < tiles) { // the last tiles; the very last one may be narrow
+        const std::size_t first = last - std::min(last, tiles - tile);
+        beyond_ = {first * kTileSide, layout.columns - 1, upper, lower};
+    } else if (tile + tiles > last) {
+        beyond_ = {0, std::min((tile + tiles - last) * kTileSide, layout.columns) - 1, upper,
+                   lower};
+    }
+}
+
+bool SamplesNear::doOverlap(const SampleBox& box) const noexcept
+{
+    return marsview::doOverlap(here_, box) || marsview::doOverlap(beyond_, box);
+}
 
 SampleBox ClipmapBlend::reach(const TileLayout& layout, const TileId& tile) noexcept
 {

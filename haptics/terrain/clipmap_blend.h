@@ -1,6 +1,7 @@
 // Blends tiles that arrive under the hand into the surface at a bounded rate.
 #pragma once
 
+#include "core/geo/frames.h"
 #include "core/tiles/tile.h"
 
 #include <array>
@@ -15,6 +16,19 @@ struct SampleBox {
     std::size_t right = 0;
     std::size_t upper = 0;
     std::size_t lower = 0;
+};
+
+/// The samples of the tiles around a hand, up to so many tiles away. Around the body, those beyond
+/// the last column are among the first, and the other way around.
+class SamplesNear {
+public:
+    SamplesNear(const TileLayout& layout, GridPoint hand, std::size_t tiles, bool wraps) noexcept;
+
+    bool doOverlap(const SampleBox& box) const noexcept;
+
+private:
+    SampleBox here_;
+    SampleBox beyond_; // the same as here_ if there is nothing
 };
 
 inline bool doOverlap(const SampleBox& a, const SampleBox& b) noexcept

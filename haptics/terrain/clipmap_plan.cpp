@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <tuple>
 #include <unordered_map>
 
@@ -39,9 +40,15 @@ std::size_t finestLevelInTime(const TileLayout& layout,
 
 // The extent of a window around a center, along one axis.
 struct Span {
-    std::size_t first;
-    std::size_t end;
+    std::int64_t first;
+    std::int64_t end;
 };
+
+std::int64_t onTurn(std::int64_t tile, std::size_t tiles)
+{
+    const auto count = static_cast<std::int64_t>(tiles);
+    return (tile % count + count) % count;
+}
 
 struct Urgency {
     double seconds;       // until the hand is near
@@ -61,10 +68,15 @@ planWindow(const TileLayout& layout, const HandMotion& motion, const WindowPlanO
     const auto inside = [](double at, std::size_t count) {
         return at >= 0.0 ? std::min(at, static_cast<double>(count - 1)) : 0.0; // also for NaN
     };
+    // Around the body a column may lie beyond the ends, on the turn of the hand.
     const auto hand_at = [&](double seconds) {
-        return GridPoint{inside(motion.at.column + seconds * motion.columns_per_s, layout.columns),
+        const double column = motion.at.column + seconds * motion.columns_per_s;
+        const bool is_around = options.sides.wraps && std::isfinite(column);
+        return GridPoint{is_around ? column : inside(column, layout.columns),
                          inside(motion.at.row + seconds * motion.rows_per_s, layout.rows)};
     };
+    // Near a pole many columns are as wide as a row.
+    const double column_share = std::clamp(motion.column_share, 0.0, 1.0);
     const GridPoint hand = hand_at(0.0);
     std::unordered_map<TileId, Urgency, TileIdHash> wanted;
     for (std::size_t k = 0; k <= top; ++k) {
@@ -81,20 +93,26 @@ planWindow(const TileLayout& layout, const HandMotion& motion, const WindowPlanO
         }
         const auto span = [&](double at, std::size_t tiles) {
             const std::size_t first = Clipmap::firstTile(at, k, tiles, std::min(side, tiles));
-            return Span{first, first + std::min(side, tiles)};
+            return Span{static_cast<std::int64_t>(first),
+                        static_cast<std::int64_t>(first + std::min(side, tiles))};
         };
-        const Span columns = span(center.column, layout.tileColumns(TileKind::Samples, k));
+        const std::size_t tile_columns = layout.tileColumns(TileKind::Samples, k);
+        Span columns = span(center.column, tile_columns);
+        if (options.sides.wraps && side < tile_columns) {
+            const std::int64_t first = Clipmap::firstTileAround(center.column, k, side);
+            columns = {first, first + static_cast<std::int64_t>(side)};
+        }
         const Span rows = span(center.row, layout.tileRows(TileKind::Samples, k));
-        for (std::size_t row = rows.first; row < rows.end; ++row) {
-            for (std::size_t column = columns.first; column < columns.end; ++column) {
+        for (std::int64_t row = rows.first; row < rows.end; ++row) {
+            for (std::int64_t column = columns.first; column < columns.end; ++column) {
                 // Distance from the hand's path in tiles; 0 inside.
                 const auto beside = [&](double seconds) {
                     const GridPoint at = hand_at(seconds);
-                    const auto along = [&](double position, std::size_t tile) {
+                    const auto along = [&](double position, std::int64_t tile) {
                         const double from = position / width - static_cast<double>(tile);
                         return std::max({-from, from - 1.0, 0.0});
                     };
-                    return std::max(along(at.column, column), along(at.row, row));
+                    return std::max(column_share * along(at.column, column), along(at.row, row));
                 };
                 const double distance = beside(0.0);
                 double seconds = 2.0 * options.lookahead_s;
@@ -112,7 +130,7 @@ planWindow(const TileLayout& layout, const HandMotion& motion, const WindowPlanO
                 }
                 if (seconds <= options.lookahead_s || k >= kCheapLevel) {
                     const TileId id{TileKind::Samples, static_cast<std::uint8_t>(k),
-                                    static_cast<std::uint32_t>(column),
+                                    static_cast<std::uint32_t>(onTurn(column, tile_columns)),
                                     static_cast<std::uint32_t>(row)};
                     wanted.emplace(id, Urgency{seconds, top - k, distance});
                 }

@@ -25,27 +25,9 @@ struct LockedTile {
     PageLock filled;
 };
 
-// The area in which tiles may be touched before the next window but one: the tiles around the hand,
-// and one more. A faster hand gets no blending.
-SampleBox nearHand(const TileLayout& layout, GridPoint hand)
-{
-    const auto along = [](double at, std::size_t count) {
-        const double inside =
-            at >= 0.0 ? std::min(at, static_cast<double>(count - 1)) : 0.0; // also for NaN
-        const std::size_t tile = static_cast<std::size_t>(inside) / kTileSide;
-        return std::pair{(std::max<std::size_t>(tile, 2) - 2) * kTileSide,
-                         std::min((tile + 3) * kTileSide, count) - 1};
-    };
-    const auto [left, right] = along(hand.column, layout.columns);
-    const auto [upper, lower] = along(hand.row, layout.rows);
-    return {left, right, upper, lower};
-}
-
 TileId idAt(const Clipmap::Level& level, std::size_t k, std::size_t i)
 {
-    return {TileKind::Samples, static_cast<std::uint8_t>(k),
-            level.first_column + static_cast<std::uint32_t>(i % level.columns),
-            level.first_row + static_cast<std::uint32_t>(i / level.columns)};
+    return {TileKind::Samples, static_cast<std::uint8_t>(k), level.tileColumn(i), level.tileRow(i)};
 }
 
 } // namespace
@@ -216,9 +198,11 @@ bool ClipmapStreamer::feed(Clock::time_point now)
         }
     }
     generation_ = generation;
-    const SampleBox near = nearHand(heights_->layout(), motion.at);
+    // Tiles may be touched before the next window but one: those around the hand, and one more. A
+    // faster hand gets no blending.
+    const SamplesNear near(heights_->layout(), motion.at, 2, plan_options.sides.wraps);
     for (const TileId& id : arrived) {
-        if (doOverlap(ClipmapBlend::reach(heights_->layout(), id), near)) {
+        if (near.doOverlap(ClipmapBlend::reach(heights_->layout(), id))) {
             next->put(next->slot(id)->tile, next->differenceFromCoarser(id));
         }
     }

@@ -50,8 +50,7 @@ struct GroundTile {
 
 /// Applies the records before this one.
 struct GroundFelt {
-    std::uint64_t changed_part =
-        0; // part whose model got MapContactModel::terrainChanged(); 0: none
+    std::uint64_t changed_part = 0; // part whose model got ContactModel::terrainChanged(); 0: none
 
     bool operator==(const GroundFelt&) const = default;
 };

@@ -12,8 +12,9 @@ struct HandMotion {
     GridPoint at;               // of the proxy
     double columns_per_s = 0.0; // samples
     double rows_per_s = 0.0;
-    std::int64_t time_ns = 0; // of the tick; steady clock
-    bool is_active = false;   // false: no hand over the map
+    double column_share = 1.0; // of the way to the next row, that to the next column
+    std::int64_t time_ns = 0;  // of the tick; steady clock
+    bool is_active = false;    // false: no hand over the map
 };
 
 } // namespace marsview

@@ -15,26 +15,13 @@ ResidentTerrain::ResidentTerrain(const Clipmap& window,
     : TiledTerrain(std::move(heights))
     , window_(&window)
     , rate_m_per_s_(options.rate_m_per_s)
+    , wraps_(options.wraps)
 {
     MARSVIEW_CHECK(&window.heights() == &this->heights());
     MARSVIEW_CHECK(window.levelCount() <= kLevelsMax);
     MARSVIEW_CHECK(rate_m_per_s_ > 0.0);
     remember();
     putAtHand();
-}
-
-SampleBox ResidentTerrain::near(GridPoint hand) const noexcept
-{
-    const auto along = [](double position, std::size_t count) {
-        const double inside = position >= 0.0 ? position : 0.0; // also for NaN
-        const std::size_t tile =
-            static_cast<std::size_t>(std::min(inside, static_cast<double>(count - 1))) / kTileSide;
-        return std::pair{(std::max<std::size_t>(tile, 1) - 1) * kTileSide,
-                         std::min((tile + 2) * kTileSide, count) - 1};
-    };
-    const auto [left, right] = along(hand.column, columns());
-    const auto [upper, lower] = along(hand.row, rows());
-    return {left, right, upper, lower};
 }
 
 void ResidentTerrain::remember() noexcept
@@ -64,7 +51,7 @@ bool ResidentTerrain::show(const Clipmap& window, GridPoint hand) noexcept
 {
     const TileLayout& layout = heights().layout();
     window_ = &window;
-    const SampleBox box = near(hand);
+    const SamplesNear around = near(hand);
     bool is_changed = false;
     // Tiles that have left the window are forgotten; if one returns, it counts as newly arrived.
     blend_.keepOnly([&](const TileId& id, const SampleBox&) { return window.has(id); });
@@ -73,12 +60,11 @@ bool ResidentTerrain::show(const Clipmap& window, GridPoint hand) noexcept
         const Clipmap::Level& level = window.level(k);
         for (std::size_t i = 0; i < level.slots.size(); ++i) {
             const Clipmap::Slot& slot = level.slots[i];
-            const TileId id{TileKind::Samples, static_cast<std::uint8_t>(k),
-                            level.first_column + static_cast<std::uint32_t>(i) % level.columns,
-                            level.first_row + static_cast<std::uint32_t>(i) / level.columns};
-            const bool was_there = shown_[k].has(id.column, id.row);
+            const TileId id{TileKind::Samples, static_cast<std::uint8_t>(k), level.tileColumn(i),
+                            level.tileRow(i)};
+            const bool was_there = shown_[k].has(id.column, id.row, level.tile_columns);
             if (was_there == (slot.tile != nullptr) ||
-                !doOverlap(ClipmapBlend::reach(layout, id), box)) {
+                !around.doOverlap(ClipmapBlend::reach(layout, id))) {
                 continue;
             }
             is_changed = true;
@@ -105,8 +91,8 @@ bool ResidentTerrain::advance(GridPoint hand, double seconds) noexcept
     if (blend_.isEmpty()) {
         return false;
     }
-    const SampleBox box = near(hand);
-    blend_.keepOnly([&](const TileId&, const SampleBox& reach) { return doOverlap(reach, box); });
+    const SamplesNear around = near(hand);
+    blend_.keepOnly([&](const TileId&, const SampleBox& reach) { return around.doOverlap(reach); });
     if (std::isfinite(rate_m_per_s_)) {
         blend_.advance(std::max(seconds, 0.0), rate_m_per_s_);
     } else {

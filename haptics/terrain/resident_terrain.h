@@ -20,6 +20,7 @@ struct ResidentTerrainOptions {
     /// force: at most this value times the exaggeration, the scale from the scene to the workspace,
     /// and the stiffness (ClipmapBlend).
     double rate_m_per_s = 100.0;
+    bool wraps = false; // WindowSides::wraps
 };
 
 /// Counts of reads at less than full resolution.
@@ -35,7 +36,7 @@ struct ClipmapMisses {
 ///
 /// For the servo thread: does not allocate, lock or wait. Between updates of the contact models
 /// over it, each tick calls show() if there is a new window, and advance(); if one of them returns
-/// true, call MapContactModel::terrainChanged().
+/// true, call ContactModel::terrainChanged().
 class ResidentTerrain final : public TiledTerrain {
 public:
     /// `window` must not change until the next show(); the same applies to later windows.
@@ -73,7 +74,10 @@ private:
     static_assert(Clipmap::kSideMax <= kPlacesASide);
 
     double sampleElsewhere(std::size_t column, std::size_t row) const noexcept override;
-    SampleBox near(GridPoint hand) const noexcept;
+    SamplesNear near(GridPoint hand) const noexcept
+    {
+        return {heights().layout(), hand, 1, wraps_};
+    }
     void remember() noexcept;
     void putAtHand() noexcept;
 
@@ -81,6 +85,7 @@ private:
     ClipmapBlend blend_;
     std::array<ShownTiles, kLevelsMax> shown_;
     double rate_m_per_s_;
+    bool wraps_;
     mutable ClipmapMisses misses_;
 };
 

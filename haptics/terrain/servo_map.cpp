@@ -9,6 +9,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <type_traits>
 #include <utility>
 
@@ -49,13 +50,14 @@ public:
     {
         const SceneFrame& frame = frame_.frame();
         const GridPoint grid = frame.toGrid(point);
-        const GridPoint inside = onGrid(frame_.georeference(), grid);
+        const GridPoint inside = marsview::onGrid(frame_.georeference(), grid);
         return inside == grid ? Vec3{} : point - frame.toScene(inside, point.z);
     }
     double clearance(const ScenePoint& point) const noexcept override
     {
         return point.z - surface_.height(below(point));
     }
+    OnGrid onGrid(const ScenePoint& point) const noexcept override { return {below(point)}; }
     HighWay highWay(const ScenePoint& proxy, const TracePoint& goal) const noexcept override
     {
         constexpr double kAboveAllM = 1e6;
@@ -68,7 +70,7 @@ public:
 private:
     GridPoint below(const ScenePoint& point) const noexcept
     {
-        return onGrid(frame_.georeference(), frame_.frame().toGrid(point));
+        return marsview::onGrid(frame_.georeference(), frame_.frame().toGrid(point));
     }
 
     GoalFrame frame_;
@@ -104,9 +106,12 @@ bool isAgainstWall(const LayeredMesh& mesh, const ScenePoint& proxy, const Vec3&
 template <typename Surface>
 class BodyTouch final : public TouchSurface {
 public:
-    BodyTouch(const BodyGoalFrame& frame, Surface surface)
+    BodyTouch(const BodyGoalFrame& frame,
+              Surface surface,
+              std::shared_ptr<const BodyLocator> locator)
         : frame_(frame)
         , surface_(std::move(surface))
+        , locator_(std::move(locator))
     {}
 
     ScenePoint toScene(const TracePoint& goal) const noexcept override
@@ -130,6 +135,33 @@ public:
     double clearance(const ScenePoint& point) const noexcept override
     {
         return below(point).clearance_m;
+    }
+    OnGrid onGrid(const ScenePoint& point) const noexcept override
+    {
+        if (!locator_) {
+            return {};
+        }
+        const BodyGrid& grid = locator_->grid();
+        const BodyVertical vertical = verticalAt(grid.ellipsoid(), point);
+        const auto found = locator_->find(point - vertical.up * vertical.height_m, at_);
+        at_ = found ? found : at_.value_or(GridPoint{});
+        const double turn = columnsPerTurn();
+        if (turn > 0.0) {
+            at_->column -= turn * std::floor(at_->column / turn);
+        }
+        const auto along = [](double value, std::size_t count) {
+            return std::clamp(value, 0.0, static_cast<double>(count - 1));
+        };
+        at_ = {along(at_->column, grid.columns()), along(at_->row, grid.rows())};
+        const BodyGrid::Steps steps =
+            grid.steps(static_cast<std::size_t>(at_->column), static_cast<std::size_t>(at_->row));
+        return {*at_, length(steps.column) / length(steps.row)};
+    }
+    double columnsPerTurn() const noexcept override
+    {
+        return locator_ && locator_->grid().closes()
+                   ? static_cast<double>(locator_->grid().positions().columns())
+                   : 0.0;
     }
     // Between two points three radii from the center, less than a right angle apart, a straight
     // path stays more than two radii from it.
@@ -179,6 +211,8 @@ private:
 
     BodyGoalFrame frame_;
     Surface surface_;
+    std::shared_ptr<const BodyLocator> locator_; // of a map in tiles
+    mutable std::optional<GridPoint> at_;        // found last
     mutable ScenePoint asked_{std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0};
     mutable BodyBelow below_; // of asked_
 };
@@ -208,19 +242,20 @@ std::shared_ptr<ServoMap> madeOf(const GoalFrame& frame,
 template <typename Surface, typename Mesh>
 std::shared_ptr<ServoMap> bodyMapOf(const std::shared_ptr<const Georeference>& georeference,
                                     const std::shared_ptr<const Mesh>& mesh,
-                                    const ServoMapOptions& options)
+                                    const ServoMapOptions& options,
+                                    std::shared_ptr<const BodyLocator> locator = nullptr)
 {
     const Surface surface(mesh);
     const BodyGoalFrame frame =
         bodyGoalFrame(*georeference, mesh->ellipsoid(), mesh->exaggeration());
-    return std::make_shared<ServoMap>(
-        ServoMap{.frame = GoalFrame(georeference, mesh->exaggeration()),
-                 .model = makeContactModel(options.kind, surface, options.contact),
-                 .surface = std::make_unique<BodyTouch<Surface>>(frame, surface),
-                 .kind = options.kind,
-                 .radius_m = options.contact.radius_m,
-                 .map_id = options.map_id,
-                 .serial = nextSerial()});
+    return std::make_shared<ServoMap>(ServoMap{
+        .frame = GoalFrame(georeference, mesh->exaggeration()),
+        .model = makeContactModel(options.kind, surface, options.contact),
+        .surface = std::make_unique<BodyTouch<Surface>>(frame, surface, std::move(locator)),
+        .kind = options.kind,
+        .radius_m = options.contact.radius_m,
+        .map_id = options.map_id,
+        .serial = nextSerial()});
 }
 
 } // namespace
@@ -252,6 +287,17 @@ std::shared_ptr<ServoMap> makeServoMap(const std::shared_ptr<const Georeference>
                                        const ServoMapOptions& options)
 {
     return bodyMapOf<BodySurface>(georeference, mesh, options);
+}
+
+std::shared_ptr<ServoMap> makeServoMap(const std::shared_ptr<const Georeference>& georeference,
+                                       const std::shared_ptr<const TiledBodyMesh>& mesh,
+                                       std::shared_ptr<ServoTerrain> terrain,
+                                       const ServoMapOptions& options)
+{
+    auto map = bodyMapOf<BodySurface>(georeference, mesh->over(terrain->terrain()), options,
+                                      mesh->locator());
+    map->terrain = std::move(terrain);
+    return map;
 }
 
 std::shared_ptr<ServoMap> makeServoMap(const std::vector<std::shared_ptr<const Georeference>>& maps,

@@ -3,6 +3,7 @@
 
 #include "core/body/body_mesh.h"
 #include "core/body/layered_mesh.h"
+#include "core/body/tiled_body_mesh.h"
 #include "core/contact/contact_model.h"
 #include "core/contact/goal_frame.h"
 #include "core/terrain/filled_heightfield.h"
@@ -66,6 +67,11 @@ std::shared_ptr<ServoMap> makeServoMap(const GoalFrame& frame,
 /// longitude, latitude and elevation (BodyGoalFrame).
 std::shared_ptr<ServoMap> makeServoMap(const std::shared_ptr<const Georeference>& georeference,
                                        const std::shared_ptr<const BodyMesh>& mesh,
+                                       const ServoMapOptions& options);
+/// A map in tiles on its body. As with those in the plane, several may share the terrain.
+std::shared_ptr<ServoMap> makeServoMap(const std::shared_ptr<const Georeference>& georeference,
+                                       const std::shared_ptr<const TiledBodyMesh>& mesh,
+                                       std::shared_ptr<ServoTerrain> terrain,
                                        const ServoMapOptions& options);
 /// Several maps on their body, joined to one surface: those of the mesh, in its order. Longitudes
 /// in recordings are those around the middle of the uppermost.

@@ -29,7 +29,7 @@ public:
     ResidentTerrain& resident() noexcept { return *terrain_; }
 
     /// Call at the beginning of each tick, `seconds` after the last. If it returns true, heights
-    /// near the hand have changed: call MapContactModel::terrainChanged().
+    /// near the hand have changed: call ContactModel::terrainChanged().
     bool refresh(const HandMotion& motion, double seconds) noexcept
     {
         exchange_->motion.write(motion);

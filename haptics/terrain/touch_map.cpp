@@ -1,12 +1,13 @@
 #include "haptics/terrain/touch_map.h"
 
-#include <algorithm>
+#include "core/base/check.h"
+
 #include <chrono>
 #include <limits>
 #include <utility>
 
 namespace marsview {
-TouchMap::TouchMap(const SceneMap& map)
+TouchMap::TouchMap(const SceneMap& map, MapEnds ends)
     : map_(map)
     , map_id_(nextMapId())
 {
@@ -15,10 +16,15 @@ TouchMap::TouchMap(const SceneMap& map)
         return;
     }
     const TiledSamples& tiles = *heightfield.tiles();
+    const bool wraps = ends == MapEnds::Meet && map_.map->georeference().wrapsAround();
+    ClipmapStreamerOptions options;
+    options.plan.sides.wraps = wraps;
     streamer_ = std::make_unique<ClipmapStreamer>(
         tiles.raster(),
-        std::make_shared<const TileHeights>(map_.map->levels(), heightfield.scale()), tiles.top());
-    terrain_ = std::make_shared<ServoTerrain>(streamer_->exchange(), streamer_->heights());
+        std::make_shared<const TileHeights>(map_.map->levels(), heightfield.scale()), tiles.top(),
+        options);
+    terrain_ = std::make_shared<ServoTerrain>(streamer_->exchange(), streamer_->heights(),
+                                              ResidentTerrainOptions{.wraps = wraps});
 }
 
 std::shared_ptr<ServoMap>
@@ -35,10 +41,25 @@ TouchMap::make(ContactModelKind kind, double exaggeration, std::optional<double>
     if (!terrain_) {
         return nullptr;
     }
+    stream();
+    return makeServoMap(frame, terrain_, options);
+}
+
+std::shared_ptr<ServoMap> TouchMap::make(ContactModelKind kind,
+                                         const std::shared_ptr<const TiledBodyMesh>& mesh,
+                                         double radius_m)
+{
+    MARSVIEW_CHECK(terrain_ != nullptr);
+    stream();
+    return makeServoMap({map_.map, &map_.map->georeference()}, mesh, terrain_,
+                        {.kind = kind, .contact = {.radius_m = radius_m}, .map_id = map_id_});
+}
+
+void TouchMap::stream()
+{
     if (!std::exchange(is_streaming_, true)) {
         streamer_->start();
     }
-    return makeServoMap(frame, terrain_, options);
 }
 
 void TouchMap::release()
@@ -49,18 +70,16 @@ void TouchMap::release()
     }
 }
 
-bool TouchMap::follow(MapContactModel& model, const ScenePoint& hand)
+bool TouchMap::follow(ServoMap& made, const ScenePoint& hand)
 {
     if (!isTiled()) {
         return false;
     }
-    const ResidentTerrain& surface = terrain_->resident();
-    const GridPoint grid = map_.frame.toGrid(hand);
-    const GridPoint at{std::clamp(grid.column, 0.0, static_cast<double>(surface.columns() - 1)),
-                       std::clamp(grid.row, 0.0, static_cast<double>(surface.rows() - 1))};
+    const auto [at, column_share] = made.surface->onGrid(hand);
     const HandMotion motion{.at = at,
                             .columns_per_s = 0.0,
                             .rows_per_s = 0.0,
+                            .column_share = column_share,
                             .time_ns = std::chrono::steady_clock::now().time_since_epoch() /
                                        std::chrono::nanoseconds(1),
                             .is_active = true};
@@ -68,7 +87,7 @@ bool TouchMap::follow(MapContactModel& model, const ScenePoint& hand)
     if (!terrain_->refresh(motion, 1.0)) {
         return false;
     }
-    model.terrainChanged();
+    made.model->terrainChanged();
     return true;
 }
 

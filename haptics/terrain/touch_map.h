@@ -6,10 +6,15 @@
 #include "haptics/terrain/clipmap_streamer.h"
 #include "haptics/terrain/servo_map.h"
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 
 namespace marsview {
+
+/// Where a map goes around its body: in the plane its first and last column are apart, on the body
+/// they are next to each other.
+enum class MapEnds : std::uint8_t { Apart, Meet };
 
 /// The one way from an opened map to its contact models, for the mouse of the window and for the
 /// loop of a device. It does not wait for tiles: a tiled map always has its coarsest tile in
@@ -20,7 +25,7 @@ namespace marsview {
 ///     settings.map = touch.make(ContactModelKind::ContinuousWalk, exaggeration);
 class TouchMap {
 public:
-    explicit TouchMap(const SceneMap& map);
+    explicit TouchMap(const SceneMap& map, MapEnds ends = MapEnds::Apart);
 
     const SceneMap& map() const noexcept { return map_; }
     bool isOf(const SceneMap& map) const { return map.map == map_.map && map.frame == map_.frame; }
@@ -32,18 +37,24 @@ public:
     /// filled.
     std::shared_ptr<ServoMap>
     make(ContactModelKind kind, double exaggeration, std::optional<double> radius_m = std::nullopt);
+    /// The same of a map in tiles on its body; the mesh is that of the map.
+    std::shared_ptr<ServoMap>
+    make(ContactModelKind kind, const std::shared_ptr<const TiledBodyMesh>& mesh, double radius_m);
     /// The hand is gone: loading stops.
     void release();
 
     /// For a hand without a servo loop, such as the mouse: reports its position and applies newly
     /// loaded tiles at once, since a jump of the surface cannot be felt. Returns true if the
-    /// surface has changed: `model`, which make() returned, has been notified and needs an update.
-    bool follow(MapContactModel& model, const ScenePoint& hand);
+    /// surface has changed: the model of `made`, which make() returned, has been notified and needs
+    /// an update.
+    bool follow(ServoMap& made, const ScenePoint& hand);
 
     /// Of loading tiles; empty for a map in memory.
     std::optional<ClipmapStreamerStatistics> statistics() const;
 
 private:
+    void stream();
+
     SceneMap map_;
     std::uint64_t map_id_;
     std::unique_ptr<ClipmapStreamer> streamer_; // for a tiled map

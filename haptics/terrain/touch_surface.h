@@ -41,6 +41,16 @@ public:
     /// meters. Outside the map, over its edge.
     virtual double clearance(const ScenePoint& point) const noexcept = 0;
 
+    /// The nearest position on the grid of a map in tiles, and there, of the way to the next row,
+    /// that to the next column.
+    struct OnGrid {
+        GridPoint at;
+        double column_share = 1.0;
+    };
+    virtual OnGrid onGrid(const ScenePoint& point) const noexcept = 0;
+    /// Where the grid goes around the body, its columns per turn; otherwise 0.
+    virtual double columnsPerTurn() const noexcept { return 0.0; }
+
     /// Leads from a proxy, above all of the terrain, to straight above a goal.
     virtual HighWay highWay(const ScenePoint& proxy, const TracePoint& goal) const noexcept = 0;
 

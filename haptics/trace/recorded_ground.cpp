@@ -76,8 +76,7 @@ Status RecordedGround::showWindow()
             for (std::uint64_t rest = level.is_there; rest != 0; rest &= rest - 1) {
                 const auto i = static_cast<std::uint32_t>(std::countr_zero(rest));
                 const TileId id{TileKind::Samples, static_cast<std::uint8_t>(k),
-                                level.first_column + i % level.columns,
-                                level.first_row + i / level.columns};
+                                next->level(k).tileColumn(i), next->level(k).tileRow(i)};
                 if (next->has(id)) {
                     continue; // the coarsest
                 }

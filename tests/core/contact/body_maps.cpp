@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 namespace marsview::test {
@@ -86,6 +87,29 @@ std::shared_ptr<const TriangleMesh> listedMesh(const BodyMesh& mesh)
     const auto listed = TriangleMesh::build(std::move(soup), monitor);
     EXPECT_TRUE(listed) << (listed ? "" : listed.error().message);
     return *listed;
+}
+
+ScenePoint BodyWalker::next(double step_cells)
+{
+    column += random.uniform(-step_cells, step_cells);
+    row += random.uniform(-step_cells, step_cells);
+    const double columns = static_cast<double>(mesh.positions().columns());
+    const double rows = static_cast<double>(mesh.positions().rows());
+    if (mesh.positions().wraps()) {
+        column -= columns * std::floor(column / columns);
+    }
+    column = std::clamp(column, 0.0, columns - 1.0);
+    row = std::clamp(row, 0.0, rows - 1.0);
+    const auto c = static_cast<std::size_t>(column);
+    const auto r = static_cast<std::size_t>(row);
+    const BodyIndex vertex = r * mesh.positions().columns() + c;
+    const ScenePoint at = mesh.vertex(vertex);
+    const Vec3 up = mesh.positions().at(c, r, 1.0) - mesh.positions().at(c, r, 0.0);
+    const auto fan = mesh.fan(vertex);
+    const ScenePoint beside = mesh.vertex(mesh.vertexAt(BodyMesh::nextCorner(fan.front())));
+    const double cell_m = length(beside - at);
+    return at + (beside - at) * random.uniform(-1.0, 1.0) +
+           up * (cell_m * random.uniform(-1.0, 0.3));
 }
 
 } // namespace marsview::test

@@ -4,6 +4,7 @@
 #include "core/body/body_mesh.h"
 #include "core/geo/georeference.h"
 #include "core/mesh/triangle_mesh.h"
+#include "tests/support/random.h"
 
 #include <cstddef>
 #include <memory>
@@ -37,5 +38,17 @@ std::shared_ptr<const BodyMesh> bodyMesh(const BodyMap& map, double exaggeration
 MeshFace listedFace(const BodyFace& face);
 /// The same triangles as a list.
 std::shared_ptr<const TriangleMesh> listedMesh(const BodyMesh& mesh);
+
+/// A hand that wanders over a map.
+struct BodyWalker {
+    const BodyMesh& mesh;
+    Random& random;
+    double column;
+    double row;
+
+    /// A goal near the surface, mostly below it, a few cells from the last one; around the seam,
+    /// over the poles and beyond the border too.
+    ScenePoint next(double step_cells);
+};
 
 } // namespace marsview::test

@@ -18,38 +18,6 @@
 namespace marsview {
 namespace {
 
-struct Walker {
-    const BodyMesh& mesh;
-    test::Random& random;
-    double column;
-    double row;
-
-    // A goal near the surface, mostly below it, a few cells from the last one; around the seam,
-    // over the poles and beyond the border too.
-    ScenePoint next(double step_cells)
-    {
-        column += random.uniform(-step_cells, step_cells);
-        row += random.uniform(-step_cells, step_cells);
-        const double columns = static_cast<double>(mesh.positions().columns());
-        const double rows = static_cast<double>(mesh.positions().rows());
-        if (mesh.positions().wraps()) {
-            column -= columns * std::floor(column / columns);
-        }
-        column = std::clamp(column, 0.0, columns - 1.0);
-        row = std::clamp(row, 0.0, rows - 1.0);
-        const auto c = static_cast<std::uint32_t>(column);
-        const auto r = static_cast<std::uint32_t>(row);
-        const std::uint32_t vertex = r * static_cast<std::uint32_t>(columns) + c;
-        const ScenePoint at = mesh.vertex(vertex);
-        const Vec3 up = mesh.positions().at(c, r, 1.0) - mesh.positions().at(c, r, 0.0);
-        const auto fan = mesh.fan(vertex);
-        const ScenePoint beside = mesh.vertex(mesh.vertexAt(BodyMesh::nextCorner(fan.front())));
-        const double cell_m = length(beside - at);
-        return at + (beside - at) * random.uniform(-1.0, 1.0) +
-               up * (cell_m * random.uniform(-1.0, 0.3));
-    }
-};
-
 using Case = std::tuple<ContactModelKind, test::BodyMap>;
 class BodyContact : public testing::TestWithParam<Case> {};
 
@@ -63,7 +31,7 @@ TEST_P(BodyContact, ItsProxiesAreThoseOnAListOfTheSameTriangles)
         const auto model = makeContactModel(kind, BodySurface(mesh));
         const auto other = makeContactModel(kind, MeshSurface(listed));
         test::Random random(3);
-        Walker walker{*mesh, random, 1.0, 1.0};
+        test::BodyWalker walker{*mesh, random, 1.0, 1.0};
         // Both begin in free space, so that they begin at one place.
         const ScenePoint begin = mesh->highAbove(mesh->vertex(0));
         model->update(begin);
@@ -100,7 +68,7 @@ TEST(BodySurface, UpdatesEndWhereNoDirectionLeadsCloser)
         const Georeference georeference = test::georeferenceOf(map);
         const auto model = makeContactModel(ContactModelKind::ContinuousWalk, BodySurface(mesh));
         test::Random random(13);
-        Walker walker{*mesh, random, 1.0, 1.0};
+        test::BodyWalker walker{*mesh, random, 1.0, 1.0};
         model->update(mesh->highAbove(mesh->vertex(0)));
         int contacts = 0;
         int minima_of_others = 0;

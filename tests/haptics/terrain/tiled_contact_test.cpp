@@ -9,6 +9,7 @@
 #include "tests/core/contact/contact_judge.h"
 #include "tests/core/contact/contact_terrain.h"
 #include "tests/core/contact/stress_goals.h"
+#include "tests/haptics/terrain/arriving_tiles.h"
 #include "tests/haptics/terrain/tiled_map.h"
 #include "tests/support/fractal_terrain.h"
 #include "tests/support/make_terrain.h"
@@ -31,6 +32,7 @@
 namespace marsview {
 namespace {
 
+using test::Arriving;
 using test::Random;
 using test::samplesTile;
 using test::TiledMap;
@@ -161,68 +163,6 @@ TEST_P(TiledContact, EndsWhereItEndsOverTheMapInMemoryToTheBit)
         EXPECT_EQ(resident->misses().count, 0U);
     }
 }
-
-/// Windows over a small map. Some of its tiles are missing and arrive at random.
-class Arriving {
-public:
-    Arriving(Random& random, const TiledMap& map, double rate_m_per_s)
-        : random_(random)
-        , map_(map)
-        , center_{0.5 * static_cast<double>(map.layout().columns),
-                  0.5 * static_cast<double>(map.layout().rows)}
-        , window_(std::make_unique<Clipmap>(map.window(center_)))
-        , terrain_(std::make_shared<ResidentTerrain>(
-              *window_, map.heights, ResidentTerrainOptions{.rate_m_per_s = rate_m_per_s}))
-        , missing_(test::tilesOf(*window_))
-    {}
-
-    const std::shared_ptr<ResidentTerrain>& terrain() const { return terrain_; }
-    bool isAnyMissing() const { return !missing_.empty(); }
-
-    void arrive(GridPoint hand)
-    {
-        const std::size_t which = random_.below(missing_.size());
-        const TileId id = missing_[which];
-        missing_.erase(missing_.begin() + static_cast<std::ptrdiff_t>(which));
-        auto next = std::make_unique<Clipmap>(map_.window(center_));
-        for (const TileId& old : test::tilesOf(*window_)) {
-            const Clipmap::Slot* slot = window_->slot(old);
-            if (slot->tile) {
-                next->put(slot->tile, slot->difference_m);
-            }
-        }
-        next->put(map_.tile(id), 0.0);
-        next->put(next->slot(id)->tile, next->differenceFromCoarser(id));
-        terrain_->show(*next, hand);
-        window_ = std::move(next);
-    }
-
-    /// The surface as the model sees it now, as a separate map.
-    std::shared_ptr<const FilledHeightfield> felt() const
-    {
-        const std::size_t columns = map_.layout().columns;
-        const std::size_t rows = map_.layout().rows;
-        SampleGrid grid = SampleGrid::create(SampleType::Float64, columns, rows).value();
-        for (std::size_t row = 0; row < rows; ++row) {
-            for (std::size_t column = 0; column < columns; ++column) {
-                const double height = terrain_->sample(column, row);
-                std::memcpy(grid.rowData(row) + sizeof height * column, &height, sizeof height);
-            }
-        }
-        const SampleStatistics statistics = grid.applyRule({}, 0, rows);
-        grid.clearVoids();
-        return test::filledTerrain(
-            Heightfield(std::make_shared<const SampleGrid>(std::move(grid)), statistics, {}));
-    }
-
-private:
-    Random& random_;
-    const TiledMap& map_;
-    GridPoint center_;
-    std::unique_ptr<Clipmap> window_;
-    std::shared_ptr<ResidentTerrain> terrain_;
-    std::vector<TileId> missing_;
-};
 
 template <template <typename> class Model>
 void judgeOverWhatIsFelt(const test::ModelTraits& traits)

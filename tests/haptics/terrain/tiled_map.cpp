@@ -35,7 +35,7 @@ std::vector<TileId> tilesOf(const Clipmap& window)
         const Clipmap::Level& level = window.level(k);
         for (std::size_t r = 0; r < level.rows; ++r) {
             for (std::size_t c = 0; c < level.columns; ++c) {
-                tiles.push_back(samplesTile(k, level.first_column + c, level.first_row + r));
+                tiles.push_back(samplesTile(k, level.tileColumn(c), level.first_row + r));
             }
         }
     }

@@ -97,7 +97,7 @@ TEST(RecordedGround, RefusesTilesThatTheMapDoesNotHave)
     const auto top = static_cast<std::size_t>(map.layout().topLevel());
     const TileId beside{TileKind::Samples, 0, 9, 0};
     for (const GroundRecord& record : std::vector<GroundRecord>{
-             GroundLevel{top + 1, {0, 0, 1, 1, 1}}, GroundLevel{0, {2, 0, 8, 4, 1}},
+             GroundLevel{top + 1, {0, 0, 1, 1, 1}}, GroundLevel{0, {0, 2, 8, 8, 1}},
              GroundLevel{0, {0, 0, 9, 4, 1}}, GroundLevel{0, {0, 0, 0, 0, 0}},
              GroundLevel{0, {0, 0, 2, 2, 16}}, GroundLevel{0, {~0U, 0, 2, 2, 1}},
              GroundTile{beside, 0.5}, GroundTile{{TileKind::Samples, 200, 0, 0}, 0.5},
