@@ -219,6 +219,7 @@ void MainWindow::fillViewMenus()
     actions_->view_menu->insertActions(actions_->panels->menuAction(), overlays_->terrainActions());
     actions_->view_menu->insertSeparator(actions_->panels->menuAction());
     setIcons(*docks_);
+    menuBar()->installEventFilter(this);
     for (QMenu* menu : menuBar()->findChildren<QMenu*>()) {
         menu->installEventFilter(this);
     }
@@ -425,10 +426,13 @@ void MainWindow::changeEvent(QEvent* event)
 }
 
 // While a menu is open the map keeps the focus, and its plain letters would be taken for shortcuts
-// before the menu gets them: Alt+F, O would choose a tool instead of opening a map.
+// before the menu gets them: Alt+F, O would choose a tool instead of opening a map. A menu passes
+// arrows on to the menu bar.
 bool MainWindow::eventFilter(QObject* watched, QEvent* event)
 {
-    if (event->type() == QEvent::ShortcutOverride && qobject_cast<QMenu*>(watched) != nullptr &&
+    const bool is_menu =
+        qobject_cast<QMenu*>(watched) != nullptr || qobject_cast<QMenuBar*>(watched) != nullptr;
+    if (event->type() == QEvent::ShortcutOverride && is_menu &&
         static_cast<QKeyEvent*>(event)->modifiers() == Qt::NoModifier) {
         event->accept();
         return true;

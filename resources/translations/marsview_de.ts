@@ -4240,6 +4240,10 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
         <translation>Neu: %1</translation>
     </message>
     <message>
+        <source>Press M, or choose what to measure.</source>
+        <translation>Drücken Sie M, oder wählen Sie, was Sie messen wollen.</translation>
+    </message>
+    <message>
         <source>Click points along a line; double-click to finish.</source>
         <translation>Klicken Sie Punkte entlang einer Linie an; Doppelklick beendet sie.</translation>
     </message>

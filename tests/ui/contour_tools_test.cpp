@@ -82,6 +82,10 @@ TEST_F(ContourToolsTest, AnImpossibleIntervalIsRefusedBesideItsField)
     EXPECT_TRUE(note->isVisible());
     EXPECT_TRUE(note->text().startsWith(QStringLiteral("Enter an interval")))
         << note->text().toStdString();
+    QTest::keyClick(dialog.box(), Qt::Key_Enter);
+    EXPECT_EQ(dialog.box()->value(), 20.0) << "as before";
+    EXPECT_TRUE(ok->isEnabled());
+    EXPECT_FALSE(note->isVisible());
     type("30");
     EXPECT_TRUE(ok->isEnabled());
     EXPECT_FALSE(note->isVisible());

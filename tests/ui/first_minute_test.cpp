@@ -154,6 +154,22 @@ TEST_F(FirstMinuteTest, F10OpensTheMenus)
     EXPECT_FALSE(menu->isVisible());
 }
 
+// A menu passes arrows on to the menu bar: they were taken for those of the map.
+TEST_F(FirstMinuteTest, ArrowsGoFromMenuToMenu)
+{
+    open();
+    ASSERT_TRUE(QTest::qWaitFor([this] { return !view().isMoving(); }, kTimeout));
+    const OrbitCamera before = view().camera();
+    const QList<QAction*> menus = window_->menuBar()->actions();
+    QTest::keyClick(&view(), Qt::Key_F, Qt::AltModifier);
+    ASSERT_TRUE(QTest::qWaitFor([&] { return menus[0]->menu()->isVisible(); }, kTimeout));
+    QTest::keyClick(menus[0]->menu(), Qt::Key_Right);
+    ASSERT_TRUE(QTest::qWaitFor([&] { return menus[1]->menu()->isVisible(); }, kTimeout));
+    QTest::keyClick(menus[1]->menu(), Qt::Key_Escape);
+    EXPECT_EQ(view().camera(), before);
+    EXPECT_FALSE(view().isMoving());
+}
+
 TEST_F(FirstMinuteTest, TheHintGoesWhenAllWasTried)
 {
     open();

@@ -14,7 +14,8 @@ namespace {
 
 constexpr double kIntervalMinM = 1e-3;
 constexpr double kIntervalMaxM = 100000.0;
-constexpr int kDecimals = 3; // the smallest interval is a millimeter
+constexpr int kWidthMin = 240; // as wide as the title
+constexpr int kDecimals = 3;   // the smallest interval is a millimeter
 
 } // namespace
 
@@ -28,12 +29,14 @@ IntervalDialog::IntervalDialog(const QString& title,
     setWindowTitle(title);
     const bool can_be_automatic = automatic == Automatic::Allowed;
     box_->setObjectName(QStringLiteral("interval"));
+    box_->setMinimumWidth(kWidthMin);
     box_->setDecimals(kDecimals);
     box_->setTrailingZeros(false);
     box_->setRange(can_be_automatic ? 0.0 : kIntervalMinM, kIntervalMaxM);
     //: Meters, after a number
     box_->setSuffix(tr(" m"));
     box_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
+    box_->setCorrectionMode(QAbstractSpinBox::CorrectToPreviousValue);
     if (can_be_automatic) {
         //: In place of a contour interval of 0: it follows the view
         box_->setSpecialValueText(tr("Automatic"));
@@ -54,12 +57,13 @@ IntervalDialog::IntervalDialog(const QString& title,
         (can_be_automatic ? tr("Enter an interval from %1 m to %2 m, or 0 for automatic.")
                           : tr("Enter an interval from %1 m to %2 m."))
             .arg(numberText(kIntervalMinM, kDecimals), numberText(kIntervalMaxM, 0));
-    connect(box_->findChild<QLineEdit*>(), &QLineEdit::textChanged, this,
-            [this, field, problem, ok = buttons->button(QDialogButtonBox::Ok)] {
-                const bool is_possible = box_->hasAcceptableInput();
-                field->setProblem(is_possible ? QString() : problem);
-                ok->setEnabled(is_possible);
-            });
+    const auto check = [this, field, problem, ok = buttons->button(QDialogButtonBox::Ok)] {
+        const bool is_possible = box_->hasAcceptableInput();
+        field->setProblem(is_possible ? QString() : problem);
+        ok->setEnabled(is_possible);
+    };
+    connect(box_->findChild<QLineEdit*>(), &QLineEdit::textChanged, this, check);
+    connect(box_, &QDoubleSpinBox::editingFinished, this, check); // what was impossible is gone
     auto* layout = new QVBoxLayout(this);
     layout->addWidget(field);
     layout->addWidget(buttons);

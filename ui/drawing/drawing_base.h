@@ -29,6 +29,8 @@ public:
     virtual const DrawnItem* itemOf(std::uint32_t id) const = 0;
     /// Where the name of an item belongs, in the view; empty if it is not in the picture.
     virtual std::optional<QPointF> namePlace(std::uint32_t id) const = 0;
+    /// Whether clicks on the map place points.
+    virtual bool isToolChosen() const = 0;
     virtual void select(std::uint32_t id) = 0;
     virtual void rename(std::uint32_t id, const QString& name) = 0;
     virtual void setNote(std::uint32_t id, const QString& note) = 0;
@@ -56,6 +58,8 @@ Q_SIGNALS:
     void placed(std::uint32_t id);
     /// What is on the screen may have moved: handles and labels.
     void moved();
+    /// isToolChosen() may have changed.
+    void toolChanged();
 };
 
 } // namespace marsview

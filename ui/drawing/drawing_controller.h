@@ -50,6 +50,7 @@ public:
         , line_set_(lines)
     {
         joinScene();
+        connect(&view_, &TerrainView::toolChanged, this, &DrawingBase::toolChanged);
     }
     ~DrawingController() override { scene_->setPlaceTool(tool_, nullptr); }
 
@@ -159,6 +160,7 @@ public:
                     [&](Item& item) { item.color = color; });
         }
     }
+    bool isToolChosen() const override { return view_.tool() == tool_; }
     /// Adds a point of the topmost map, as a click there does. Nothing beyond its projection.
     void addPointAt(GridPoint grid)
     {
@@ -210,9 +212,13 @@ public:
             changed.vertices.erase(changed.vertices.begin() + static_cast<std::ptrdiff_t>(index));
         });
     }
+    /// Without effect while the current item lacks points.
     void finish()
     {
         const std::uint32_t id = state_.current;
+        if (const Item* item = current(); item == nullptr || !item->isComplete()) {
+            return;
+        }
         if (endCurrent()) {
             Q_EMIT placed(id);
         }

@@ -441,6 +441,9 @@ void HapticsPanel::showConnection()
         break;
     case HapticsConnection::Connected: {
         if (device_.isReplaying()) {
+            if (!controller_.recorder().isRecording()) {
+                recording_->clear(); // what it says is of an earlier replay or recording
+            }
             status_->setText(
                 !device_.problem().isEmpty()
                     ? device_.problem()

@@ -127,6 +127,7 @@ MeasurePanel::MeasurePanel(MeasureController& controller, QWidget* parent)
     layout->addWidget(hint_);
     connect(&controller_, &MeasureController::changed, this, &MeasurePanel::showItems);
     connect(&controller_, &MeasureController::kindChanged, this, &MeasurePanel::showResult);
+    connect(&controller_, &MeasureController::toolChanged, this, &MeasurePanel::showResult);
     connect(&controller_, &MeasureController::measured, this, &MeasurePanel::showItems);
     connect(&controller_, &MeasureController::lineHovered, plot_, &ProfilePlot::setCursorAt);
     connect(plot_, &ProfilePlot::cursorMoved, &controller_, &MeasureController::setProfileCursor);
@@ -301,7 +302,8 @@ void MeasurePanel::showResult()
     if (item == nullptr) {
         //: %1 is a kind of measurement, as in the Measure menu
         title_->setText(tr("New: %1").arg(measurementName(controller_.kind())));
-        note = firstStepText(controller_.kind());
+        note = controller_.isToolChosen() ? firstStepText(controller_.kind())
+                                          : tr("Press M, or choose what to measure.");
     } else {
         title_->setText(item->name);
         const MeasureOutcome& outcome = controller_.outcome(item->id);
