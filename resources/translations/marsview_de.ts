@@ -2813,8 +2813,8 @@ y %2</translation>
 <context>
     <name>marsview::GlobeMeshes</name>
     <message>
-        <source>The globe can be touched only where the map is held in memory. Choose View › Scene › Flat Map to touch this map</source>
-        <translation>Der Globus lässt sich nur ertasten, wenn die Karte im Speicher liegt. Wählen Sie Ansicht › Szene › Ebene Karte, um diese Karte zu ertasten</translation>
+        <source>Maps larger than memory are touched one by one where they lie on top of others</source>
+        <translation>Karten, die größer als der Speicher sind, werden einzeln ertastet, wo sie auf anderen liegen</translation>
     </message>
 </context>
 <context>

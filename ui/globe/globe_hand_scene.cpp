@@ -47,7 +47,7 @@ double GlobeHandScene::exaggeration() const
 
 bool GlobeHandScene::canTouch(std::size_t index) const
 {
-    return globe_.meshes().ground()->surfaces[index].mesh != nullptr;
+    return globe_.meshes().ground()->surfaces[index].canBePressed();
 }
 
 QString GlobeHandScene::whyNone() const
@@ -84,6 +84,11 @@ void GlobeHandScene::touch(std::size_t index)
                        .map_id = nextMapId(),
                        .joined = surface.joined,
                        .radius_m = surface.radius_m};
+    if (surface.tiled) {
+        touched_->tiles = std::make_unique<TouchMap>(
+            SceneMap{.map = surface.map, .frame = surface.map->georeference().sceneFrame()},
+            MapEnds::Meet);
+    }
 }
 
 // Of several maps, the uppermost, as long as all are shown in their order.
@@ -133,6 +138,9 @@ std::shared_ptr<ServoMap> GlobeHandScene::make(ContactModelKind kind) const
 {
     const auto index = *touched();
     const BodyStylus::Surface& surface = globe_.meshes().ground()->surfaces[index];
+    if (touched_->tiles) {
+        return touched_->tiles->make(kind, surface.tiled, touched_->radius_m);
+    }
     const ServoMapOptions options{
         .kind = kind, .contact = {.radius_m = touched_->radius_m}, .map_id = touched_->map_id};
     std::vector<std::shared_ptr<const Georeference>> maps;

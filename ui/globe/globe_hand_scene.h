@@ -10,7 +10,7 @@ namespace marsview {
 
 class GlobeView;
 
-/// Maps in memory are touched; the hand goes over others without contact. The globe outlives it.
+/// The globe outlives it.
 class GlobeHandScene final : public HandScene {
     Q_OBJECT
 
@@ -63,6 +63,7 @@ private:
         std::uint64_t map_id = 0;
         std::shared_ptr<const LayeredMesh> joined{}; // the latest
         double radius_m = 1.0;
+        std::unique_ptr<TouchMap> tiles{}; // of a map in tiles
     };
 
     std::vector<BodyTerrain> surfaceOf(std::size_t index) const;

@@ -183,6 +183,9 @@ void GlobeView::mouseMoveEvent(QMouseEvent* event)
     } else if (drag_ == MapAction::Orbit && !moved.isNull()) {
         camera_.orbit(kTurnPerPixel * moved.x(), kTurnPerPixel * -moved.y());
     } else {
+        if (!moved.isNull()) {
+            touch_.noteMotion();
+        }
         if (!moveByGrab(drag_position_, event->position())) {
             followTouch();
         }

@@ -8,10 +8,10 @@
 namespace marsview {
 namespace {
 
-// The mesh of a map that is in an earlier ground, too; null otherwise.
-std::shared_ptr<const BodyMesh> keptMesh(const std::optional<GlobeMeshes::Ground>& earlier,
-                                         const BodyTerrain& terrain,
-                                         double exaggeration)
+// The surface of a map that is in an earlier ground, too; null otherwise.
+const BodyStylus::Surface* keptSurface(const std::optional<GlobeMeshes::Ground>& earlier,
+                                       const BodyTerrain& terrain,
+                                       double exaggeration)
 {
     if (!earlier || earlier->exaggeration != exaggeration) {
         return nullptr;
@@ -20,9 +20,37 @@ std::shared_ptr<const BodyMesh> keptMesh(const std::optional<GlobeMeshes::Ground
     const auto found = std::find_if(maps.begin(), maps.end(), [&](const BodyTerrain& other) {
         return isSameMap(terrain, other);
     });
-    return found != maps.end()
-               ? earlier->surfaces[static_cast<std::size_t>(found - maps.begin())].mesh
-               : nullptr;
+    return found != maps.end() ? &earlier->surfaces[static_cast<std::size_t>(found - maps.begin())]
+                               : nullptr;
+}
+
+// The triangles of a map by itself.
+Status layOnBody(const BodyTerrain& terrain,
+                 double exaggeration,
+                 const Ellipsoid& ellipsoid,
+                 JobMonitor& monitor,
+                 BodyStylus::Surface& surface)
+{
+    const std::shared_ptr<const Map>& map = terrain.map();
+    if (map->filled()) {
+        auto mesh =
+            BodyMesh::build(map->filled(), map->georeference(), exaggeration, monitor, ellipsoid);
+        if (!mesh) {
+            return std::move(mesh).error();
+        }
+        surface.mesh = std::move(mesh).value();
+        return Done{};
+    }
+    auto tiled = TiledBodyMesh::build(
+        terrain.grid(),
+        std::make_shared<const TileHeights>(map->levels(), map->heightfield().scale()),
+        exaggeration, monitor);
+    if (!tiled) {
+        return std::move(tiled).error();
+    }
+    surface.tiled = std::move(tiled).value();
+    surface.map = map;
+    return Done{};
 }
 
 using Piles = std::vector<std::vector<std::size_t>>;
@@ -36,6 +64,19 @@ Piles pilesInMemory(const GlobeMeshes::Ground& ground)
         }
     }
     return pilesOf(ground.scene, in_memory);
+}
+
+bool isTiledInPile(const GlobeMeshes::Ground& ground)
+{
+    const auto& maps = ground.scene.maps();
+    for (std::size_t i = 0; i < maps.size(); ++i) {
+        for (std::size_t k = 0; ground.surfaces[i].tiled && k < maps.size(); ++k) {
+            if (k != i && doOverlap(maps[i], maps[k])) {
+                return true;
+            }
+        }
+    }
+    return false;
 }
 
 // Each pile that can be joined becomes one surface.
@@ -140,14 +181,6 @@ void GlobeMeshes::prepare()
     if (scene_.isEmpty() || isComplete() || preparing_ || joining_) {
         return;
     }
-    if (std::none_of(scene_.maps().begin(), scene_.maps().end(), [](const BodyTerrain& terrain) {
-            return terrain.map()->filled() != nullptr;
-        })) {
-        take(std::nullopt,
-             tr("The globe can be touched only where the map is held in memory. Choose "
-                "View › Scene › Flat Map to touch this map"));
-        return;
-    }
     preparing_ = std::make_shared<JobMonitor>();
     Q_EMIT preparingChanged(true);
     jobs_.run([this, scene = scene_, exaggeration = exaggeration_, earlier = ground_,
@@ -156,19 +189,22 @@ void GlobeMeshes::prepare()
         QString problem;
         for (const BodyTerrain& terrain : scene.maps()) {
             const Georeference& georeference = terrain.map()->georeference();
-            ground.surfaces.push_back({.mesh = keptMesh(earlier, terrain, exaggeration),
-                                       .radius_m = 0.25 * (georeference.pixelWidthMeters() +
-                                                           georeference.pixelHeightMeters())});
-            if (!terrain.map()->filled() || ground.surfaces.back().mesh) {
-                continue; // in tiles, or known
+            BodyStylus::Surface& surface = ground.surfaces.emplace_back();
+            if (const auto* kept = keptSurface(earlier, terrain, exaggeration)) {
+                surface = *kept;
+                surface.joined = nullptr;
+            } else if (const Status laid =
+                           layOnBody(terrain, exaggeration, scene.ellipsoid(), *monitor, surface);
+                       !laid) {
+                problem = QString::fromStdString(laid.error().message);
             }
-            auto mesh = BodyMesh::build(terrain.map()->filled(), georeference, exaggeration,
-                                        *monitor, scene.ellipsoid());
-            if (mesh) {
-                ground.surfaces.back().mesh = std::move(mesh).value();
-            } else {
-                problem = QString::fromStdString(mesh.error().message);
-            }
+            surface.radius_m =
+                0.25 * (georeference.pixelWidthMeters() + georeference.pixelHeightMeters());
+        }
+        if (problem.isEmpty() && isTiledInPile(ground)) {
+            ground.why_apart =
+                tr("Maps larger than memory are touched one by one where they lie "
+                   "on top of others");
         }
         const Piles piles = problem.isEmpty() ? pilesInMemory(ground) : Piles();
         // At another exaggeration the earlier surface is touched until the maps are joined again.

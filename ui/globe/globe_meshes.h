@@ -26,7 +26,7 @@ class GlobeMeshes final : public QObject {
 public:
     enum class User : std::size_t { Mouse, Device };
 
-    /// One surface for each map of the scene. That of a tiled map has no mesh.
+    /// One surface for each map of the scene.
     struct Ground {
         BodyScene scene;
         double exaggeration = 1.0;

@@ -5,7 +5,9 @@
 #include "ui/globe/globe_meshes.h"
 
 #include <QObject>
+#include <QTimer>
 
+#include <cstdint>
 #include <optional>
 
 namespace marsview {
@@ -25,14 +27,17 @@ public:
     /// There is something to press into.
     bool isReady() const noexcept { return is_chosen_ && meshes_.isReady(); }
 
-    void setPressing(bool is_pressing) { buttons_.is_pressing = is_pressing; }
+    void setPressing(bool is_pressing);
     /// The body is held by the stylus, and moves with the pointer.
     void setGrabbing(bool is_grabbing);
     bool isGrabbing() const noexcept { return buttons_.is_grabbing; }
     bool isPressing() const noexcept { return buttons_.is_pressing; }
+    /// The hand moved over the terrain.
+    void noteMotion() { has_hand_moved_ = true; }
     void deepen(double factor) { stylus_.deepen(factor); }
     /// The pointer, a button or the camera changed: where the pointer is on the terrain, and how
-    /// long a point of the screen is there.
+    /// long a point of the screen is there. Where finer terrain has arrived since the last call, a
+    /// hand that has not moved since it began to press presses again.
     void follow(const std::optional<BodyAim>& at, double point_m);
 
     /// Of the mouse, in the body-fixed frame; empty while lifted or not chosen.
@@ -43,9 +48,13 @@ public:
 Q_SIGNALS:
     /// pose() may have changed.
     void moved();
+    /// Finer terrain has arrived: where the pointer is on it may have changed.
+    void aimOutdated();
 
 private:
     void takeGround();
+    void refresh();
+    std::uint64_t arrivals() const;
 
     GlobeMeshes& meshes_;
     BodyStylus stylus_;
@@ -53,6 +62,9 @@ private:
     bool is_chosen_ = false;
     std::optional<BodyAim> at_; // and again when it can be pressed
     double point_m_ = 1.0;
+    QTimer refresh_timer_; // runs while finer terrain may arrive below the stylus
+    std::uint64_t aimed_arrivals_ = 0;
+    bool has_hand_moved_ = false; // since it began to press
 };
 
 } // namespace marsview

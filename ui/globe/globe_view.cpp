@@ -85,6 +85,7 @@ void GlobeView::connectParts()
         update(); // over the picture that was kept
         Q_EMIT stylusMoved();
     });
+    connect(&touch_, &GlobeTouch::aimOutdated, this, &GlobeView::followTouch);
     connect(&grab_key_, &GrabKey::released, this, &GlobeView::releaseGrab);
     connect(&sample_timer_, &QTimer::timeout, this, &GlobeView::report);
     connect(&lead_timer_, &QTimer::timeout, this, &GlobeView::report);

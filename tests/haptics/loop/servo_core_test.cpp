@@ -1,0 +1,108 @@
+#include "haptics/loop/servo_core.h"
+#include "tests/haptics/loop/tick_fixture.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <utility>
+
+namespace marsview::test {
+namespace {
+
+using std::chrono::steady_clock;
+
+// What a device answers next, and what was last written to it.
+struct Script {
+    WorkspacePoint hand{0.0, 0.0, 0.02};
+    DeviceStatus status = DeviceStatus::Fine;
+    Vec3 written_n{};
+};
+
+class ScriptedDevice final : public HapticDevice {
+public:
+    explicit ScriptedDevice(std::shared_ptr<Script> script)
+        : script_(std::move(script))
+    {}
+    const DeviceCapabilities& capabilities() const noexcept override { return capabilities_; }
+    DeviceStatus read(DeviceSample& sample) noexcept override
+    {
+        sample.position = script_->hand;
+        sample.time = steady_clock::now();
+        return script_->status;
+    }
+    DeviceStatus write(const Vec3& force_n) noexcept override
+    {
+        script_->written_n = force_n;
+        return DeviceStatus::Fine;
+    }
+
+private:
+    std::shared_ptr<Script> script_;
+    DeviceCapabilities capabilities_ = desktopDevice();
+};
+
+// Turns by hand, without threads. The terrain is a level plane in the middle of the workspace.
+struct TurnedCore {
+    std::shared_ptr<Script> script = std::make_shared<Script>();
+    ServoCore core;
+
+    explicit TurnedCore(const ServoCoreOptions& options)
+        : core(std::make_unique<ScriptedDevice>(script), options)
+    {
+        core.begin();
+        LoopSettings& settings = core.settings().back();
+        settings.map = servoMap(201, 201, [](std::size_t, std::size_t) { return 0.0; });
+        settings.frame = {.scene_per_meter = 1000.0};
+        settings.frame_number = 1;
+        core.settings().publish();
+    }
+    LoopOutcome turn() { return core.turn(steady_clock::now(), false); }
+};
+
+TEST(ServoCore, CountsWhatItPublishes)
+{
+    constexpr std::uint64_t kTurns = 300;
+    constexpr std::uint64_t kUncounted = 10;
+    ServoCoreOptions options;
+    options.uncounted_turns = kUncounted;
+    options.ticks_max = kTurns;
+    TurnedCore rig(options);
+    EXPECT_FALSE(rig.core.isStalled());
+    LoopCounts expected;
+    for (std::uint64_t i = 1; i <= kTurns; ++i) {
+        EXPECT_FALSE(rig.core.hasEnded());
+        const bool is_pressing = i > 50 && i <= 250;
+        rig.script->hand = {0.0, 0.0, is_pressing ? -0.002 : 0.004};
+        rig.script->status = i > 200 && i <= 220 ? DeviceStatus::Unready : DeviceStatus::Fine;
+        EXPECT_EQ(rig.turn(), i < kTurns ? LoopOutcome::Continue : LoopOutcome::Stop) << i;
+        const LoopState state = rig.core.state();
+        EXPECT_EQ(state.tick, i);
+        const bool is_fine = rig.script->status == DeviceStatus::Fine;
+        if (is_fine) {
+            EXPECT_EQ(state.contact.is_in_contact, is_pressing) << i;
+        }
+        if (i > kUncounted) {
+            ++expected.ticks;
+            expected.in_contact += is_fine && is_pressing ? 1U : 0U;
+            expected.read_errors += is_fine ? 0U : 1U;
+            expected.force_off += state.reason != ForceOffReason::None ? 1U : 0U;
+        }
+        EXPECT_EQ(state.counts.ticks, i > kUncounted ? expected.ticks : i);
+    }
+    EXPECT_TRUE(rig.core.hasEnded());
+    const LoopCounts counts = rig.core.state().counts;
+    EXPECT_EQ(counts.in_contact, 180U);
+    EXPECT_EQ(counts.in_contact, expected.in_contact);
+    EXPECT_EQ(counts.read_errors, 20U);
+    EXPECT_GE(counts.force_off, 20U);
+    EXPECT_EQ(counts.force_off, expected.force_off);
+    EXPECT_EQ(counts.cut_short, 0U);
+    EXPECT_EQ(counts.samples_missed, 0U);
+    EXPECT_EQ(counts.ticks_with_misses, 0U);
+    EXPECT_EQ(counts.not_recorded, 0U);
+}
+
+} // namespace
+} // namespace marsview::test
