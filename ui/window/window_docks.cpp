@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
 
 namespace marsview {
 namespace {
@@ -23,7 +22,6 @@ constexpr int kStateVersion = 3; // of saveState(); raise when docks or toolbars
 
 constexpr int kDockShareOfWidth = 3;      // for the panels of both sides
 constexpr int kDockShareOfWidthAlone = 4; // for those of one side
-constexpr int kDockShareOfHeight = 3;     // for the panels below the map, to begin with
 constexpr int kDockWidthMin = 200;
 constexpr int kDockWidthAloneMin = 260; // where a third of the window is wider
 constexpr int kDockWidthMax = 300;
@@ -100,14 +98,6 @@ QDockWidget* WindowDocks::makeDockBelow(const QString& title, const QString& nam
     dock->setAllowedAreas(Qt::BottomDockWidgetArea | Qt::TopDockWidgetArea);
     dock->setWidget(content);
     window_.addDockWidget(Qt::BottomDockWidgetArea, dock);
-    // Qt shows it no higher than it must be. Afterwards the height is the user's.
-    connect(dock, &QDockWidget::visibilityChanged, this, [this, dock](bool is_visible) {
-        if (is_visible && !std::exchange(is_height_chosen_, true)) {
-            const int height_max = window_.height() / kDockShareOfHeight;
-            window_.resizeDocks({dock}, {std::min(dock->sizeHint().height(), height_max)},
-                                Qt::Vertical);
-        }
-    });
     return dock;
 }
 
@@ -329,7 +319,6 @@ void WindowDocks::restore(const QSettings& settings)
                              kStateVersion);
         for (QDockWidget* dock : {measurements_, annotations_}) {
             if (dock->isVisibleTo(&window_)) {
-                is_height_chosen_ = true;
                 dock->hide();
                 held_back_.append(dock);
             }

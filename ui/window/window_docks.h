@@ -95,7 +95,6 @@ private:
     QList<QDockWidget*> held_back_; // of those, by restore()
     int turn_ = 0;
     bool is_fitting_ = false;
-    bool is_height_chosen_ = false; // of the panels below the map
 };
 
 } // namespace marsview
