@@ -71,6 +71,7 @@ TEST(ServoCore, CountsWhatItPublishes)
     TurnedCore rig(options);
     EXPECT_FALSE(rig.core.isStalled());
     LoopCounts expected;
+    std::uint64_t disturbed = 0; // turns in which a busy machine was too slow
     for (std::uint64_t i = 1; i <= kTurns; ++i) {
         EXPECT_FALSE(rig.core.hasEnded());
         const bool is_pressing = i > 50 && i <= 250;
@@ -80,12 +81,14 @@ TEST(ServoCore, CountsWhatItPublishes)
         const LoopState state = rig.core.state();
         EXPECT_EQ(state.tick, i);
         const bool is_fine = rig.script->status == DeviceStatus::Fine;
-        if (is_fine) {
+        const bool is_undisturbed = is_fine && state.reason == ForceOffReason::None;
+        if (is_undisturbed) {
             EXPECT_EQ(state.contact.is_in_contact, is_pressing) << i;
         }
         if (i > kUncounted) {
             ++expected.ticks;
-            expected.in_contact += is_fine && is_pressing ? 1U : 0U;
+            expected.in_contact += is_undisturbed && is_pressing ? 1U : 0U;
+            disturbed += is_fine && !is_undisturbed ? 1U : 0U;
             expected.read_errors += is_fine ? 0U : 1U;
             expected.force_off += state.reason != ForceOffReason::None ? 1U : 0U;
         }
@@ -93,8 +96,10 @@ TEST(ServoCore, CountsWhatItPublishes)
     }
     EXPECT_TRUE(rig.core.hasEnded());
     const LoopCounts counts = rig.core.state().counts;
-    EXPECT_EQ(counts.in_contact, 180U);
-    EXPECT_EQ(counts.in_contact, expected.in_contact);
+    EXPECT_GE(counts.in_contact, expected.in_contact);
+    EXPECT_LE(counts.in_contact, expected.in_contact + disturbed);
+    EXPECT_LE(counts.in_contact, 180U);
+    EXPECT_GE(counts.in_contact + disturbed, 180U);
     EXPECT_EQ(counts.read_errors, 20U);
     EXPECT_GE(counts.force_off, 20U);
     EXPECT_EQ(counts.force_off, expected.force_off);
