@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 namespace marsview {
 namespace {
 
 constexpr std::array kErrorsPx{1.0, 1.4, 2.0, 2.8, 4.0, 5.6, kErrorPxLarge};
-constexpr std::array kLastErrorsPx{11.0, kErrorPxMax};
+constexpr std::array kLastErrorsPx{11.0, 16.0, 23.0, 32.0, 45.0, kErrorPxMax};
 constexpr std::array kScales{1.0, 0.85, 0.7, 0.6, kScaleMin};
 
 constexpr double kLearningRate = 0.25;
@@ -100,6 +101,21 @@ FramePlan planFrame(const FrameCost& cost,
         }
     }
     return {.error_px = kErrorPxMax, .scale = kScaleMin};
+}
+
+FramePlan planAtRest(double pixel_count,
+                     const std::function<std::size_t(const FramePlan&)>& triangles)
+{
+    for (const std::span<const double> errors_px : {std::span<const double>(kErrorsPx),
+                                                    std::span<const double>(kLastErrorsPx)}) {
+        for (const double error_px : errors_px) {
+            const FramePlan plan{.error_px = error_px};
+            if (static_cast<double>(triangles(plan)) <= kTrianglesPerPixelMax * pixel_count) {
+                return plan;
+            }
+        }
+    }
+    return {.error_px = kErrorPxMax};
 }
 
 } // namespace marsview

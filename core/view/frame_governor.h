@@ -49,7 +49,7 @@ struct FramePlan {
 
 /// Beyond this error the size of the picture is reduced.
 inline constexpr double kErrorPxLarge = 8.0;
-inline constexpr double kErrorPxMax = 16.0;
+inline constexpr double kErrorPxMax = 64.0; // beyond 16 only for relief as steep as a wall
 inline constexpr double kScaleMin = 0.5;
 
 struct FrameRequest {
@@ -68,5 +68,14 @@ FramePlan planFrame(const FrameCost& cost,
                     const FrameRequest& request,
                     const FramePlan& last,
                     const std::function<std::size_t(const FramePlan&)>& triangles);
+
+/// More triangles than samples of the smooth picture show nothing new.
+inline constexpr double kTrianglesPerPixelMax = 4.0;
+
+/// The plan of a picture at rest, at full size: an error of 1 pixel, or the least one whose number
+/// of triangles is within kTrianglesPerPixelMax times `pixel_count`. Only a map with far more
+/// samples than pixels and extreme relief needs more than 1.
+FramePlan planAtRest(double pixel_count,
+                     const std::function<std::size_t(const FramePlan&)>& triangles);
 
 } // namespace marsview

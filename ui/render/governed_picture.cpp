@@ -42,17 +42,19 @@ GovernedPicture::paint(const PictureRequest& request, const DrawStyle& style, un
     draw.is_interim = request.stage != request.last_stage;
     const double pixel_count =
         static_cast<double>(request.viewport.width) * static_cast<double>(request.viewport.height);
-    plan_ = {};
+    const auto triangles = [&](const FramePlan& plan) {
+        draw.detail = detailFor(plan);
+        return renderer_.countTriangles(draw, style.exaggeration);
+    };
     if (request.stage == PictureStage::Moving) {
         plan_ = planFrame(cost_,
                           {.target = target_ * kPictureShare,
                            .pixel_count = pixel_count,
                            .is_touching = request.is_touching},
-                          moving_plan_, [&](const FramePlan& plan) {
-                              draw.detail = detailFor(plan);
-                              return renderer_.countTriangles(draw, style.exaggeration);
-                          });
+                          moving_plan_, triangles);
         moving_plan_ = plan_;
+    } else {
+        plan_ = planAtRest(pixel_count, triangles);
     }
     draw.detail = detailFor(plan_);
     draw.scale = plan_.scale;

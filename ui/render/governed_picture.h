@@ -18,7 +18,7 @@ inline constexpr std::chrono::milliseconds kNewsInterval{250};
 /// How much a picture may take.
 enum class PictureStage {
     Moving, // ready in time, as fine as that allows
-    Sharp,  // a threshold of one pixel
+    Sharp,  // a threshold of one pixel, see planAtRest()
     Smooth, // and with smooth edges
 };
 

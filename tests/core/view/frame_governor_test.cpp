@@ -193,6 +193,25 @@ TEST(FrameGovernor, ReducesPixelsBeforeTheSurfaceInContact)
     }
 }
 
+TEST(FrameGovernor, RestsAtOnePixelUnlessTheTrianglesOutnumberTheSamplesOfTheSmoothPicture)
+{
+    constexpr double kPixels = 1e6;
+    const auto plan_of = [&](double triangles_at_one_px, double least) {
+        return planAtRest(kPixels, [=](const FramePlan& plan) {
+            EXPECT_EQ(plan.scale, 1.0);
+            return static_cast<std::size_t>(
+                std::max(triangles_at_one_px / (plan.error_px * plan.error_px), least));
+        });
+    };
+    EXPECT_EQ(plan_of(0.0, 0.0), FramePlan{});
+    EXPECT_EQ(plan_of(4e6, 0.0), FramePlan{});
+    // 16 million triangles at 1 px are 4 million at 2 px.
+    EXPECT_EQ(plan_of(16e6, 0.0), FramePlan{.error_px = 2.0});
+    EXPECT_EQ(plan_of(4e6 * 16.0 * 16.0, 0.0), FramePlan{.error_px = 16.0});
+    // Even the coarsest has too many: it is drawn nevertheless.
+    EXPECT_EQ(plan_of(1e9, 5e6), FramePlan{.error_px = kErrorPxMax});
+}
+
 TEST(FrameGovernor, StaysWithinItsBoundsForAnyFrameTime)
 {
     Random random;
