@@ -237,6 +237,19 @@ TEST_F(BodyWalls, NoPixelIsSeenThroughAroundAHoleInALongMap)
     }
 }
 
+// The last cells of its nodes are shorter than others, and morph all the same.
+TEST_F(BodyWalls, NoPixelIsSeenThroughWhereAMapEndsWithinANode)
+{
+    const StepMap lower = globe(level);
+    const StepMap upper("+proj=tmerc +lat_0=18.5 +lon_0=77.4 +R=3396190 +units=m", 200, 120,
+                        {-5000, 50, 0, 3000, 0, -50},
+                        [](std::size_t, std::size_t) { return 2000.0; });
+    BodyCamera camera = over(kPositions[1]);
+    camera.azimuth = Angle::degrees(60.0);
+    const OffscreenPicture picture = drawFrom({upper.layer(), lower.layer()}, camera);
+    EXPECT_EQ(open(picture.colors, camera, -200.0), 0U);
+}
+
 // Rays are followed in small steps to where they are below the uppermost map with data.
 TEST_F(BodyWalls, StandWhereTheUpperMapEnds)
 {

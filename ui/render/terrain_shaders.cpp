@@ -262,15 +262,23 @@ vec2 beforeMorph(vec2 t, float to_next)
     return vec2(beforeMorph(t.x, to_next), beforeMorph(t.y, to_next));
 }
 
+// A map that ends within a node has further vertices at its last column or row. The first ones may
+// morph to samples before that; the mesh ends where one does not.
+float atEnd(float cell, bool is_last)
+{
+    return is_last ? 4.0 * ceil(cell * 0.25) : cell;
+}
+
 // On the mesh as it is drawn, above a place. Vertices that morph move sideways too: by so much the
 // point is looked for elsewhere. What is left, because they do not all move alike, is made up for
 // along the mesh.
 Vertex vertexOver(vec2 cell)
 {
-    vec2 four = 4.0 * floor(cell * 0.25);
-    vec2 found = cell;
+    vec2 from = vec2(atEnd(cell.x, sampleOf(cell).x >= u_last_sample.x),
+                     atEnd(cell.y, sampleOf(cell).y >= u_last_sample.y));
+    vec2 four = 4.0 * floor(from * 0.25);
     float to_last = vertexAt(min(four + 2.0, vec2(kNodeCells))).to_last;
-    found = four + 2.0 * beforeMorph((cell - four) * 0.5, to_last);
+    vec2 found = four + 2.0 * beforeMorph((from - four) * 0.5, to_last);
     vec2 two = 2.0 * floor(found * 0.5);
     Vertex middle = vertexAt(min(two + 1.0, vec2(kNodeCells)));
     found = two + beforeMorph(found - two, middle.to_next);
