@@ -79,11 +79,7 @@ NodeSpace::Sight BodyNodes::sight(const DetailNode& node,
                                   const ScenePoint& eye,
                                   bool is_inside) const
 {
-    const OrientedBox& all = boxWithWalls(node);
-    Sight sight{.is_outside =
-                    (!is_inside && frustum.isOutside(all)) ||
-                    Horizon(grid_->ellipsoid(), exaggeration_ * lowest_m_).hides(all, eye),
-                .is_inside = is_inside};
+    Sight sight{.is_outside = isOutside(node, frustum, eye, is_inside), .is_inside = is_inside};
     if (sight.is_outside) {
         return sight;
     }
@@ -96,9 +92,12 @@ NodeSpace::Sight BodyNodes::sight(const DetailNode& node,
 
 bool BodyNodes::isOutside(const DetailNode& node,
                           const Frustum& frustum,
-                          const ScenePoint& /*eye*/) const
+                          const ScenePoint& eye,
+                          bool is_inside) const
 {
-    return frustum.isOutside(boxWithWalls(node));
+    const OrientedBox& all = boxWithWalls(node);
+    return (!is_inside && frustum.isOutside(all)) ||
+           Horizon(grid_->ellipsoid(), exaggeration_ * lowest_m_).hides(all, eye);
 }
 
 double BodyNodes::diagonalM(const DetailNode& node) const

@@ -212,7 +212,7 @@ DetailSelector::quadrantsIn(const Pass& pass, const DetailNode& node, bool is_in
         const bool is_there = below.column < analysis_->errors.columns(level) &&
                               below.row < analysis_->errors.rows(level) &&
                               !analysis_->bounds.bounds(level, below.column, below.row).isEmpty() &&
-                              (is_inside || !space_->isOutside(below, pass.frustum, pass.eye));
+                              !space_->isOutside(below, pass.frustum, pass.eye, is_inside);
         quadrants |= is_there ? 1U << i : 0U;
     }
     return static_cast<std::uint8_t>(quadrants);

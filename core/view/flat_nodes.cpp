@@ -52,9 +52,10 @@ NodeSpace::Sight FlatNodes::sight(const DetailNode& node,
 
 bool FlatNodes::isOutside(const DetailNode& node,
                           const Frustum& frustum,
-                          const ScenePoint& /*eye*/) const
+                          const ScenePoint& /*eye*/,
+                          bool is_inside) const
 {
-    return frustum.isOutside(boxOf(node));
+    return !is_inside && frustum.isOutside(boxOf(node));
 }
 
 SceneBox FlatNodes::boxOf(const DetailNode& node) const

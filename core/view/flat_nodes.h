@@ -22,8 +22,10 @@ public:
                 const Frustum& frustum,
                 const ScenePoint& eye,
                 bool is_inside) const override;
-    bool
-    isOutside(const DetailNode& node, const Frustum& frustum, const ScenePoint& eye) const override;
+    bool isOutside(const DetailNode& node,
+                   const Frustum& frustum,
+                   const ScenePoint& eye,
+                   bool is_inside) const override;
     double diagonalM(const DetailNode& node) const override;
     double cellM() const override { return cell_m_; }
     double sagM(std::size_t /*level*/) const override { return 0.0; }

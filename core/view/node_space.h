@@ -33,8 +33,11 @@ public:
                         const Frustum& frustum,
                         const ScenePoint& eye,
                         bool is_inside) const = 0;
-    virtual bool
-    isOutside(const DetailNode& node, const Frustum& frustum, const ScenePoint& eye) const = 0;
+    /// Sight::is_outside alone.
+    virtual bool isOutside(const DetailNode& node,
+                           const Frustum& frustum,
+                           const ScenePoint& eye,
+                           bool is_inside) const = 0;
     /// A bound of its size. Fast: there are millions of nodes.
     virtual double diagonalM(const DetailNode& node) const = 0;
     /// The longer side of a cell of level 0.

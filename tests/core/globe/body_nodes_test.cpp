@@ -239,6 +239,33 @@ TEST(BodySelection, EverySampleInThePictureIsDrawn)
     }
 }
 
+// Nodes at the horizon are cut to their quadrants.
+TEST(BodySelection, QuadrantsBehindTheHorizonAreNotDrawn)
+{
+    test::Random random(44);
+    const Drawn drawn(test::wholeMars(360, 180));
+    BodyNodes nodes(drawn.analysis, drawn.grid);
+    nodes.setExaggeration(2.0);
+    const double lowest_m = 2.0 * drawn.field.range()->minimum_m;
+    const Horizon horizon(drawn.grid->ellipsoid(), lowest_m);
+    std::size_t cut = 0;
+    for (int i = 0; i < 12; ++i) {
+        const Shot shot = shotOf(drawn, cameraOver(random, drawn), 2.0);
+        for (const SelectedNode& selected : shot.selection.nodes) {
+            cut += selected.quadrants != kAllQuadrants ? 1U : 0U;
+            for (std::size_t q = 0; q < kQuadrantCount && selected.node.level > 0; ++q) {
+                if ((selected.quadrants >> q & 1U) != 0) {
+                    const DetailNode quadrant{selected.node.level - 1,
+                                              2 * selected.node.column + q % 2,
+                                              2 * selected.node.row + q / 2};
+                    EXPECT_FALSE(horizon.hides(nodes.boxOf(quadrant), shot.pose.eye));
+                }
+            }
+        }
+    }
+    EXPECT_GT(cut, 20U);
+}
+
 // Nodes at both ends of a map around the body meet: same ranges where they do.
 TEST(BodySelection, RangesAreTheSameAtBothEndsOfAMapAroundTheBody)
 {
