@@ -106,8 +106,8 @@ FramePlan planFrame(const FrameCost& cost,
 FramePlan planAtRest(double pixel_count,
                      const std::function<std::size_t(const FramePlan&)>& triangles)
 {
-    for (const std::span<const double> errors_px : {std::span<const double>(kErrorsPx),
-                                                    std::span<const double>(kLastErrorsPx)}) {
+    for (const std::span<const double> errors_px :
+         {std::span<const double>(kErrorsPx), std::span<const double>(kLastErrorsPx)}) {
         for (const double error_px : errors_px) {
             const FramePlan plan{.error_px = error_px};
             if (static_cast<double>(triangles(plan)) <= kTrianglesPerPixelMax * pixel_count) {

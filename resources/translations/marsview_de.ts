@@ -6539,8 +6539,8 @@ A scene: the one that suits the layers</extracomment>
         <translation>Sz&amp;ene</translation>
     </message>
     <message>
-        <source>The flat map, as long as the globe lacks some of its functions</source>
-        <translation>Die ebene Karte, solange dem Globus einige ihrer Funktionen fehlen</translation>
+        <source>The globe where layers have several CRSs or cover a tenth of their body, otherwise the flat map</source>
+        <translation>Der Globus, wo Ebenen mehrere KBS haben oder ein Zehntel ihres Körpers bedecken, sonst die ebene Karte</translation>
     </message>
     <message>
         <source>&amp;Flat Map</source>

@@ -77,7 +77,8 @@ QString TestMaps::placed(const std::string& name,
 WindowOptions testWindowOptions()
 {
     return {.geometry = WindowOptions::Geometry::Fixed,
-            .failures = WindowOptions::Failures::BySignalOnly};
+            .failures = WindowOptions::Failures::BySignalOnly,
+            .scene = SceneChoice::Flat};
 }
 
 // By the state: the signal may have come before, while the caller waited for something else.

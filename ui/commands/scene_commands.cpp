@@ -1,6 +1,7 @@
 #include "ui/commands/scene_commands.h"
 
 #include "core/globe/body_navigation.h"
+#include "core/session/suits_globe.h"
 #include "ui/canvas/terrain_view.h"
 #include "ui/controllers/annotation_controller.h"
 #include "ui/controllers/haptics/haptics_controller.h"
@@ -174,10 +175,34 @@ void SceneCommands::showChoices()
     globe.setToolTip(tip);
 }
 
+// The layers are judged again only when there are others: looks change many times a second.
+bool SceneCommands::wantsGlobe()
+{
+    if (choice_ == SceneChoice::Flat || !whyNoGlobe().isEmpty()) {
+        return false;
+    }
+    if (choice_ == SceneChoice::Globe) {
+        return true;
+    }
+    const Session& session = parts_.session.session();
+    std::vector<std::weak_ptr<const Map>> visible;
+    for (const Layer& layer : session.layers) {
+        if (layer.is_visible) {
+            visible.emplace_back(layer.map);
+        }
+    }
+    const auto is_same = [](const auto& a, const auto& b) { return a.lock() == b.lock(); };
+    if (!std::ranges::equal(visible, judged_, is_same)) {
+        judged_ = std::move(visible);
+        suits_globe_ = suitsGlobe(session);
+    }
+    return suits_globe_;
+}
+
 void SceneCommands::choose(SceneChoice choice)
 {
     choice_ = choice;
-    setGlobeShown(choice == SceneChoice::Globe && whyNoGlobe().isEmpty());
+    setGlobeShown(wantsGlobe());
     showChoices();
 }
 
@@ -197,7 +222,9 @@ std::optional<ViewCamera> SceneCommands::globeCamera() const
 
 void SceneCommands::showGlobeFrom(const ViewCamera& camera)
 {
-    choose(SceneChoice::Globe);
+    if (!is_globe_shown_) {
+        choose(SceneChoice::Globe);
+    }
     const auto on_body = bodyCamera(camera, parts_.view.exaggeration());
     if (is_globe_shown_ && on_body) {
         is_handing_ = false; // the flat map has another one
@@ -219,9 +246,12 @@ void SceneCommands::follow()
 {
     read_map_.reset(); // the window shows another map in the status bar
     // Removing the last layer, or a map without a body on top, leads back to the flat map.
-    if (is_globe_shown_ && !whyNoGlobe().isEmpty()) {
+    if (choice_ == SceneChoice::Globe && is_globe_shown_ && !whyNoGlobe().isEmpty()) {
         choose(SceneChoice::Flat);
         return;
+    }
+    if (choice_ == SceneChoice::Automatic) {
+        setGlobeShown(wantsGlobe());
     }
     showChoices();
     if (!is_globe_shown_) {

@@ -57,8 +57,7 @@ public:
 
     explicit SceneCommands(const Parts& parts);
 
-    /// What View › Scene has. Automatic is the flat map so far: the globe lacks some of its
-    /// functions.
+    /// What View › Scene has. Automatic is the globe where it suits the layers: see suitsGlobe().
     SceneChoice choice() const noexcept { return choice_; }
     void choose(SceneChoice choice);
     bool isGlobeShown() const noexcept { return is_globe_shown_; }
@@ -86,6 +85,7 @@ private:
     void drawOn(DrawingScene* scene);
     /// Why the globe cannot be shown; empty where it can.
     QString whyNoGlobe() const;
+    bool wantsGlobe();
 
     // The cameras of both when one got the other's.
     struct HandedCamera {
@@ -97,6 +97,8 @@ private:
     GlobeScene* globe_scene_;    // a child of the globe
     GlobeHandScene* globe_hand_; // the same
     SceneChoice choice_ = SceneChoice::Automatic;
+    std::vector<std::weak_ptr<const Map>> judged_; // visible layers, top first
+    bool suits_globe_ = false;                     // these
     bool is_globe_shown_ = false;
     std::optional<HandedCamera> handed_;
     bool is_handing_ = false;           // until the globe has a layer

@@ -212,12 +212,13 @@ WindowCommands::WindowCommands(const WindowParts& parts, const WindowOptions& op
              .vector_files = vector_files.overlays(),
              .layer_list = parts.layers.findChild<LayerModel*>()})
 {
+    scene.choose(options.scene);
     project.setScene({.choice = [this] { return scene.choice(); },
                       .globe_camera = [this] { return scene.globeCamera(); },
                       .show =
                           [this](SceneChoice choice, const std::optional<ViewCamera>& camera) {
                               scene.choose(choice);
-                              if (choice == SceneChoice::Globe && camera) {
+                              if (camera && scene.isGlobeShown()) {
                                   scene.showGlobeFrom(*camera);
                               }
                           }});

@@ -289,7 +289,8 @@ void WindowActions::makeSceneMenu(QMainWindow& window, QMenu& view)
         scenes->addAction(action);
     };
     //: A scene: the one that suits the layers
-    add(tr("&Automatic"), tr("The flat map, as long as the globe lacks some of its functions"));
+    add(tr("&Automatic"), tr("The globe where layers have several CRSs or cover a tenth of their "
+                             "body, otherwise the flat map"));
     //: A scene
     add(tr("&Flat Map"), tr("Lay the topmost layer out in the plane of its CRS"));
     //: A scene: the topmost layer where it lies on its body

@@ -1,6 +1,7 @@
 // How a window behaves beyond showing maps.
 #pragma once
 
+#include "core/session/project.h"
 #include "haptics/sound/sound_player.h"
 #include "ui/controllers/device_finder.h"
 #include "ui/controllers/map_opener.h"
@@ -22,6 +23,8 @@ struct WindowOptions {
     /// Whether the user is asked before unsaved changes are lost, and about what a crash left
     /// behind.
     enum class Questions { None, Ask } questions = Questions::None;
+    /// What View › Scene has at first.
+    SceneChoice scene = SceneChoice::Automatic;
     /// Where copies of unsaved projects go; empty for none.
     std::filesystem::path autosave_folder{};
     /// The folder of the maps that come with the program.
