@@ -1,5 +1,6 @@
 #include "core/session/session.h"
 
+#include "core/geo/covered_share.h"
 #include "core/session/map.h"
 
 #include <algorithm>
@@ -368,6 +369,23 @@ std::vector<const Layer*> layersOnBody(const Session& session)
         }
     }
     return inOrder(std::move(layers), session.order);
+}
+
+bool suitsGlobe(const Session& session)
+{
+    const auto top = std::ranges::find_if(session.layers, &Layer::is_visible);
+    if (top == session.layers.end() || top->map->info().body == nullptr) {
+        return false;
+    }
+    const std::vector<const Layer*> layers = layersOnBody(session);
+    if (layers.size() > shownLayers(session).size()) {
+        return true; // the flat map leaves some out
+    }
+    std::vector<const Georeference*> rasters;
+    for (const Layer* layer : layers) {
+        rasters.push_back(&layer->map->georeference());
+    }
+    return coveredShare(rasters) >= kGlobeShare;
 }
 
 double exaggerationOf(const Session& session)

@@ -175,6 +175,14 @@ std::vector<const Layer*> shownLayers(const Session& session);
 /// whatever their CRS.
 std::vector<const Layer*> layersOnBody(const Session& session);
 
+/// Layers that cover at least this share of their body are shown on it.
+inline constexpr double kGlobeShare = 0.1;
+
+/// Whether the scene of a body suits the visible layers on the topmost one's body better than a
+/// flat map: they are in several CRSs, or cover kGlobeShare of it together. False if that body is
+/// unknown. Takes milliseconds per layer.
+bool suitsGlobe(const Session& session);
+
 /// Vertical exaggeration of the picture; 1 if all layers are hidden.
 double exaggerationOf(const Session& session);
 /// For all layers in the picture; `exaggeration` is positive.

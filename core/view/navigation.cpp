@@ -322,16 +322,20 @@ std::optional<OrbitCamera> openingCameraOfMars(const Georeference& georeference)
 
 } // namespace
 
-std::optional<OrbitCamera> openingCamera(const Georeference& georeference)
+bool hasOpeningPlace(const Georeference& georeference)
 {
     const Body* body = georeference.body();
-    if (body == nullptr || !georeference.wrapsAround()) {
+    return body != nullptr && georeference.wrapsAround() && body->name == "Mars" &&
+           openingCameraOfMars(georeference);
+}
+
+std::optional<OrbitCamera> openingCamera(const Georeference& georeference)
+{
+    if (georeference.body() == nullptr || !georeference.wrapsAround()) {
         return std::nullopt;
     }
-    if (body->name == "Mars") {
-        if (const auto camera = openingCameraOfMars(georeference)) {
-            return camera;
-        }
+    if (hasOpeningPlace(georeference)) {
+        return openingCameraOfMars(georeference);
     }
     const SceneFrame frame = georeference.sceneFrame();
     const ScenePoint first = frame.toScene(GridPoint{0.0, 0.0}, 0.0);

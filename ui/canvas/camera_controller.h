@@ -66,6 +66,8 @@ public:
 
     /// Jumps to the opening view of the topmost map, and again at resize() until the camera moves.
     void goToOpeningView();
+    /// The camera has not moved since.
+    bool isAtOpeningView() const noexcept { return is_at_opening_view_; }
     /// The size of the picture changed.
     void resize();
     /// The exaggeration of the scene is about to change: the goal of a motion in progress.

@@ -68,6 +68,8 @@ public:
     /// Jumps, within the limits.
     void setCamera(const OrbitCamera& camera) { camera_.jumpTo(camera); }
     bool isMoving() const noexcept override { return camera_.isMoving(); }
+    /// Nobody has moved since the map was opened.
+    bool isAtOpeningView() const noexcept { return camera_.isAtOpeningView(); }
 
     double exaggeration() const noexcept { return scene_.style.exaggeration; }
     /// Keeps the piece of ground in the middle of the picture there.

@@ -1,7 +1,7 @@
 #include "ui/commands/scene_commands.h"
 
 #include "core/globe/body_navigation.h"
-#include "core/session/suits_globe.h"
+#include "core/view/navigation.h"
 #include "ui/canvas/terrain_view.h"
 #include "ui/controllers/annotation_controller.h"
 #include "ui/controllers/haptics/haptics_controller.h"
@@ -332,7 +332,8 @@ void SceneCommands::drawOn(DrawingScene* scene)
     parts_.vector_files.drawOn(scene);
 }
 
-// Seen whole, a flat map of a planet is much wider than the globe: that is seen whole, too.
+// Seen whole, a flat map of a planet is much wider than the globe: that is seen whole, too, as it
+// is where nobody has moved yet and no certain place is shown.
 void SceneCommands::handToGlobe()
 {
     const TerrainView& view = parts_.view;
@@ -340,7 +341,8 @@ void SceneCommands::handToGlobe()
         parts_.globe.setCamera(handed_->globe); // nothing moved since
         return;
     }
-    if (isWide(view) && isWhole(view)) {
+    const bool is_opening = view.isAtOpeningView() && !hasOpeningPlace(view.map()->georeference());
+    if (isWide(view) && (is_opening || isWhole(view))) {
         parts_.globe.setHomeCamera();
         is_handing_ = true;
         return;

@@ -152,6 +152,7 @@ void GlobeOverlays::connectParts()
             [this] { labels_->setNames(flat_.labels()->names()); });
     connect(flat_.labels(), &MapLabels::formatChanged, labels_,
             [this] { labels_->setCoordinateFormat(flat_.labels()->coordinateFormat()); });
+    connect(&globe_, &GlobeView::toolChanged, this, &GlobeOverlays::showSettings);
     connect(&flat_, &MapOverlays::settingsChanged, this, &GlobeOverlays::showSettings);
     connect(&flat_, &MapOverlays::markChanged, this, &GlobeOverlays::showMark);
     connect(&globe_, &GlobeView::placed, this, &GlobeOverlays::readOverview);
@@ -248,7 +249,7 @@ void GlobeOverlays::showSettings()
     layout_->setWanted(legend_, is_on("legend"));
     layout_->setWanted(compass_, has_terrain && is_on("compass"));
     layout_->setWanted(scale_bar_, is_on("compass"));
-    layout_->setWanted(hint_, has_terrain && flat_.isHintOffered());
+    layout_->setWanted(hint_, has_terrain && flat_.isHintWanted());
     showLegend();
 }
 

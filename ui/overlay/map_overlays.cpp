@@ -245,13 +245,17 @@ void MapOverlays::clearMarkOnClick(const QMouseEvent& event)
     }
 }
 
+// It names what a drag does with the tools that move and touch.
+bool MapOverlays::isHintWanted() const
+{
+    return is_hint_offered_ && view_.tool() != Tool::Measure && view_.tool() != Tool::Annotate;
+}
+
 void MapOverlays::showMap()
 {
     showMark();
     layout_->setWanted(compass_, bool(view_.map()) && actions_.back()->isChecked());
-    // It names what a drag does with the tools that move and touch.
-    const bool is_drawing = view_.tool() == Tool::Measure || view_.tool() == Tool::Annotate;
-    layout_->setWanted(hint_, bool(view_.map()) && is_hint_offered_ && !is_drawing);
+    layout_->setWanted(hint_, bool(view_.map()) && isHintWanted());
     if (!view_.map()) {
         minimap_->clear();
         scale_bar_->clear();

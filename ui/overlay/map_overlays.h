@@ -61,6 +61,8 @@ public:
     /// Shows the gestures to a newcomer, from the first map on, until they are dismissed.
     void offerHint();
     bool isHintOffered() const noexcept { return is_hint_offered_; }
+    /// Offered, and not in the way of a tool that draws.
+    bool isHintWanted() const;
     void dismissHint();
 
     /// Puts a pin at a place of the topmost layer, in place of the one before. It stays until it is

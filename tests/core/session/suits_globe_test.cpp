@@ -1,4 +1,4 @@
-#include "core/session/suits_globe.h"
+#include "core/session/session.h"
 #include "tests/support/make_raster.h"
 #include "tests/support/temp_folder.h"
 

@@ -37,6 +37,24 @@ TEST_F(AutomaticSceneTest, AWholePlanetIsAGlobeAndALandingSiteIsFlat)
     EXPECT_TRUE(scene(0)->isChecked());
 }
 
+// The overview map has 0° in its middle.
+TEST_F(AutomaticSceneTest, AWholeBodyIsSeenFromItsPrimeMeridian)
+{
+    ASSERT_TRUE(openAndWait(
+        *window_, maps_.placed("whole", "IAU_2015:30100", {0.0, 9.0, 0.0, 90.0, 0.0, -6.0})));
+    ASSERT_TRUE(isGlobe());
+    EXPECT_NEAR(globe().camera().target.longitude.degrees(), 0.0, 1e-6);
+    EXPECT_NEAR(globe().camera().target.latitude.degrees(), 0.0, 1e-6);
+    EXPECT_EQ(globe().camera().tilt, Angle{});
+}
+
+TEST_F(AutomaticSceneTest, MarsIsSeenBetweenTharsisAndVallesMarineris)
+{
+    ASSERT_TRUE(openMars());
+    EXPECT_NEAR(globe().camera().target.longitude.degrees(), 266.0 - 360.0, 0.1);
+    EXPECT_NEAR(globe().camera().target.latitude.degrees(), -1.0, 0.1);
+}
+
 TEST_F(AutomaticSceneTest, LayersInSeveralCrssAreOnTheGlobe)
 {
     ASSERT_TRUE(openAndWait(*window_, maps_.mars()));

@@ -263,6 +263,12 @@ TEST_F(GlobeOverlaysTest, TheHintIsOfferedAndDismissedAsOnTheFlatMap)
     EXPECT_FALSE(overlays().hint()->isVisible());
     flat().offerHint();
     EXPECT_TRUE(overlays().hint()->isVisible());
+    for (const Tool tool : {Tool::Measure, Tool::Annotate}) {
+        view().setTool(tool);
+        EXPECT_FALSE(overlays().hint()->isVisible()) << "clicks do something else";
+        view().setTool(Tool::Pan);
+        EXPECT_TRUE(overlays().hint()->isVisible());
+    }
     wheel(globeMiddle(), 1);
     EXPECT_TRUE(overlays().hint()->isDone(MapAction::Zoom));
     Q_EMIT overlays().hint()->dismissed();

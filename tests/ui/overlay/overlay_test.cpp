@@ -577,6 +577,8 @@ class OverlayLayoutTest : public testing::Test {
 protected:
     void SetUp() override
     {
+        // The X server would confirm sizes of before once there is another.
+        host_.setAttribute(Qt::WA_DontShowOnScreen);
         minimap_->setMap(QImage(), frameOf(kRasters[0]), kColumns, kRows);
         minimap_->setCamera(someCamera(), kViewport);
         scale_bar_->setCamera(someCamera(), kViewport);
