@@ -265,10 +265,10 @@ Result<Attitude> fitAttitude(const Ground& ground,
         return Error{
             ErrorCode::Invalid,
             fmt::format("the plane is uncertain by {:.0f} degrees, more than {:.0f}; choose "
-                        "points that are farther apart across {:.0f} degrees or closer to "
-                        "one plane",
+                        "points that are farther apart along azimuth {:.0f}°, or closer "
+                        "to one plane",
                         uncertainty.axes[0].half_angle_deg, kPoleErrorDegMax,
-                        uncertainty.axes[0].trend_deg)};
+                        std::fmod(uncertainty.axes[0].trend_deg, 180.0))};
     }
     setErrors(normal, directions, tangents, uncertainty);
     return attitude;
