@@ -332,18 +332,32 @@ public:
     Cast castFree(const Goal& from, const Goal& to) const noexcept;
 
     /// Calls function(face, corners counter-clockwise) with each face whose box intersects the box
-    /// from `low` to `high`; occasionally also with one whose box misses it by a rounding error.
+    /// from `low` to `high`.
     template <typename F>
     void eachFaceNear(const ScenePoint& low, const ScenePoint& high, F&& function) const noexcept
     {
-        mesh_->tree().inBox(low, high,
-                            [&](Index face) { function(Face{face}, mesh_->points(face)); });
+        mesh_->tree().inBox(low, high, [&](Index face) {
+            const auto points = mesh_->points(face);
+            if (mayMeet(points, low, high)) {
+                function(Face{face}, points);
+            }
+        });
     }
 
     std::uint32_t stepsMax() const noexcept { return steps_max_; }
     std::uint32_t stepsAlong(double /*way*/) const noexcept { return steps_max_; }
 
 private:
+    // A tree may find blocks of faces.
+    static bool mayMeet(const std::array<ScenePoint, 3>& points,
+                        const ScenePoint& low,
+                        const ScenePoint& high) noexcept
+    {
+        const auto [a, b, c] = points;
+        return std::min({a.x, b.x, c.x}) <= high.x && std::max({a.x, b.x, c.x}) >= low.x &&
+               std::min({a.y, b.y, c.y}) <= high.y && std::max({a.y, b.y, c.y}) >= low.y &&
+               std::min({a.z, b.z, c.z}) <= high.z && std::max({a.z, b.z, c.z}) >= low.z;
+    }
     static Index turnedCorner(const Facet& facet, std::size_t i) noexcept
     {
         return facet.corner == Mesh::kNone ? Mesh::kNone

@@ -32,6 +32,15 @@
 
 namespace marsview {
 
+/// A surface whose vertical is the ellipsoid's normal. Elsewhere it is the z axis of the scene.
+template <typename S>
+concept SurfaceOnBody = requires(const S& s, const ScenePoint& p)
+{
+    s.mesh()->highAbove(p);
+    verticalAt(s.mesh()->ellipsoid(), p);
+    clearanceOver(s, p);
+};
+
 /// Within an update the sphere is swept straight to the goal, then from touch to touch to the
 /// constrained goals, until none is closer. The reported proxy is its center. It is in contact if
 /// the surface keeps it from the goal; the feature is the one nearest to the center.
@@ -76,9 +85,8 @@ public:
             return;
         }
         const ScenePoint before = center_;
-        const auto under = surface_.goal(before);
-        const bool is_in_contact = feature_ != ContactFeature::Free && under;
-        center_ = lifted(is_in_contact ? surface_.point(surface_.contactAt(*under)) : before);
+        const bool is_in_contact = feature_ != ContactFeature::Free;
+        center_ = lifted(is_in_contact ? straightBelow(before) : before);
         if (!(center_ == before)) {
             rest();
         }
@@ -695,6 +703,20 @@ private:
                touchAt(p).distance >= radius_m_ - 0.5 * tolerance(p);
     }
 
+    // The surface straight above or below `p`, or `p` where there is none.
+    ScenePoint straightBelow(const ScenePoint& p) const noexcept
+    {
+        if constexpr (SurfaceOnBody<S>) {
+            const double clearance_m = clearanceOver(surface_, p);
+            return std::isfinite(clearance_m)
+                       ? p - verticalAt(surface_.mesh()->ellipsoid(), p).up * clearance_m
+                       : p;
+        } else {
+            const auto goal = surface_.goal(p);
+            return goal ? surface_.point(surface_.contactAt(*goal)) : p;
+        }
+    }
+
     // `p` if the sphere is free there, otherwise where a sphere lowered from above all faces comes
     // to rest above it.
     ScenePoint lifted(const ScenePoint& p) noexcept
@@ -702,6 +724,28 @@ private:
         if (isFreeAt(p)) {
             return p;
         }
+        if constexpr (SurfaceOnBody<S>) {
+            // All faces are lower than the first point, so the sphere begins free.
+            const Vec3 up = verticalAt(surface_.mesh()->ellipsoid(), p).up;
+            ScenePoint at = surface_.mesh()->highAbove(p) + up * radius_m_;
+            // After a long sweep rounding may leave a gap for the next one to close.
+            constexpr int kSweepsMax = 4;
+            for (int i = 0; i < kSweepsMax; ++i) {
+                const Vec3 down = p - at;
+                const Swept swept = sweep(at, down, 0.0);
+                at = at + down * swept.share;
+                if (swept.is_at_once || swept.stopped_by.feature == ContactFeature::Free) {
+                    break;
+                }
+            }
+            return at;
+        } else {
+            return liftedAlongZ(p);
+        }
+    }
+
+    ScenePoint liftedAlongZ(const ScenePoint& p) noexcept
+    {
         ScenePoint top = p;
         if (const auto goal = surface_.goal(p)) {
             top.z = std::max(top.z, surface_.point(surface_.contactAt(*goal)).z + radius_m_);
