@@ -130,7 +130,7 @@ BodyArea areaOf(const BodyGrid& grid)
     }
     // A map that goes around the body and leaves out a pole covers less, but is looked at alike.
     area.reach = Angle::radians(std::min(1.001 * reach, std::numbers::pi));
-    // Samples on the other side of the body: around all of it.
+    // Its farthest samples are on the other side of the body: the map covers all of it.
     if (reach + 2.0 * grid.stepMaxM() / largestRadius(grid.ellipsoid()) >= std::numbers::pi) {
         area = {}; // its middle is that of overview maps
     }

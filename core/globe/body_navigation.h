@@ -22,7 +22,7 @@ struct BodyArea {
     Angle reach = Angle::degrees(180.0);
 };
 
-/// Around all samples of a map. Around the whole body, the middle is at 0°, 0°, as in overview maps.
+/// Around all samples of a map. For a map of the whole body, the middle is at 0°, 0°.
 BodyArea areaOf(const BodyGrid& grid);
 
 /// The limits of the camera. Heights are exaggerated.

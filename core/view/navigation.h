@@ -102,7 +102,7 @@ OrbitCamera fillingCamera(std::span<const SceneBox> boxes,
 /// A first view of a map around its body, oblique and filled by the map: on Mars, Tharsis and
 /// Valles Marineris from the southeast, otherwise its middle from the south. Empty for other maps.
 std::optional<OrbitCamera> openingCamera(const Georeference& georeference);
-/// Whether that view is of a certain place rather than of the map's middle.
+/// Whether that view shows a particular place rather than the middle of the map.
 bool hasOpeningPlace(const Georeference& georeference);
 
 /// The intersection of a ray with the level z = `level_m`, at most `distance_max_m` away; the point

@@ -68,7 +68,7 @@ public:
     /// Jumps, within the limits.
     void setCamera(const OrbitCamera& camera) { camera_.jumpTo(camera); }
     bool isMoving() const noexcept override { return camera_.isMoving(); }
-    /// Nobody has moved since the map was opened.
+    /// The camera has not moved since the map was opened.
     bool isAtOpeningView() const noexcept { return camera_.isAtOpeningView(); }
 
     double exaggeration() const noexcept { return scene_.style.exaggeration; }

@@ -332,8 +332,8 @@ void SceneCommands::drawOn(DrawingScene* scene)
     parts_.vector_files.drawOn(scene);
 }
 
-// Seen whole, a flat map of a planet is much wider than the globe: that is seen whole, too, as it
-// is where nobody has moved yet and no certain place is shown.
+// Seen whole, a flat map of a planet is much wider than the globe, which is then seen whole, too.
+// The same holds for a map that was just opened, unless its opening view shows a place.
 void SceneCommands::handToGlobe()
 {
     const TerrainView& view = parts_.view;

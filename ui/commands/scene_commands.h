@@ -98,7 +98,7 @@ private:
     GlobeHandScene* globe_hand_; // the same
     SceneChoice choice_ = SceneChoice::Automatic;
     std::vector<std::weak_ptr<const Map>> judged_; // visible layers, top first
-    bool suits_globe_ = false;                     // these
+    bool suits_globe_ = false;                     // suitsGlobe() for them
     bool is_globe_shown_ = false;
     std::optional<HandedCamera> handed_;
     bool is_handing_ = false;           // until the globe has a layer

@@ -25,7 +25,7 @@ struct Round {
     std::string crs;
 };
 
-// Mars, and a body as flat as Haumea's meridian.
+// Mars as a sphere and as an ellipsoid, and a strongly flattened body.
 class SphereOnBody : public testing::TestWithParam<Round> {
 protected:
     static std::shared_ptr<const BodyMesh> mesh(double exaggeration)

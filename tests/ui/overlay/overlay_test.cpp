@@ -577,7 +577,7 @@ class OverlayLayoutTest : public testing::Test {
 protected:
     void SetUp() override
     {
-        // The X server would confirm sizes of before once there is another.
+        // The X server confirms sizes late: an earlier one would replace the next.
         host_.setAttribute(Qt::WA_DontShowOnScreen);
         minimap_->setMap(QImage(), frameOf(kRasters[0]), kColumns, kRows);
         minimap_->setCamera(someCamera(), kViewport);
