@@ -33,6 +33,7 @@
 #include "ui/window/load_status.h"
 #include "ui/window/main_tool_bar.h"
 #include "ui/window/status_readout.h"
+#include "ui/window/theme.h"
 #include "ui/window/whats_this.h"
 #include "ui/window/window_actions.h"
 #include "ui/window/window_docks.h"
@@ -85,10 +86,17 @@ const Layer* titleLayer(const Session& session)
     return is_shown || shown.empty() ? active : shown.front();
 }
 
+// The style comes before the first widget.
+QWidget* withLineStyle(QWidget* parent)
+{
+    useLineStyle();
+    return parent;
+}
+
 } // namespace
 
 MainWindow::MainWindow(const WindowOptions& options, QWidget* parent)
-    : QMainWindow(parent)
+    : QMainWindow(withLineStyle(parent))
     , options_(withTileCache(options))
     , view_(new TerrainView(this))
     , globe_(new GlobeView(this))

@@ -15,7 +15,7 @@
 #include "app/console/text_output.h"
 #include "core/base/nearest_word.h"
 #include "core/files/file_address.h"
-#include "core/raster/output_check.h"
+#include "core/sources/output_check.h"
 #include "haptics/device/device_registry.h"
 #include "haptics/drivers/built_in_drivers.h"
 #include "haptics/drivers/record_driver.h"

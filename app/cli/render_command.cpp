@@ -7,7 +7,7 @@
 #include "app/console/scene.h"
 #include "app/console/scene_option.h"
 #include "core/files/picture_file.h"
-#include "core/raster/output_check.h"
+#include "core/sources/output_check.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>

@@ -8,10 +8,10 @@
 #include "app/console/picture.h"
 #include "app/console/scene.h"
 #include "core/files/picture_file.h"
-#include "core/raster/output_check.h"
 #include "core/session/preview.h"
 #include "core/session/project.h"
 #include "core/session/sample_map.h"
+#include "core/sources/output_check.h"
 #include "core/view/color_ramp.h"
 
 #include <CLI/CLI.hpp>

@@ -9,7 +9,7 @@
 #include "app/console/output_file.h"
 #include "app/console/scene_option.h"
 #include "app/console/text_output.h"
-#include "core/raster/output_check.h"
+#include "core/sources/output_check.h"
 #include "haptics/trace/goal_file.h"
 
 #include <CLI/CLI.hpp>

@@ -12,6 +12,7 @@ struct ArchiveRaster {
     std::string name; // GDAL's: "/vsizip/maps.zip/dem.tif"
     std::size_t columns = 0;
     std::size_t rows = 0;
+    bool operator==(const ArchiveRaster&) const = default;
 };
 
 /// GDAL's name for the contents of an archive: for .zip, .tar, .tgz and .tar.gz files, and for such
@@ -26,7 +27,8 @@ std::string archiveNameFor(const std::string& path);
 /// archives. Any thread.
 std::vector<ArchiveRaster> rastersInArchive(const std::string& archive);
 
-/// A notice that names the opened raster and the others; empty if there is only one.
+/// A notice that names the opened raster and the others by GDAL's names; empty if there is only
+/// one.
 std::string archiveNotice(const std::vector<ArchiveRaster>& rasters, const std::string& opened);
 
 } // namespace marsview

@@ -173,7 +173,7 @@ PlainAttempt openPlain(const std::string& name)
 }
 
 // A message about what a GDAL driver did to the child process.
-Error refusalOf(const ProbeAnswer& answer, const std::vector<std::string>& names, double seconds)
+Error refusalOf(const ProbeAnswer& answer, const std::vector<std::string>& names)
 {
     const std::string which = answer.name == 0 ? std::string("this file")
                                                : fs::path(names[answer.name]).filename().string();
@@ -185,7 +185,7 @@ Error refusalOf(const ProbeAnswer& answer, const std::vector<std::string>& names
         return {ErrorCode::Unreadable,
                 fmt::format("{} did not open {} within {:.0f} s; if the file is not damaged, set "
                             "MARSVIEW_OPEN_SECONDS to a larger number or convert it to GeoTIFF",
-                            driver, which, seconds)};
+                            driver, which, answer.limit_s)};
     case ProbeAnswer::Kind::OutOfMemory:
         return {ErrorCode::TooLarge,
                 fmt::format("{} needs more than {:.1f} GB of memory to open {}; if the file is not "
@@ -226,7 +226,7 @@ Result<GuardedDataset> openAfterProbe(const std::vector<std::string>& names)
     for (const std::string& name : names) {
         bytes = std::max(bytes, fileBytes(name));
     }
-    std::optional<ProbeAnswer> answer = cachedProbe(names);
+    std::optional<ProbeAnswer> answer = cachedProbe(names, probeSeconds(bytes));
     if (!answer) {
         Result<ProbeAnswer> fresh = probeNames(names, bytes, OpeningJob::current());
         if (!fresh) {
@@ -239,7 +239,7 @@ Result<GuardedDataset> openAfterProbe(const std::vector<std::string>& names)
         return Error{ErrorCode::Unsupported, answer->message};
     }
     if (answer->kind != ProbeAnswer::Kind::Opened) {
-        return refusalOf(*answer, names, probeSeconds(bytes));
+        return refusalOf(*answer, names);
     }
     GuardedDataset opened;
     opened.name = answer->name;

@@ -205,8 +205,8 @@ probeEach(const std::vector<std::string>& names, std::size_t bytes, const JobMon
 Result<ProbeAnswer>
 probeNames(const std::vector<std::string>& names, std::size_t bytes, const JobMonitor* job)
 {
-    const Result<ChildOutcome> outcome =
-        runProbe(names, probeSeconds(bytes), Names::FirstThatOpens, job);
+    const double limit_s = probeSeconds(bytes);
+    const Result<ChildOutcome> outcome = runProbe(names, limit_s, Names::FirstThatOpens, job);
     if (!outcome) {
         return outcome.error();
     }
@@ -217,6 +217,7 @@ probeNames(const std::vector<std::string>& names, std::size_t bytes, const JobMo
     answer.driver = report.driver;
     if (outcome->end == ChildEnd::TimedOut || outcome->signal == SIGXCPU) {
         answer.kind = ProbeAnswer::Kind::TimedOut;
+        answer.limit_s = limit_s;
     } else if (report.is_out_of_memory) {
         answer.kind = ProbeAnswer::Kind::OutOfMemory;
     } else if (outcome->end == ChildEnd::Killed || !report.answer) {

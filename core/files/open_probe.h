@@ -28,7 +28,8 @@ struct ProbeAnswer {
     std::string driver;
     std::vector<std::string> files; // if Opened: all files of the raster, as GDAL lists them
     std::string message;
-    bool prints = false; // a library prints lines to stderr
+    bool prints = false;  // a library prints lines to stderr
+    double limit_s = 0.0; // if TimedOut: how long the child had
 };
 
 /// Lets a child open the first of the names that GDAL opens and read samples for a moment. Limits:

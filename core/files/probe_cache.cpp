@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <fmt/format.h>
@@ -24,7 +25,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 // Changes whenever drivers, limits or the parts read of a file change.
-constexpr int kFormat = 2;
+constexpr int kFormat = 3;
 
 // Limit for the folder: a few hundred bytes each.
 constexpr std::size_t kFilesMax = 4096;
@@ -38,6 +39,13 @@ fs::path folder()
     }
     return userFolder("XDG_CACHE_HOME", ".cache") / "marsview" / "opened";
 }
+
+// A busy machine may have caused a timeout.
+constexpr std::chrono::hours kTimeoutKept{1};
+
+constexpr std::array kKinds{std::pair{ProbeAnswer::Kind::Opened, "opened"},
+                            std::pair{ProbeAnswer::Kind::Crashed, "crashed"},
+                            std::pair{ProbeAnswer::Kind::TimedOut, "timed out"}};
 
 // Relative names depend on the working folder.
 std::string keyOf(const std::vector<std::string>& names)
@@ -62,7 +70,8 @@ fs::path fileFor(const std::string& key)
 
 struct Remembered {
     ProbeAnswer answer;
-    std::string stamp; // of answer.files
+    std::string stamp;             // of answer.files
+    std::chrono::sys_seconds at{}; // when the child ended
 };
 
 std::mutex cache_mutex;
@@ -90,8 +99,16 @@ std::optional<Remembered> load(const std::string& key)
         }
         Remembered found;
         found.stamp = json.at("stamp").get<std::string>();
-        found.answer.kind =
-            json.at("opens").get<bool>() ? ProbeAnswer::Kind::Opened : ProbeAnswer::Kind::Crashed;
+        const auto kind = std::find_if(kKinds.begin(), kKinds.end(), [&json](const auto& named) {
+            return json.at("kind") == named.second;
+        });
+        if (kind == kKinds.end()) {
+            return std::nullopt;
+        }
+        found.answer.kind = kind->first;
+        found.answer.limit_s = json.at("limit_s").get<double>();
+        found.at =
+            std::chrono::sys_seconds(std::chrono::seconds(json.at("at").get<std::int64_t>()));
         found.answer.name = json.at("name").get<std::size_t>();
         found.answer.driver = json.at("driver").get<std::string>();
         found.answer.files = json.at("files").get<std::vector<std::string>>();
@@ -126,9 +143,14 @@ void save(const std::string& key, const Remembered& remembered)
     fs::create_directories(path.parent_path(), failure);
     makeRoom(path.parent_path());
     const ProbeAnswer& answer = remembered.answer;
+    const auto kind = std::find_if(kKinds.begin(), kKinds.end(), [&answer](const auto& named) {
+        return named.first == answer.kind;
+    });
     const Json json{{"key", key},
                     {"stamp", remembered.stamp},
-                    {"opens", answer.kind == ProbeAnswer::Kind::Opened},
+                    {"kind", kind->second},
+                    {"limit_s", answer.limit_s},
+                    {"at", remembered.at.time_since_epoch().count()},
                     {"name", answer.name},
                     {"driver", answer.driver},
                     {"files", answer.files},
@@ -144,9 +166,21 @@ void save(const std::string& key, const Remembered& remembered)
     }
 }
 
+std::chrono::sys_seconds now()
+{
+    return std::chrono::time_point_cast<std::chrono::seconds>(std::chrono::system_clock::now());
+}
+
+bool isValid(const Remembered& found, double limit_s)
+{
+    return stampTextOf(found.answer.files) == found.stamp &&
+           (found.answer.kind != ProbeAnswer::Kind::TimedOut ||
+            (found.answer.limit_s >= limit_s && now() - found.at < kTimeoutKept));
+}
+
 } // namespace
 
-std::optional<ProbeAnswer> cachedProbe(const std::vector<std::string>& names)
+std::optional<ProbeAnswer> cachedProbe(const std::vector<std::string>& names, double limit_s)
 {
     const std::string key = keyOf(names);
     std::optional<Remembered> found;
@@ -156,10 +190,9 @@ std::optional<ProbeAnswer> cachedProbe(const std::vector<std::string>& names)
             found = at->second;
         }
     }
-    if (!found || stampTextOf(found->answer.files) != found->stamp) {
+    if (!found || !isValid(*found, limit_s)) {
         found = load(key);
-        if (!found || found->answer.name >= names.size() ||
-            stampTextOf(found->answer.files) != found->stamp) {
+        if (!found || found->answer.name >= names.size() || !isValid(*found, limit_s)) {
             return std::nullopt;
         }
         const std::lock_guard lock(cache_mutex);
@@ -170,11 +203,12 @@ std::optional<ProbeAnswer> cachedProbe(const std::vector<std::string>& names)
 
 void cacheProbe(const std::vector<std::string>& names, const ProbeAnswer& answer)
 {
-    const bool is_crash = answer.kind == ProbeAnswer::Kind::Crashed && answer.driver != "VRT";
-    if (!is_crash && answer.kind != ProbeAnswer::Kind::Opened) {
+    const bool is_failure =
+        answer.kind == ProbeAnswer::Kind::Crashed || answer.kind == ProbeAnswer::Kind::TimedOut;
+    if (answer.kind != ProbeAnswer::Kind::Opened && (!is_failure || answer.driver == "VRT")) {
         return;
     }
-    Remembered remembered{answer, {}};
+    Remembered remembered{answer, {}, now()};
     std::vector<std::string>& files = remembered.answer.files;
     files.insert(files.end(), names.begin(),
                  names.begin() + static_cast<std::ptrdiff_t>(answer.name) + 1);

@@ -10,13 +10,14 @@
 namespace marsview {
 
 /// The answer to an earlier probe of these names, as long as none of its files was written to since
-/// and the GDAL version is the same. Looks in this process, then in the user's cache folder
+/// and the GDAL version is the same. A timeout counts for an hour, and only if the child had
+/// `limit_s` seconds or more. Looks in this process, then in the user's cache folder
 /// ($MARSVIEW_CACHE_DIR/opened, else $XDG_CACHE_HOME/marsview/opened). Any thread.
-std::optional<ProbeAnswer> cachedProbe(const std::vector<std::string>& names);
+std::optional<ProbeAnswer> cachedProbe(const std::vector<std::string>& names, double limit_s);
 
-/// Remembers that the names open, or that a driver crashes on a file. Does not store results that
-/// may differ next time: timeouts, lack of memory, files that no driver opens, virtual rasters that
-/// crash, names without files on a disk.
+/// Remembers that the names open, or that a driver crashes on a file or does not end. Does not
+/// store results that may differ next time: lack of memory, files that no driver opens, virtual
+/// rasters that do not open, names without files on a disk.
 void cacheProbe(const std::vector<std::string>& names, const ProbeAnswer& answer);
 
 } // namespace marsview

@@ -62,6 +62,16 @@ void appendArchiveEntries(const std::string& archive, std::vector<std::string>& 
 
 } // namespace
 
+bool isGdalName(const std::string& path)
+{
+    if (path.starts_with("/vsi")) {
+        return true;
+    }
+    const std::size_t colon = path.find(':');
+    std::error_code ignored;
+    return colon != std::string::npos && colon < path.find('/') && !fs::exists(path, ignored);
+}
+
 bool isFolder(const std::string& path)
 {
     VSIStatBufL status{};

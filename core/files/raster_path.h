@@ -16,6 +16,10 @@ namespace marsview {
 /// ("NETCDF:…") pass unchecked.
 Result<std::vector<std::string>> rasterNamesFor(const std::string& path);
 
+/// Whether it is a name of GDAL rather than a path: one with a scheme ("NETCDF:file:variable") or
+/// in a virtual file system ("/vsizip/maps.zip/dem.tif").
+bool isGdalName(const std::string& path);
+
 bool isFolder(const std::string& path);
 
 /// Whether the name is one of a file in an archive, which GDAL unpacks to read it.

@@ -9,7 +9,7 @@
 #include "core/base/job_monitor.h"
 #include "core/base/result.h"
 #include "core/raster/raster_info.h"
-#include "core/raster/source_identity.h"
+#include "core/sources/source_identity.h"
 #include "core/terrain/surface_analysis.h"
 #include "core/tiles/tile.h"
 #include "core/tiles/tile_cache.h"

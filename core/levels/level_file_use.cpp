@@ -1,7 +1,7 @@
 #include "core/levels/level_file_use.h"
 
 #include "core/files/remote_raster.h"
-#include "core/raster/source_identity.h"
+#include "core/sources/source_identity.h"
 #include "core/tiles/geotiff_tile_source.h"
 
 #include <fmt/format.h>

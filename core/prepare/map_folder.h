@@ -3,7 +3,7 @@
 
 #include "core/base/file_lock.h"
 #include "core/base/result.h"
-#include "core/raster/source_identity.h"
+#include "core/sources/source_identity.h"
 
 #include <cstdint>
 #include <filesystem>

@@ -12,8 +12,8 @@
 #include "core/prepare/map_folder.h"
 #include "core/prepare/overview_builder.h"
 #include "core/raster/raster_file.h"
-#include "core/raster/source_identity.h"
-#include "core/raster/source_stamp.h"
+#include "core/sources/source_identity.h"
+#include "core/sources/source_stamp.h"
 #include "core/tiles/geotiff_tile_source.h"
 
 #include <algorithm>

@@ -11,8 +11,8 @@
 #include "core/prepare/tiff/tiff_tiles.h"
 #include "core/prepare/tile_row_writer.h"
 #include "core/raster/raster_file.h"
-#include "core/raster/source_identity.h"
-#include "core/raster/source_stamp.h"
+#include "core/sources/source_identity.h"
+#include "core/sources/source_stamp.h"
 #include "core/tiles/tile.h"
 
 #include <algorithm>

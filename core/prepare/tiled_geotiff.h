@@ -7,7 +7,7 @@
 #include "core/base/job_monitor.h"
 #include "core/base/result.h"
 #include "core/raster/raster_info.h"
-#include "core/raster/source_identity.h"
+#include "core/sources/source_identity.h"
 
 #include <chrono>
 #include <cstddef>

@@ -4,6 +4,7 @@
 #include "core/formats/pds3_placement.h"
 #include "core/raster/axis_hints.h"
 #include "core/raster/label_elevation.h"
+#include "core/raster/metadata_elevation.h"
 
 #include <cpl_conv.h>
 #include <cpl_string.h>
@@ -70,6 +71,8 @@ void readVertical(GDALDataset& dataset,
             info.addNotice(*std::move(notice), {OverrideField::Scale, OverrideField::Offset});
         }
         unit = unit.empty() ? label->unit : unit;
+    } else {
+        applyMetadata(dataset, band, info);
     }
     if (!info.is_unit_declared && !unit.empty()) {
         info.addNotice(

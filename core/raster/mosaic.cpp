@@ -363,7 +363,7 @@ void noteParts(const Parts& opened, double covered, RasterInfo& whole)
     }
     for (const Part& part : parts) {
         for (const std::string& notice : part.info.notices) {
-            if (!notice.starts_with("opened in place of ") && said.insert(notice).second) {
+            if (notice != part.info.replacementNotice() && said.insert(notice).second) {
                 notices.push_back(notice);
             }
         }

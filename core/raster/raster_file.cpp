@@ -143,13 +143,18 @@ Result<RasterFile> RasterFile::open(const std::string& path, int band)
         return Error{code, fmt::format("{}: {}", path, why)};
     };
     if (info.path != path && !impl->remote) {
-        const std::string archive = archiveNameFor(path);
-        const std::string notice =
-            archive.empty() ? std::string() : archiveNotice(rastersInArchive(archive), info.path);
-        info.notices.push_back(notice.empty()
-                                   ? fmt::format("opened in place of {}",
-                                                 std::filesystem::path(path).filename().string())
-                                   : notice);
+        if (const std::string archive = archiveNameFor(path); !archive.empty()) {
+            info.in_archive = rastersInArchive(archive);
+        }
+        if (info.in_archive.size() < 2) {
+            info.in_archive.clear();
+        }
+        info.requested = path;
+        std::string notice = info.in_archive.empty() ? info.replacementNotice()
+                                                     : archiveNotice(info.in_archive, info.path);
+        if (!notice.empty()) {
+            info.notices.push_back(std::move(notice));
+        }
     }
     info.driver = dataset.GetDriverName();
     info.band_count = dataset.GetRasterCount();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <fmt/format.h>
 
 namespace marsview {
@@ -296,6 +297,15 @@ void RasterInfo::addNotice(std::string text, std::vector<OverrideField> settled_
     field_notices.push_back({std::move(text), std::move(settled_by)});
 }
 
+std::string RasterInfo::replacementNotice() const
+{
+    const std::string opened = std::filesystem::path(path).filename().string();
+    const std::string asked = std::filesystem::path(requested).filename().string();
+    return asked.empty() || asked == opened || !in_archive.empty()
+               ? std::string()
+               : fmt::format("opened {} in place of {}", opened, asked);
+}
+
 std::string RasterInfo::labelNotice() const
 {
     std::string ours;
@@ -305,9 +315,11 @@ std::string RasterInfo::labelNotice() const
         ours += separator + correction.label;
         theirs += separator + correction.gdal;
     }
-    return ours.empty()
-               ? std::string()
-               : fmt::format("from the label {}: {} (GDAL reads {})", label_name, ours, theirs);
+    return ours.empty() ? std::string()
+                        : fmt::format("from {}: {} (GDAL reads {})",
+                                      label_name.empty() ? std::string("the file's metadata")
+                                                         : "the label " + label_name,
+                                      ours, theirs);
 }
 
 ElevationScale RasterInfo::elevationScale() const noexcept

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/base/result.h"
+#include "core/files/archive_rasters.h"
 #include "core/geo/crs.h"
 #include "core/geo/geotransform.h"
 #include "core/geo/vertical.h"
@@ -45,7 +46,7 @@ struct FieldNotice {
     bool operator==(const FieldNotice&) const = default;
 };
 
-/// A value of a product's label that GDAL reads otherwise.
+/// A value of a product's label, or of a file's metadata, that GDAL reads otherwise.
 struct LabelCorrection {
     OverrideField field;
     std::string label; // "scale 0.5"
@@ -65,6 +66,10 @@ struct UnitSuggestion {
 /// The description of one band of a raster file.
 struct RasterInfo {
     std::string path; // the opened file; may differ from the requested one (a label for its data)
+    /// All rasters of the archive that was opened, if there are several; see archiveNotice().
+    std::vector<ArchiveRaster> in_archive;
+    /// The file that was requested if another one was opened: the data of a label, for example.
+    std::string requested;
     /// For a raster on a server: identifies its version. Empty for files.
     std::string remote_version;
     /// The server identifies versions by ETag or time, so that cached data can be matched to this
@@ -107,12 +112,14 @@ struct RasterInfo {
     /// Observations, assumptions and corrections, as sentences for the user.
     std::vector<std::string> notices;
     std::vector<FieldNotice> field_notices; // those of the notices that depend on a field
-    std::string label_name;                 // of the label that has the corrections
+    std::string label_name; // of the label that has the corrections; empty: the file's metadata
     std::vector<LabelCorrection> label_corrections;
 
     /// Adds a notice that no longer applies if the user overrides any of these fields.
     void addNotice(std::string text, std::vector<OverrideField> settled_by);
-    /// The sentence about the label's corrections that is among the notices; empty without any.
+    /// The sentence about the requested file that is among the notices; empty without any.
+    std::string replacementNotice() const;
+    /// The sentence about the corrections that is among the notices; empty without any.
     std::string labelNotice() const;
 
     ElevationScale elevationScale() const noexcept;

@@ -82,20 +82,9 @@ bool isBelow(const fs::path& path, const fs::path& folder)
     return end == folder.end() || (end->empty() && std::next(end) == folder.end());
 }
 
-// A name with a scheme, or in a virtual file system of GDAL, rather than a path.
-bool isName(const std::string& path)
-{
-    if (path.starts_with("/vsi")) {
-        return true;
-    }
-    const std::size_t colon = path.find(':');
-    std::error_code ignored;
-    return colon != std::string::npos && colon < path.find('/') && !fs::exists(path, ignored);
-}
-
 void putSource(Json& layer, const std::string& path, const ProjectFolders& folders)
 {
-    if (isName(path)) {
+    if (isGdalName(path)) {
         layer["dataset"] = path;
         return;
     }

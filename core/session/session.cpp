@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <fmt/format.h>
 #include <utility>
 
 namespace marsview {
@@ -80,6 +81,32 @@ Session withPictureKept(const Session& before, Session after)
     return has_stayed ? withExaggeration(std::move(after), then.front()->exaggeration) : after;
 }
 
+// The file as the user named it, but of an archive with several rasters the one that is open.
+std::filesystem::path pathToName(const Map& map)
+{
+    return map.info().in_archive.empty() ? map.spec().path : map.info().path;
+}
+
+// The name of the file, with its folder or a number if another layer has that name.
+std::string distinctNameOf(const Map& map, const std::vector<Layer>& others)
+{
+    const std::filesystem::path path = pathToName(map);
+    const std::string file = path.filename().string();
+    const auto is_taken = [&others](const std::string& name) {
+        return std::any_of(others.begin(), others.end(),
+                           [&name](const Layer& other) { return other.name == name; });
+    };
+    std::string name = file;
+    if (const std::string folder = path.parent_path().filename().string();
+        is_taken(name) && !folder.empty()) {
+        name = fmt::format("{} ({})", file, folder);
+    }
+    for (int number = 2; is_taken(name); ++number) {
+        name = fmt::format("{} ({})", file, number);
+    }
+    return name;
+}
+
 } // namespace
 
 const Layer* layerOf(const Session& session, LayerId id)
@@ -104,11 +131,11 @@ Session added(Session session, Layer layer)
     }
     layer.id = LayerId{session.next_id};
     ++session.next_id;
-    if (layer.name.empty()) {
-        layer.name = std::filesystem::path(layer.map->spec().path).filename().string();
-    }
     if (!layer.is_sample) {
         std::erase_if(session.layers, [](const Layer& other) { return other.is_sample; });
+    }
+    if (layer.name.empty()) {
+        layer.name = distinctNameOf(*layer.map, session.layers);
     }
     session.active = layer.id;
     session.layers.insert(session.layers.begin(), std::move(layer));
@@ -137,7 +164,7 @@ Layer layerFrom(LayerRecord record, std::shared_ptr<const Map> map)
                 .slope_range = record.slope_range,
                 .exaggeration = record.exaggeration};
     if (layer.name.empty()) {
-        layer.name = std::filesystem::path(layer.map->spec().path).filename().string();
+        layer.name = pathToName(*layer.map).filename().string();
     }
     if (!(layer.exaggeration > 0.0)) {
         layer.exaggeration = suitableExaggeration(*layer.map);

@@ -105,7 +105,8 @@ inline const Layer* activeLayer(const Session& session)
 std::size_t indexOf(const Session& session, LayerId id);
 
 /// The layer on top, under a new id, and active. Bundled samples are removed when another map is
-/// added. An empty name becomes the last part of the map's path.
+/// added. An empty name becomes the last part of the map's path, with its folder or a number if
+/// another layer has that name.
 ///
 /// If a layer stays in the picture through a change of layers, the picture keeps its exaggeration:
 /// all layers that are shown adopt it.

@@ -412,6 +412,18 @@
         <source>its extent is %1, %2</source>
         <translation>die Ausdehnung ist %1, %2</translation>
     </message>
+    <message>
+        <source>from the file&apos;s metadata: %1 (GDAL reads %2)</source>
+        <translation>aus den Metadaten der Datei: %1 (GDAL liest %2)</translation>
+    </message>
+    <message>
+        <source>the file&apos;s metadata give scale %1 and offset %2, which are not applied to floating-point samples; set scale and offset if they should be (--scale, --offset)</source>
+        <translation>die Metadaten der Datei nennen Skalierung %1 und Versatz %2, die auf Gleitkommawerte nicht angewandt werden; setzen Sie Skalierung und Versatz, wenn sie gelten sollen (--scale, --offset)</translation>
+    </message>
+    <message>
+        <source>opened %1 in place of %2</source>
+        <translation>%1 anstelle von %2 geöffnet</translation>
+    </message>
 </context>
 <context>
     <name>Drawing</name>
@@ -1809,8 +1821,8 @@
 <context>
     <name>marsview::AddressDialog</name>
     <message>
-        <source>An address begins with https://, http://, s3://, gs:// or file://.</source>
-        <translation>Eine Adresse beginnt mit https://, http://, s3://, gs:// oder file://.</translation>
+        <source>An address begins with https://, http://, s3://, gs:// or file://. Names of GDAL, such as /vsizip/maps.zip/dem.tif, can be opened, too.</source>
+        <translation>Eine Adresse beginnt mit https://, http://, s3://, gs:// oder file://. Auch Namen von GDAL wie /vsizip/karten.zip/dem.tif lassen sich öffnen.</translation>
     </message>
     <message>
         <source>Not an address: the name of the server is missing, or it contains a character that addresses cannot have.</source>
@@ -6745,6 +6757,25 @@ A scene: the one that suits the layers</extracomment>
         <source>Show as Elevations</source>
         <extracomment>On a button: show samples that were taken for nodata as elevations</extracomment>
         <translation>Als Höhen zeigen</translation>
+    </message>
+    <message>
+        <source>%1 is shown, one of the %2 rasters in %3</source>
+        <translation>%1 wird gezeigt, eines von %2 Rastern in %3</translation>
+    </message>
+    <message>
+        <source>Open %1</source>
+        <extracomment>On a button: open another raster of an archive; %1 is its name</extracomment>
+        <translation>%1 öffnen</translation>
+    </message>
+    <message>
+        <source>%1 (%2 × %3)</source>
+        <extracomment>In a list of rasters: %1 is a name, %2 and %3 are its columns and rows</extracomment>
+        <translation>%1 (%2 × %3)</translation>
+    </message>
+    <message>
+        <source>Open Another…</source>
+        <extracomment>On a button that lists the other rasters of an archive</extracomment>
+        <translation>Weiteres öffnen…</translation>
     </message>
 </context>
 <context>

@@ -142,6 +142,20 @@ TEST_F(HostileFiles, StopsADriverThatNeverEnds)
                 HasSubstr("the FAULTY driver of GDAL did not open this file within 1 s"));
 }
 
+// A child that waits for it again would take the limit again.
+TEST_F(HostileFiles, RemembersADriverThatDidNotEndUntilTheLimitIsRaised)
+{
+    environment_ = {"MARSVIEW_OPEN_SECONDS=2"};
+    const std::string path = faulty("hang");
+    EXPECT_THAT(info(path).err, HasSubstr("within 2 s"));
+    environment_ = {"MARSVIEW_OPEN_SECONDS=1"};
+    EXPECT_THAT(info(path).err, HasSubstr("within 2 s")) << "the child's limit, which was higher";
+    environment_ = {"MARSVIEW_OPEN_SECONDS=3"};
+    EXPECT_THAT(info(path).err, HasSubstr("within 3 s"));
+    folder_.write(fs::path(path).filename().string(), "a whole file in its place");
+    EXPECT_THAT(info(path).err, Not(HasSubstr("within")));
+}
+
 TEST_F(HostileFiles, StopsADriverThatTakesAllMemory)
 {
     environment_ = {"MARSVIEW_OPEN_MB=300"};

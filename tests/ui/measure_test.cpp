@@ -20,10 +20,12 @@
 #include "ui/plots/stereonet_plot.h"
 #include "ui/project/project_controller.h"
 #include "ui/window/window_actions.h"
+#include "ui/window/window_docks.h"
 
 #include <QActionGroup>
 #include <QApplication>
 #include <QClipboard>
+#include <QDockWidget>
 #include <QFile>
 #include <QFileDialog>
 #include <QFileInfo>
@@ -224,6 +226,27 @@ TEST_F(MeasureTest, TheKeyboardPlacesRemovesAndFinishes)
     QTest::keyClick(&view(), Qt::Key_Escape);
     EXPECT_EQ(measuring().current(), nullptr) << "deselects";
     EXPECT_EQ(measuring().state().items.size(), 1U);
+}
+
+// The panel that the tool opened goes with it, unless it has something to show or was there before.
+TEST_F(MeasureTest, AnEmptyPanelClosesWithItsTool)
+{
+    QDockWidget& dock = *window_->docks()->measurements();
+    ASSERT_NO_FATAL_FAILURE(choose(MeasurementKind::Distance));
+    EXPECT_TRUE(dock.isVisible());
+    window_->actionSet().tools->actions().at(static_cast<int>(Tool::Pan))->trigger();
+    EXPECT_FALSE(dock.isVisible());
+    dock.show(); // by the user
+    ASSERT_NO_FATAL_FAILURE(choose(MeasurementKind::Distance));
+    window_->actionSet().tools->actions().at(static_cast<int>(Tool::Pan))->trigger();
+    EXPECT_TRUE(dock.isVisible());
+    dock.hide();
+    ASSERT_NO_FATAL_FAILURE(choose(MeasurementKind::Distance));
+    view().setFocus();
+    QTest::keyClick(&view(), Qt::Key_Return);
+    ASSERT_EQ(measuring().state().items.size(), 1U);
+    window_->actionSet().tools->actions().at(static_cast<int>(Tool::Pan))->trigger();
+    EXPECT_TRUE(dock.isVisible());
 }
 
 // A hidden layer of another body may be the selected one.

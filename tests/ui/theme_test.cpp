@@ -1,8 +1,11 @@
 #include "tests/ui/color_contrast.h"
+#include "tests/ui/test_map.h"
 #include "ui/controllers/preferences.h"
 #include "ui/window/theme.h"
 
+#include <QAbstractButton>
 #include <QApplication>
+#include <QDialogButtonBox>
 #include <QSettings>
 #include <QTemporaryDir>
 
@@ -54,6 +57,20 @@ TEST(Theme, IsDarkIfNamedSo)
     applyTheme(Theme::Light);
     EXPECT_GT(luminance(QApplication::palette().color(QPalette::Window)), 0.7);
     applyTheme(Theme::System);
+}
+
+// The icons of other styles are dark on dark.
+TEST(Theme, ComesBeforeTheDialogsOfTheWindow)
+{
+    QApplication::setStyle(QStringLiteral("Fusion")); // as at the program's start
+    const MainWindow window(testWindowOptions());
+    const QList<QDialogButtonBox*> boxes = window.findChildren<QDialogButtonBox*>();
+    EXPECT_FALSE(boxes.isEmpty());
+    for (const QDialogButtonBox* box : boxes) {
+        for (const QAbstractButton* button : box->buttons()) {
+            EXPECT_TRUE(button->icon().isNull()) << button->text().toStdString();
+        }
+    }
 }
 
 TEST(Preferences, ComeBackAsTheyWereSaved)

@@ -48,6 +48,8 @@ AnnotationCommands::AnnotationCommands(const Parts& parts)
         parts_.actions.showShape(tool, parts_.annotating.shape());
         if (tool == Tool::Annotate) {
             showPanel();
+        } else if (parts_.annotating.state().items.empty()) {
+            parts_.docks.hideForTool(*parts_.docks.annotations());
         }
     });
     connect(actions.finish_annotation, &QAction::triggered, &annotating,
@@ -68,8 +70,7 @@ AnnotationCommands::~AnnotationCommands()
 
 void AnnotationCommands::showPanel()
 {
-    parts_.docks.annotations()->show();
-    parts_.docks.annotations()->raise();
+    parts_.docks.showForTool(*parts_.docks.annotations());
 }
 
 void AnnotationCommands::showState()

@@ -1,6 +1,7 @@
 #include "ui/commands/file_opening.h"
 
 #include "core/files/file_address.h"
+#include "core/files/raster_path.h"
 #include "core/vector/vector_file.h"
 #include "ui/commands/vector_tools.h"
 #include "ui/controllers/recent_files.h"
@@ -144,7 +145,7 @@ void FileOpening::remember(const QString& file)
         return; // has its own menu, and its folder is the program's
     }
     recent_->add(file);
-    if (isAddress(file)) {
+    if (isAddress(file) || isGdalName(file.toStdString())) {
         return;
     }
     last_folder_ = QFileInfo(file).absolutePath();

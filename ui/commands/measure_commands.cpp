@@ -30,6 +30,8 @@ MeasureCommands::MeasureCommands(const Parts& parts)
         parts_.actions.showTool(tool, parts_.measuring.kind());
         if (tool == Tool::Measure) {
             showPanel();
+        } else if (parts_.measuring.state().items.empty()) {
+            parts_.docks.hideForTool(*parts_.docks.measurements());
         }
     });
     connect(actions.finish_measurement, &QAction::triggered, &measuring,
@@ -47,8 +49,7 @@ MeasureCommands::MeasureCommands(const Parts& parts)
 
 void MeasureCommands::showPanel()
 {
-    parts_.docks.measurements()->show();
-    parts_.docks.measurements()->raise();
+    parts_.docks.showForTool(*parts_.docks.measurements());
 }
 
 void MeasureCommands::showState()

@@ -157,9 +157,7 @@ void VectorTools::fillMenu()
         const std::string path = overlay.path;
         QMenu* menu = parts_.files.addMenu(
             swatch(QColor(overlay.color.red, overlay.color.green, overlay.color.blue), kSwatchSide),
-            QFileInfo(QString::fromStdString(path))
-                .fileName()
-                .replace(QLatin1Char('&'), QStringLiteral("&&")));
+            withoutMnemonics(QFileInfo(QString::fromStdString(path)).fileName()));
         QAction* show = menu->addAction(tr("&Show"));
         show->setCheckable(true);
         show->setChecked(overlay.is_visible);

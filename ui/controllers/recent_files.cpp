@@ -1,7 +1,9 @@
 #include "ui/controllers/recent_files.h"
 
+#include "core/files/raster_path.h"
 #include "core/files/remote_raster.h"
 #include "ui/text/number_text.h"
+#include "ui/text/sentence.h"
 
 #include <QCoreApplication>
 #include <QDir>
@@ -17,12 +19,6 @@ namespace marsview {
 namespace {
 
 constexpr qsizetype kCountMax = 10;
-
-// An ampersand marks a key in a menu, but is an ordinary character in a file name.
-QString withoutMnemonics(QString text)
-{
-    return text.replace(QLatin1Char('&'), QStringLiteral("&&"));
-}
 
 } // namespace
 
@@ -115,7 +111,7 @@ void RecentFiles::fillMenu()
     menu_.clear();
     QStringList ordered = files_;
     const auto gone = std::stable_partition(ordered.begin(), ordered.end(), [](const QString& f) {
-        return isAddress(f) || QFileInfo::exists(f);
+        return isAddress(f) || isGdalName(f.toStdString()) || QFileInfo::exists(f);
     });
     const QStringList names = namesFor(ordered);
     for (auto file = ordered.begin(); file != ordered.end(); ++file) {

@@ -10,6 +10,7 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
+#include <QRegularExpression>
 #include <QUrl>
 #include <QVBoxLayout>
 
@@ -18,10 +19,21 @@ namespace {
 
 constexpr int kWidth = 520; // pixels: most of an address can be read
 
+// "/vsizip/maps.zip/dem.tif", "NETCDF:maps.nc:z".
+bool isNameForGdal(const QString& text)
+{
+    static const QRegularExpression name(
+        QStringLiteral("^(/vsi(zip|tar|gzip)/|[A-Z][A-Z0-9_]+:)."));
+    return name.match(text).hasMatch();
+}
+
 } // namespace
 
 QString problemOfAddress(const QString& address)
 {
+    if (isNameForGdal(address)) {
+        return {};
+    }
     const QUrl url(address, QUrl::StrictMode);
     if (address.startsWith(QStringLiteral("file:/"), Qt::CaseInsensitive)) {
         const Result<std::string> path = localPathOf(address.toStdString());
@@ -29,7 +41,9 @@ QString problemOfAddress(const QString& address)
     }
     if (!remoteNameFor(address.toStdString()) || !address.contains(QStringLiteral("://"))) {
         return AddressDialog::tr(
-            "An address begins with https://, http://, s3://, gs:// or file://.");
+            "An address begins with https://, http://, s3://, gs:// or file://. Names of GDAL, "
+            "such "
+            "as /vsizip/maps.zip/dem.tif, can be opened, too.");
     }
     if (!url.isValid() || url.host().isEmpty()) {
         return AddressDialog::tr(

@@ -70,12 +70,16 @@ bool ProjectController::isModified() const
     return is_recovered_ || isSaving() || (!session_.undoStack().isClean() && !isNothingToKeep());
 }
 
-// Everything was undone or removed, and there is no file that still has it.
+// Everything was undone or removed, or was done to the sample map alone, and there is no file that
+// still has it.
 bool ProjectController::isNothingToKeep() const
 {
     const Session& session = session_.session();
+    const bool has_own_layers = std::any_of(session.layers.begin(), session.layers.end(),
+                                            [](const Layer& layer) { return !layer.is_sample; });
     return file_.isEmpty() && (session_.undoStack().index() == 0 ||
-                               (session.layers.empty() && session.missing.empty() &&
+                               (!has_own_layers && session.missing.empty() &&
+                                session.overlays.empty() && session.views.empty() &&
                                 measuring_.saved().empty() && annotating_.state().items.empty()));
 }
 

@@ -98,6 +98,12 @@ constexpr std::array kMessages{
                       "a preview of %1 × %2 samples is shown; elevations are read from it until "
                       "all %3 × %4 are available"),
     QT_TRANSLATE_NOOP("CoreMessage", "from the label %1: %2 (GDAL reads %3)"),
+    QT_TRANSLATE_NOOP("CoreMessage", "from the file's metadata: %1 (GDAL reads %2)"),
+    QT_TRANSLATE_NOOP("CoreMessage",
+                      "the file's metadata give scale %1 and offset %2, which are not applied to "
+                      "floating-point samples; set scale and offset if they should be (--scale, "
+                      "--offset)"),
+    QT_TRANSLATE_NOOP("CoreMessage", "opened %1 in place of %2"),
     QT_TRANSLATE_NOOP("CoreMessage",
                       "shifted by %1 column and %2 row to match the latitude and longitude limits "
                       "in the label"),
@@ -123,6 +129,14 @@ QRegularExpression patternOf(const char* message)
                               QRegularExpression::DotMatchesEverythingOption);
 }
 
+// A count in groups, as the window shows numbers. Other words, and what the user typed, which is in
+// quotes, stay.
+QString grouped(const QString& words, bool is_quoted)
+{
+    static const QRegularExpression kCount(QStringLiteral("^[1-9][0-9]{3,14}$"));
+    return is_quoted || !kCount.match(words).hasMatch() ? words : countText(words.toULongLong());
+}
+
 // What fills a place may contain percent signs: everything is filled in one pass.
 QString filled(const QString& text, const QRegularExpressionMatch& match)
 {
@@ -131,7 +145,8 @@ QString filled(const QString& text, const QRegularExpressionMatch& match)
         const int place = placeAt(text, at);
         if (place > 0) {
             const QString words = match.captured(place);
-            result += translationOf(words).value_or(words);
+            result +=
+                translationOf(words).value_or(grouped(words, result.endsWith(QLatin1Char('"'))));
             ++at;
         } else {
             result += text[at];
@@ -215,6 +230,11 @@ QString asSentence(const QString& message)
 QString asSentence(const std::string& message)
 {
     return asSentence(QString::fromStdString(message));
+}
+
+QString withoutMnemonics(QString text)
+{
+    return text.replace(QLatin1Char('&'), QStringLiteral("&&"));
 }
 
 } // namespace marsview

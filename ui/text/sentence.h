@@ -16,4 +16,7 @@ QString translatedMessage(const QString& message);
 QString asSentence(const QString& message);
 QString asSentence(const std::string& message);
 
+/// A name for a menu or a button, where a single ampersand would mark an access key.
+QString withoutMnemonics(QString text);
+
 } // namespace marsview

@@ -5,6 +5,7 @@
 #include "ui/controllers/session_controller.h"
 #include "ui/pictures/flat_pictures.h"
 #include "ui/text/coordinate_text.h"
+#include "ui/text/sentence.h"
 #include "ui/views/view_name.h"
 #include "ui/widgets/icons.h"
 
@@ -168,8 +169,8 @@ void SavedViews::showSession()
         const bool is_there = static_cast<std::size_t>(i) < session.views.size();
         numbered_[i]->setVisible(is_there);
         numbered_[i]->setText(
-            is_there ? QString::fromStdString(session.views[static_cast<std::size_t>(i)].name)
-                           .replace(QLatin1Char('&'), QStringLiteral("&&"))
+            is_there ? withoutMnemonics(
+                           QString::fromStdString(session.views[static_cast<std::size_t>(i)].name))
                      //: A menu entry for a saved view that does not exist yet; %1 is 1 to 9
                      : tr("Go to View %1").arg(i + 1));
     }

@@ -2,6 +2,7 @@
 
 #include "ui/text/body_text.h"
 #include "ui/text/coordinate_text.h"
+#include "ui/text/sentence.h"
 
 #include <QActionGroup>
 #include <QCoreApplication>
@@ -88,7 +89,7 @@ void fillCoordinateMenu(QMenu& menu,
     CoordinateFormat map_format = format;
     map_format.system = PositionSystem::Map;
     //: %1 is the CRS
-    const QString crs = formatName(map_format, info).replace(QLatin1Char('&'), QLatin1String("&&"));
+    const QString crs = withoutMnemonics(formatName(map_format, info));
     add(notations, menuText("Ma&p Coordinates: %1").arg(crs), system == PositionSystem::Map,
         map_format);
 

@@ -109,12 +109,16 @@ QPalette darkPalette()
                         .shadow = QColor(10, 10, 12)});
 }
 
-void applyTheme(Theme theme)
+void useLineStyle()
 {
-    static const bool kIsDesktopDark = isDark(QApplication::palette());
     if (qobject_cast<LineStyle*>(QApplication::style()) == nullptr) {
         QApplication::setStyle(new LineStyle);
     }
+}
+
+void applyTheme(Theme theme)
+{
+    static const bool kIsDesktopDark = isDark(QApplication::palette());
     const bool is_dark = theme == Theme::Dark || (theme == Theme::System && kIsDesktopDark);
     const QPalette palette = is_dark ? darkPalette() : lightPalette();
     QApplication::setPalette(palette);

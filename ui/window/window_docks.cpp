@@ -334,4 +334,20 @@ void WindowDocks::showRestored(QDockWidget& dock)
     }
 }
 
+void WindowDocks::showForTool(QDockWidget& dock)
+{
+    if (dock.isHidden()) {
+        for_tool_.append(&dock);
+    }
+    dock.show();
+    dock.raise();
+}
+
+void WindowDocks::hideForTool(QDockWidget& dock)
+{
+    if (for_tool_.removeAll(&dock) > 0) {
+        dock.hide();
+    }
+}
+
 } // namespace marsview

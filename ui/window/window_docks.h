@@ -60,6 +60,11 @@ public:
     void restore(const QSettings& settings);
     /// To be called when a panel below the map has something to show.
     void showRestored(QDockWidget& dock);
+    /// Shows a panel below the map because its tool was chosen.
+    void showForTool(QDockWidget& dock);
+    /// To be called when the tool of a panel with nothing to show is no longer chosen: hides it if
+    /// only the tool showed it.
+    void hideForTool(QDockWidget& dock);
 
     /// Takes the tabs of panels, which show no focus, out of the way of the Tab key.
     bool eventFilter(QObject* watched, QEvent* event) override;
@@ -93,6 +98,7 @@ private:
     QDockWidget* measurements_ = nullptr;
     QDockWidget* annotations_ = nullptr;
     QList<QDockWidget*> held_back_; // of those, by restore()
+    QList<QDockWidget*> for_tool_;  // of those, shown by showForTool()
     int turn_ = 0;
     bool is_fitting_ = false;
 };

@@ -12,6 +12,7 @@
 #include "ui/widgets/notice_center.h"
 
 #include <QAction>
+#include <QFileInfo>
 
 #include <algorithm>
 #include <utility>
@@ -172,6 +173,9 @@ void WindowNotices::addNotices(const Layer& layer,
     const std::string of_nodata = nodata ? noticeOfNodata(*nodata) : std::string();
     const auto& unit = map.info().unit_suggestion;
     const std::string of_unit = unit ? noticeOf(*unit) : std::string();
+    const std::string of_archive = archiveNotice(map.info().in_archive, map.info().path);
+    const std::string of_replacement = map.info().replacementNotice();
+    QList<Notice> least; // for those who wonder
     const auto& texts = map.info().notices;
     for (std::size_t i = first; i < texts.size(); ++i) {
         const QString text = QString::fromStdString(texts[i]);
@@ -187,10 +191,46 @@ void WindowNotices::addNotices(const Layer& layer,
         } else if (unit && texts[i] == of_unit) {
             addUnit(notice, *unit, layer);
             corrections.append(notice);
+        } else if (texts[i] == of_archive) {
+            addRasters(notice, map.info());
+            others.prepend(notice);
+        } else if (texts[i] == of_replacement) {
+            least.append(notice);
         } else {
             others.append(notice);
         }
     }
+    others.append(least);
+}
+
+// One click for every other raster of the archive.
+void WindowNotices::addRasters(Notice& notice, const RasterInfo& info) const
+{
+    const auto name_of = [](const std::string& path) {
+        return QFileInfo(QString::fromStdString(path)).fileName();
+    };
+    notice.text =
+        tr("%1 is shown, one of the %2 rasters in %3")
+            .arg(shortName(name_of(info.path).toStdString()), countText(info.in_archive.size()),
+                 shortName(name_of(info.requested).toStdString()));
+    SessionController& session = parts_.session;
+    for (const ArchiveRaster& raster : info.in_archive) {
+        if (raster.name == info.path) {
+            continue;
+        }
+        const QString name = isolated(name_of(raster.name));
+        const QString text =
+            info.in_archive.size() == 2
+                //: On a button: open another raster of an archive; %1 is its name
+                ? tr("Open %1").arg(name)
+                //: In a list of rasters: %1 is a name, %2 and %3 are its columns and rows
+                : tr("%1 (%2 × %3)").arg(name, countText(raster.columns), countText(raster.rows));
+        notice.actions.append(
+            {withoutMnemonics(text),
+             [&session, file = QString::fromStdString(raster.name)] { session.open({file}); }});
+    }
+    //: On a button that lists the other rasters of an archive
+    notice.menu_text = tr("Open Another…");
 }
 
 Notice WindowNotices::ofAssumedNodata(const Layer& layer) const

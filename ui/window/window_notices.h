@@ -20,6 +20,7 @@ class TerrainView;
 class TileDiskCache;
 struct CrsSuggestion;
 struct Layer;
+struct RasterInfo;
 
 /// What the buttons of notices do outside the session.
 struct NoticeCommands {
@@ -60,6 +61,7 @@ private:
     void addNotices(const Layer& layer, QList<Notice>& corrections, QList<Notice>& others) const;
     void addNodata(Notice& notice, double raw, const Layer& layer) const;
     void addUnit(Notice& notice, const UnitSuggestion& suggestion, const Layer& layer) const;
+    void addRasters(Notice& notice, const RasterInfo& info) const;
     Notice ofAssumedNodata(const Layer& layer) const;
     void addChoices(Notice& notice, const CrsSuggestion& suggestion, const Layer& layer) const;
     Notice ofPreview(const Layer& layer) const;

@@ -2,8 +2,8 @@
 #include "app/bench/terrain/terrain_stage.h"
 #include "app/console/long_job.h"
 #include "core/files/network_statistics.h"
-#include "core/raster/source_identity.h"
 #include "core/session/open_map.h"
+#include "core/sources/source_identity.h"
 
 #include <cmath>
 #include <fmt/format.h>

@@ -15,7 +15,7 @@
 #include "core/prepare/parts/survey_part.h"
 #include "core/prepare/tiff/cloud_order.h"
 #include "core/prepare/tiff/tiff_stream.h"
-#include "core/raster/source_identity.h"
+#include "core/sources/source_identity.h"
 #include "core/tiles/geotiff_tile_source.h"
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 #include "core/levels/level_file_format.h"
 #include "core/prepare/disk_room.h"
 #include "core/prepare/tiled_geotiff.h"
-#include "core/raster/source_identity.h"
+#include "core/sources/source_identity.h"
 
 #include <algorithm>
 #include <filesystem>

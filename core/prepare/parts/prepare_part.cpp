@@ -16,7 +16,7 @@
 #include "core/prepare/tile_row_writer.h"
 #include "core/prepare/tile_rows.h"
 #include "core/prepare/tiled_geotiff.h"
-#include "core/raster/source_stamp.h"
+#include "core/sources/source_stamp.h"
 
 #include <algorithm>
 #include <chrono>

@@ -1,5 +1,7 @@
 #include "haptics/drivers/support/vendor_library.h"
 
+#include "haptics/device/loader_message.h"
+
 namespace marsview {
 
 std::optional<VendorLibrary> VendorLibrary::load(const std::vector<std::string>& names,
@@ -14,7 +16,7 @@ std::optional<VendorLibrary> VendorLibrary::load(const std::vector<std::string>&
         }
         const char* text = dlerror(); // NOLINT(concurrency-mt-unsafe): glibc's is
         if (complaint.empty() && text != nullptr) {
-            complaint = text;
+            complaint = name + " " + loaderSentence(name, text);
         }
     }
     return std::nullopt;

@@ -13,7 +13,7 @@ namespace marsview {
 class VendorLibrary {
 public:
     /// Loads the first of these files or names that can be loaded. Empty if none can; `complaint`
-    /// then receives the dynamic loader's first message.
+    /// then says why the first one cannot.
     static std::optional<VendorLibrary> load(const std::vector<std::string>& names,
                                              std::string& complaint);
 

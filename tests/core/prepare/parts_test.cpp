@@ -7,7 +7,7 @@
 #include "core/prepare/prepare_map.h"
 #include "core/prepare/source_rows.h"
 #include "core/prepare/tiled_geotiff.h"
-#include "core/raster/source_identity.h"
+#include "core/sources/source_identity.h"
 #include "core/tiles/geotiff_tile_source.h"
 #include "tests/support/make_raster.h"
 #include "tests/support/temp_folder.h"

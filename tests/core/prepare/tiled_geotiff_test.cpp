@@ -5,7 +5,7 @@
 #include "core/prepare/overview_builder.h"
 #include "core/prepare/tiled_geotiff.h"
 #include "core/raster/raster_file.h"
-#include "core/raster/source_identity.h"
+#include "core/sources/source_identity.h"
 #include "core/tiles/geotiff_tile_source.h"
 #include "tests/support/gdal_tools.h"
 #include "tests/support/make_raster.h"

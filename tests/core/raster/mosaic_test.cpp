@@ -1,6 +1,6 @@
 #include "core/raster/mosaic.h"
 #include "core/raster/raster_file.h"
-#include "core/raster/source_identity.h"
+#include "core/sources/source_identity.h"
 #include "tests/support/gdal_tools.h"
 #include "tests/support/make_raster.h"
 #include "tests/support/random.h"

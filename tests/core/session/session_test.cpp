@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <set>
 #include <string>
 #include <vector>
@@ -80,6 +81,24 @@ TEST(Session, NamesALayerAfterItsFile)
     Maps maps;
     const Session session = added({}, {.map = maps.any()});
     EXPECT_EQ(session.layers[0].name, "map0.vrt");
+}
+
+TEST(Session, NamesLayersApartThatHaveTheSameFileName)
+{
+    Maps maps;
+    const std::shared_ptr<const Map> map = maps.any();
+    const std::string folder =
+        std::filesystem::path(map->spec().path).parent_path().filename().string();
+    Session session;
+    for (int i = 0; i < 4; ++i) {
+        session = added(session, {.map = map});
+    }
+    EXPECT_THAT(namesOf(session), ElementsAre("map0.vrt (3)", "map0.vrt (2)",
+                                              "map0.vrt (" + folder + ")", "map0.vrt"));
+    // A sample that makes way takes its name along.
+    session = added({}, {.map = map, .is_sample = true});
+    session = added(session, {.map = map});
+    EXPECT_THAT(namesOf(session), ElementsAre("map0.vrt"));
 }
 
 TEST(Session, ReplacesTheSampleByAnOpenedMap)

@@ -34,13 +34,14 @@ TEST(AddressDialog, AcceptsAddressesOfFilesOnly)
     for (const char* good :
          {"https://example.org/mars.tif", "http://127.0.0.1:8080/a/b.tif", "s3://bucket/key.tif",
           "gs://bucket/key.tif", "https://example.org/mars.tif?token=1", "file:///data/a%20b.tif",
-          "file://localhost/data/mars.tif"}) {
+          "file://localhost/data/mars.tif", "/vsizip//data/maps.zip/dem.tif",
+          "/vsizip/maps.zip/dem.tif", "NETCDF:maps.nc:z", "HDF5:\"/data/a b.h5\"://dem"}) {
         EXPECT_EQ(problemOfAddress(QString::fromLatin1(good)), QString()) << good;
     }
     for (const char* bad :
-         {"mars.tif", "/data/mars.tif", "ftp://example.org/mars.tif", "https://",
-          "https:///mars.tif", "https://example.org", "https://example.org/",
-          "https://example.org/maps/", "https://exa mple.org/mars.tif",
+         {"mars.tif", "/data/mars.tif", "/vsizip/", "C:/data/mars.tif",
+          "ftp://example.org/mars.tif", "https://", "https:///mars.tif", "https://example.org",
+          "https://example.org/", "https://example.org/maps/", "https://exa mple.org/mars.tif",
           "/vsicurl/https://a.b/c.tif", "file://server/mars.tif", "file:///a%zz.tif"}) {
         EXPECT_NE(problemOfAddress(QString::fromLatin1(bad)), QString()) << bad;
     }

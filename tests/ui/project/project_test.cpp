@@ -453,6 +453,22 @@ TEST_F(ProjectWindowTest, AutosaveAppendsWhatChangedToALog)
     EXPECT_FALSE(fs::exists(log));
 }
 
+// A visitor who plays with the sample has nothing to lose.
+TEST_F(ProjectWindowTest, ChangesOfTheSampleAloneAreNoneToKeep)
+{
+    makeWindow(kSmall, asking());
+    window_->openSample(maps_.moon("sample"));
+    ASSERT_TRUE(waitUntilSettled(*window_));
+    window_->controller().setExaggeration(7.0);
+    EXPECT_FALSE(window_->isWindowModified());
+    ASSERT_TRUE(openAndWait(*window_, maps_.mars()));
+    EXPECT_TRUE(window_->isWindowModified()) << "undo brings the exaggeration back";
+    window_->undoStack().undo();
+    EXPECT_FALSE(window_->isWindowModified());
+    window_->close();
+    EXPECT_FALSE(window_->isVisible()) << "without a question";
+}
+
 // Opening is repeated as easily as it is done: there is nothing to ask.
 TEST_F(ProjectWindowTest, OpeningMapsAloneIsNotAChange)
 {

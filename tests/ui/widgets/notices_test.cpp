@@ -3,9 +3,11 @@
 #include "tests/support/run_program.h"
 #include "tests/ui/map_window.h"
 #include "tests/ui/project_files.h"
+#include "ui/commands/file_opening.h"
 #include "ui/commands/window_commands.h"
 #include "ui/controllers/contact_sounds.h"
 #include "ui/controllers/measure_controller.h"
+#include "ui/controllers/recent_files.h"
 #include "ui/panels/georeferencing_panel.h"
 #include "ui/project/project_controller.h"
 #include "ui/widgets/notice_bar.h"
@@ -171,6 +173,44 @@ TEST_F(NoticesTest, StayClosedAfterUndoAndWhenLayersChange)
     window_->controller().remove(hill);
     ASSERT_TRUE(openAndWait(*window_, maps_.path(QStringLiteral("hill.asc"))));
     EXPECT_NE(shown(), QString());
+}
+
+// Names of GDAL are no names for people: one click opens each of the others.
+TEST_F(NoticesTest, RastersOfAnArchiveOpenFromItsNotice)
+{
+    for (const char* name : {"small.asc", "large.asc", "other & more.asc"}) {
+        TestMaps::Shape shape;
+        shape.columns = name[0] == 'l' ? 90 : 60;
+        maps_.write(QString::fromLatin1(name), shape,
+                    [](int column, int row) { return column + row; });
+    }
+    const QString archive = maps_.path(QStringLiteral("maps.zip"));
+    test::runTool({"python3", "-c",
+                   "import sys, zipfile\n"
+                   "with zipfile.ZipFile(sys.argv[1], 'w', zipfile.ZIP_DEFLATED) as z:\n"
+                   "    for name in ('small.asc', 'large.asc', 'other & more.asc'):\n"
+                   "        z.write(sys.argv[2] + name, name)",
+                   archive.toStdString(), maps_.path(QString()).toStdString() + "/"});
+    ASSERT_TRUE(openAndWait(*window_, archive));
+    EXPECT_EQ(activeLayer(window_->session())->name, "large.asc");
+    // Without a CRS, another notice comes first.
+    while (!shown().contains(QStringLiteral("maps.zip"))) {
+        ASSERT_FALSE(noticeButton(bar(), "noticeNext")->text().startsWith(QStringLiteral("2 of 2")))
+            << shown().toStdString();
+        noticeButton(bar(), "noticeNext")->click();
+    }
+    EXPECT_EQ(shown(), QStringLiteral("large.asc is shown, one of the 3 rasters in maps.zip"));
+    QMenu* menu = noticeButton(bar(), "noticeAction")->menu();
+    ASSERT_NE(menu, nullptr);
+    ASSERT_EQ(menu->actions().size(), 2);
+    EXPECT_EQ(menu->actions()[0]->text(), QStringLiteral("other && more.asc (60 × 40)"));
+    EXPECT_EQ(menu->actions()[1]->text(), QStringLiteral("small.asc (60 × 40)"));
+    menu->actions()[1]->trigger();
+    ASSERT_TRUE(waitFor([this] { return window_->session().layers.size() == 2; }));
+    ASSERT_TRUE(waitUntilSettled(*window_));
+    EXPECT_EQ(activeLayer(window_->session())->name, "small.asc");
+    const RecentFiles& recent = *window_->commands().files.recentFiles();
+    EXPECT_TRUE(recent.files().front().endsWith(QStringLiteral("maps.zip/small.asc")));
 }
 
 TEST_F(NoticesTest, DetailsRevealsTheNoticeAmongTheFacts)

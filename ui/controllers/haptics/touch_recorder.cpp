@@ -1,6 +1,6 @@
 #include "ui/controllers/haptics/touch_recorder.h"
 
-#include "core/raster/output_check.h"
+#include "core/sources/output_check.h"
 #include "haptics/terrain/servo_map.h"
 
 #include <utility>

@@ -1,7 +1,7 @@
 // The files that make up a raster.
 #pragma once
 
-#include "core/raster/source_identity.h"
+#include "core/sources/source_identity.h"
 
 #include <string>
 #include <vector>

@@ -1,5 +1,5 @@
-#include "core/raster/source_identity.h"
-#include "core/raster/source_stamp.h"
+#include "core/sources/source_identity.h"
+#include "core/sources/source_stamp.h"
 #include "tests/support/make_raster.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temp_folder.h"

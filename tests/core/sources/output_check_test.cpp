@@ -1,4 +1,4 @@
-#include "core/raster/output_check.h"
+#include "core/sources/output_check.h"
 #include "tests/support/run_program.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/temp_folder.h"

@@ -1,4 +1,4 @@
-#include "core/raster/source_identity.h"
+#include "core/sources/source_identity.h"
 
 #include "core/base/deflate.h"
 #include "core/files/file_stamp.h"
@@ -6,7 +6,7 @@
 #include "core/files/gdal_runtime.h"
 #include "core/files/remote_raster.h"
 #include "core/files/shared_file.h"
-#include "core/raster/source_files.h"
+#include "core/sources/source_files.h"
 
 #include <cpl_vsi.h>
 

@@ -1,8 +1,8 @@
-#include "core/raster/source_stamp.h"
+#include "core/sources/source_stamp.h"
 
 #include "core/files/file_stamp.h"
 #include "core/files/remote_raster.h"
-#include "core/raster/source_files.h"
+#include "core/sources/source_files.h"
 
 namespace marsview {
 

@@ -1,4 +1,4 @@
-#include "core/raster/source_identity.h"
+#include "core/sources/source_identity.h"
 #include "tests/support/make_raster.h"
 #include "tests/support/random.h"
 #include "tests/support/run_program.h"

@@ -1,6 +1,6 @@
-#include "core/raster/output_check.h"
+#include "core/sources/output_check.h"
 
-#include "core/raster/source_files.h"
+#include "core/sources/source_files.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,4 +1,4 @@
-#include "core/raster/source_files.h"
+#include "core/sources/source_files.h"
 
 #include "core/files/gdal_runtime.h"
 #include "core/files/open_guard.h"
