@@ -173,14 +173,17 @@
     <name>ColorRamp</name>
     <message>
         <source>Ember</source>
+        <extracomment>A color ramp through purple and red to straw yellow</extracomment>
         <translation>Glut</translation>
     </message>
     <message>
         <source>Hypsometric</source>
+        <extracomment>The color ramp of atlases: green lowlands, brown mountains</extracomment>
         <translation>Hypsometrisch</translation>
     </message>
     <message>
         <source>Lagoon</source>
+        <extracomment>A color ramp from violet through teal to lime green</extracomment>
         <translation>Lagune</translation>
     </message>
     <message>
@@ -223,7 +226,7 @@
     </message>
     <message>
         <source>Default for the Body</source>
-        <extracomment>The range of longitudes that suits the map's body</extracomment>
+        <extracomment>The range of longitudes that suits the map&apos;s body</extracomment>
         <translation>Wie auf dem Himmelskörper üblich</translation>
     </message>
     <message>
@@ -241,11 +244,11 @@
     </message>
     <message>
         <source>Ma&amp;p Coordinates: %1</source>
-        <extracomment>%1 is the CRS</extracomment>
         <translation>Karten&amp;koordinaten: %1</translation>
     </message>
     <message>
         <source>Longitude</source>
+        <extracomment>A part of a menu</extracomment>
         <translation>Länge</translation>
     </message>
     <message>
@@ -804,14 +807,17 @@
     <name>OverlayText</name>
     <message>
         <source>%1 km</source>
+        <extracomment>A length in kilometers</extracomment>
         <translation>%1 km</translation>
     </message>
     <message>
         <source>%1 m</source>
+        <extracomment>A length in meters</extracomment>
         <translation>%1 m</translation>
     </message>
     <message>
         <source>%1° (%2)</source>
+        <extracomment>A heading: %1 is degrees clockwise from north, %2 the same in words</extracomment>
         <translation>%1° (%2)</translation>
     </message>
     <message>
@@ -1084,11 +1090,11 @@
     </message>
     <message>
         <source>No names on %1.</source>
-        <extracomment>%1 is a body: &quot;Venus&quot;, &quot;the Earth&quot;</extracomment>
         <translation>Keine Namen für %1.</translation>
     </message>
     <message>
         <source>No place on %2 is named “%1”.</source>
+        <extracomment>%1 is a text that was typed, %2 a body</extracomment>
         <translation>Kein Ort heißt „%1“ (%2).</translation>
     </message>
     <message>
@@ -1506,21 +1512,6 @@
     <message>
         <source>OpenGL 3.3 is required, but the graphics driver offers %1.%2; install a newer driver or Mesa&apos;s software one</source>
         <translation>OpenGL 3.3 ist nötig, aber der Grafiktreiber bietet %1.%2; installieren Sie einen neueren Treiber oder den Softwaretreiber von Mesa</translation>
-    </message>
-    <message>
-        <source>%1 km</source>
-        <extracomment>A length in kilometers</extracomment>
-        <translation>%1 km</translation>
-    </message>
-    <message>
-        <source>%1 m</source>
-        <extracomment>A length in meters</extracomment>
-        <translation>%1 m</translation>
-    </message>
-    <message>
-        <source>%1° (%2)</source>
-        <extracomment>A heading: %1 is degrees clockwise from north, %2 the same in words</extracomment>
-        <translation>%1° (%2)</translation>
     </message>
     <message>
         <source>S</source>
@@ -2272,6 +2263,7 @@
     </message>
     <message>
         <source>Vertical exaggeration goes from ×%1 to ×%2.</source>
+        <extracomment>%1 and %2 are factors of vertical exaggeration</extracomment>
         <translation>Die Überhöhung reicht von ×%1 bis ×%2.</translation>
     </message>
 </context>
@@ -2546,7 +2538,6 @@
     </message>
     <message>
         <source>Force %1</source>
-        <extracomment>%1 is a force, for example &quot;1.2 N&quot;, coarse enough not to change all the time</extracomment>
         <translation>Kraft %1</translation>
     </message>
 </context>
@@ -2809,17 +2800,17 @@ y %2</translation>
     </message>
 </context>
 <context>
-    <name>marsview::GlobeLabels</name>
-    <message>
-        <source>Names and graticule</source>
-        <translation>Namen und Gradnetz</translation>
-    </message>
-</context>
-<context>
     <name>marsview::GlobeHandScene</name>
     <message>
         <source>Preparing the terrain for touch…</source>
         <translation>Das Gelände wird zum Ertasten vorbereitet …</translation>
+    </message>
+</context>
+<context>
+    <name>marsview::GlobeLabels</name>
+    <message>
+        <source>Names and graticule</source>
+        <translation>Namen und Gradnetz</translation>
     </message>
 </context>
 <context>
@@ -3190,7 +3181,6 @@ y %2</translation>
     </message>
     <message>
         <source>%1 when recorded</source>
-        <extracomment>%1 is a force, like &quot;0.45 N&quot;</extracomment>
         <translation>%1 bei der Aufzeichnung</translation>
     </message>
     <message>
@@ -4285,7 +4275,6 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
     </message>
     <message>
         <source>Click to place %1 more points; Backspace removes the last one.</source>
-        <extracomment>%1 is a number above 1</extracomment>
         <translation>Klicken Sie, um noch %1 Punkte zu setzen; die Rücktaste entfernt den letzten.</translation>
     </message>
     <message>
@@ -4882,7 +4871,6 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
     </message>
     <message>
         <source>Reading %1</source>
-        <extracomment>In the status bar: %1 is a file</extracomment>
         <translation>%1 wird gelesen</translation>
     </message>
     <message>
@@ -6650,10 +6638,12 @@ A scene: the one that suits the layers</extracomment>
     </message>
     <message>
         <source>%1 is hidden: its CRS is not that of the flat map. The globe shows both</source>
+        <extracomment>%1 is a layer</extracomment>
         <translation>%1 ist verborgen: Das KBS ist nicht das der ebenen Karte. Der Globus zeigt beide</translation>
     </message>
     <message>
         <source>Show Globe</source>
+        <extracomment>On a button: show all layers of a body on the globe</extracomment>
         <translation>Globus zeigen</translation>
     </message>
     <message>
@@ -6684,7 +6674,6 @@ A scene: the one that suits the layers</extracomment>
     </message>
     <message>
         <source>Looks like feet, but the file has no unit of elevation: no place on the Earth is as high as %1</source>
-        <extracomment>%1 is an elevation in meters</extracomment>
         <translation>Sieht nach Fuß aus, aber die Datei hat keine Höheneinheit: Kein Ort der Erde liegt auf %1 Höhe</translation>
     </message>
     <message>
@@ -6707,7 +6696,6 @@ A scene: the one that suits the layers</extracomment>
     </message>
     <message>
         <source>Use Feet</source>
-        <extracomment>On a button: read the elevations of a map in feet</extracomment>
         <translation>Fuß verwenden</translation>
     </message>
     <message>

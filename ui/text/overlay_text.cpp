@@ -12,11 +12,6 @@
 namespace marsview {
 namespace {
 
-QString tr(const char* text)
-{
-    return QCoreApplication::translate("OverlayText", text);
-}
-
 constexpr std::array kWinds{QT_TRANSLATE_NOOP("OverlayText", "north"),
                             QT_TRANSLATE_NOOP("OverlayText", "north-north-east"),
                             QT_TRANSLATE_NOOP("OverlayText", "north-east"),
@@ -48,10 +43,12 @@ QString lengthText(double round_length_m)
     if (round_length_m >= 1000.0) {
         const double length_km = round_length_m / 1000.0;
         //: A length in kilometers
-        return tr("%1 km").arg(numberText(length_km, length_km));
+        return QCoreApplication::translate("OverlayText", "%1 km")
+            .arg(numberText(length_km, length_km));
     }
     //: A length in meters
-    return tr("%1 m").arg(numberText(round_length_m, round_length_m));
+    return QCoreApplication::translate("OverlayText", "%1 m")
+        .arg(numberText(round_length_m, round_length_m));
 }
 
 QString headingText(Angle heading)
@@ -60,7 +57,8 @@ QString headingText(Angle heading)
     const int degrees = static_cast<int>(std::lround(turned < 0.0 ? turned + 360.0 : turned)) % 360;
     const auto wind = static_cast<std::size_t>(std::lround(degrees / 22.5)) % kWinds.size();
     //: A heading: %1 is degrees clockwise from north, %2 the same in words
-    return tr("%1° (%2)").arg(QLocale().toString(degrees), tr(kWinds[wind]));
+    return QCoreApplication::translate("OverlayText", "%1° (%2)")
+        .arg(QLocale().toString(degrees), QCoreApplication::translate("OverlayText", kWinds[wind]));
 }
 
 } // namespace marsview

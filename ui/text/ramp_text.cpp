@@ -1,5 +1,7 @@
 #include "ui/text/ramp_text.h"
 
+#include "core/base/check.h"
+
 #include <QCoreApplication>
 #include <QImage>
 #include <QPixmap>
@@ -18,10 +20,15 @@ struct NamedRamp {
     const char* text;
 };
 
-// A ramp that is not here is called by its own name with a capital.
 constexpr std::array kNames{
     //: A color ramp from blue to rose, as the sky at sunrise
     NamedRamp{"dawn", QT_TRANSLATE_NOOP("ColorRamp", "Dawn")},
+    //: A color ramp through purple and red to straw yellow
+    NamedRamp{"ember", QT_TRANSLATE_NOOP("ColorRamp", "Ember")},
+    //: The color ramp of atlases: green lowlands, brown mountains
+    NamedRamp{"hypsometric", QT_TRANSLATE_NOOP("ColorRamp", "Hypsometric")},
+    //: A color ramp from violet through teal to lime green
+    NamedRamp{"lagoon", QT_TRANSLATE_NOOP("ColorRamp", "Lagoon")},
     //: A color ramp of the colors of Mars
     NamedRamp{"rust", QT_TRANSLATE_NOOP("ColorRamp", "Rust")},
     //: A color ramp from dark to light gray
@@ -36,12 +43,8 @@ QString rampName(const ColorRamp& ramp)
 {
     const auto* hit = std::find_if(kNames.begin(), kNames.end(),
                                    [&ramp](const NamedRamp& n) { return n.name == ramp.name; });
-    if (hit != kNames.end()) {
-        return QCoreApplication::translate("ColorRamp", hit->text);
-    }
-    std::string capital(ramp.name);
-    capital[0] = static_cast<char>(QChar::toUpper(static_cast<char32_t>(capital[0])));
-    return QCoreApplication::translate("ColorRamp", capital.c_str());
+    MARSVIEW_CHECK(hit != kNames.end());
+    return QCoreApplication::translate("ColorRamp", hit->text);
 }
 
 QIcon rampIcon(const ColorRamp& ramp)

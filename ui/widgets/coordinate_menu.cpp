@@ -11,11 +11,6 @@
 namespace marsview {
 namespace {
 
-QString menuText(const char* text)
-{
-    return QCoreApplication::translate("CoordinateMenu", text);
-}
-
 QString capitalized(QString text)
 {
     if (!text.isEmpty()) {
@@ -31,26 +26,26 @@ QString longitudeNotationText(LongitudeNotation notation)
     switch (notation) {
     case LongitudeNotation::East360:
         //: A range of longitudes
-        return menuText("0° to 360° East");
+        return QCoreApplication::translate("CoordinateMenu", "0° to 360° East");
     case LongitudeNotation::EastWest180:
         //: A range of longitudes
-        return menuText("180° West to 180° East");
+        return QCoreApplication::translate("CoordinateMenu", "180° West to 180° East");
     case LongitudeNotation::West360:
         break;
     }
     //: A range of longitudes
-    return menuText("0° to 360° West");
+    return QCoreApplication::translate("CoordinateMenu", "0° to 360° West");
 }
 
 QString usualLongitudesText(const Body* body)
 {
     if (body == nullptr) {
         //: The range of longitudes that suits the map's body
-        return menuText("Default for the Body");
+        return QCoreApplication::translate("CoordinateMenu", "Default for the Body");
     }
     const QString name = bodyName(*body);
     //: The range of longitudes that suits a body: %1 is its name, %2 the range
-    return menuText("Default for %1 (%2)")
+    return QCoreApplication::translate("CoordinateMenu", "Default for %1 (%2)")
         .arg(name, longitudeNotationText(CoordinateFormat{}.longitudesOn(body)));
 }
 
@@ -84,17 +79,19 @@ void fillCoordinateMenu(QMenu& menu,
             result)
             ->setEnabled(has_longitudes);
     };
-    add_angles(menuText("&Decimal Degrees"), AngleNotation::DecimalDegrees);
-    add_angles(menuText("Degrees, &Minutes, Seconds"), AngleNotation::DegreesMinutesSeconds);
+    add_angles(QCoreApplication::translate("CoordinateMenu", "&Decimal Degrees"),
+               AngleNotation::DecimalDegrees);
+    add_angles(QCoreApplication::translate("CoordinateMenu", "Degrees, &Minutes, Seconds"),
+               AngleNotation::DegreesMinutesSeconds);
     CoordinateFormat map_format = format;
     map_format.system = PositionSystem::Map;
     //: %1 is the CRS
     const QString crs = withoutMnemonics(formatName(map_format, info));
-    add(notations, menuText("Ma&p Coordinates: %1").arg(crs), system == PositionSystem::Map,
-        map_format);
+    add(notations, QCoreApplication::translate("CoordinateMenu", "Ma&p Coordinates: %1").arg(crs),
+        system == PositionSystem::Map, map_format);
 
     //: A part of a menu
-    menu.addSection(menuText("Longitude"));
+    menu.addSection(QCoreApplication::translate("CoordinateMenu", "Longitude"));
     QActionGroup* longitudes = add_group();
     const auto add_longitudes = [&](const QString& text,
                                     std::optional<LongitudeNotation> notation) {
@@ -112,9 +109,11 @@ void fillCoordinateMenu(QMenu& menu,
     if (!hasKindsOfLatitude(info)) {
         return;
     }
-    const QString body = info.body != nullptr ? bodyName(*info.body) : menuText("This Body");
+    const QString body = info.body != nullptr
+                             ? bodyName(*info.body)
+                             : QCoreApplication::translate("CoordinateMenu", "This Body");
     //: A part of a menu; %1 is a body
-    menu.addSection(menuText("Latitude on %1").arg(body));
+    menu.addSection(QCoreApplication::translate("CoordinateMenu", "Latitude on %1").arg(body));
     QActionGroup* latitudes = add_group();
     for (const LatitudeKind kind : {LatitudeKind::Planetocentric, LatitudeKind::Planetographic}) {
         CoordinateFormat result = format;
