@@ -6,7 +6,7 @@
 #include "ui/dialogs/preferences_dialog.h"
 #include "ui/dialogs/save_picture_dialog.h"
 #include "ui/dialogs/stretch_dialog.h"
-#include "ui/overlay/focus_frame.h"
+#include "ui/widgets/focus_frame.h"
 #include "ui/overlay/map_overlays.h"
 #include "ui/panels/georeferencing_panel.h"
 #include "ui/panels/haptics_panel.h"
@@ -201,6 +201,11 @@ TEST_F(AccessibilityTest, F6MovesTheFocusFromTheMapThroughAllOpenPanelsAndBack)
         const QWidget* seen = QApplication::widgetAt(control.mapToGlobal(control.rect().center()));
         EXPECT_TRUE(seen == &control || control.isAncestorOf(seen))
             << describe(control).toStdString();
+        // And with a sign that it has the focus.
+        const QImage with_focus = panel->widget()->grab().toImage();
+        view().setFocus();
+        EXPECT_NE(panel->widget()->grab().toImage(), with_focus) << describe(control).toStdString();
+        controls.last()->setFocus(Qt::ShortcutFocusReason);
     }
     QTest::keyClick(QApplication::focusWidget(), Qt::Key_F6);
     EXPECT_TRUE(view().hasFocus());

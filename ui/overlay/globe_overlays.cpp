@@ -12,7 +12,6 @@
 #include "ui/overlay/compass.h"
 #include "ui/overlay/contour_labels_view.h"
 #include "ui/overlay/crosshair.h"
-#include "ui/overlay/focus_frame.h"
 #include "ui/overlay/force_meter.h"
 #include "ui/overlay/gesture_hint.h"
 #include "ui/overlay/hand_pointer.h"
@@ -26,6 +25,7 @@
 #include "ui/overlay/overview_picture.h"
 #include "ui/overlay/place_mark.h"
 #include "ui/overlay/scale_bar_view.h"
+#include "ui/widgets/focus_frame.h"
 
 #include <QAction>
 #include <QApplication>

@@ -2,6 +2,7 @@
 
 #include "ui/drawing/drawing_base.h"
 #include "ui/panels/drawn_model.h"
+#include "ui/widgets/focus_frame.h"
 
 #include <QAbstractButton>
 #include <QColorDialog>
@@ -27,6 +28,7 @@ DrawnList::DrawnList(DrawingBase& drawing, const Columns& columns, QWidget* pare
     , columns_(columns)
     , model_(new DrawnModel(*this))
 {
+    new FocusFrame(this, FocusFrame::Ground::Panel); // rows may be missing or selected
     setModel(model_);
     setShowGrid(false);
     setWordWrap(false);

@@ -1,6 +1,7 @@
 #include "ui/views/saved_views_panel.h"
 
 #include "ui/views/view_thumbnails.h"
+#include "ui/widgets/focus_frame.h"
 
 #include <QAction>
 #include <QHBoxLayout>
@@ -69,6 +70,7 @@ SavedViewsPanel::SavedViewsPanel(QWidget* parent)
     list_->setAccessibleName(tr("Saved views"));
     list_->setObjectName(QStringLiteral("savedViews"));
     list_->setFrameShape(QFrame::NoFrame);
+    new FocusFrame(list_, FocusFrame::Ground::Panel);
     list_->setIconSize(ViewThumbnails::kSize);
     list_->setSpacing(2);
     list_->setWordWrap(true);

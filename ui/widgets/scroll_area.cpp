@@ -1,5 +1,7 @@
 #include "ui/widgets/scroll_area.h"
 
+#include "ui/widgets/focus_frame.h"
+
 #include <QApplication>
 #include <QScrollArea>
 
@@ -11,6 +13,7 @@ QScrollArea* makeScrollArea(QWidget* parent)
     scroll->setWidgetResizable(true);
     scroll->setFrameShape(QFrame::NoFrame);
     scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    new FocusFrame(scroll, FocusFrame::Ground::Panel);
     // By itself it does so for the Tab key only. What is being clicked stays under the pointer.
     QObject::connect(qApp, &QApplication::focusChanged, scroll,
                      [scroll](const QWidget*, QWidget* now) {

@@ -12,12 +12,19 @@ class FocusFrame final : public QWidget {
     Q_OBJECT
 
 public:
-    explicit FocusFrame(QWidget* parent);
+    /// What it lies on: the picture of a map, whose colors it has to stand out from, or the plain
+    /// ground of panels.
+    enum class Ground { Picture, Panel };
+
+    explicit FocusFrame(QWidget* parent, Ground ground = Ground::Picture);
 
 protected:
     bool eventFilter(QObject* watched, QEvent* event) override;
     void paintEvent(QPaintEvent* event) override;
     void resizeEvent(QResizeEvent* event) override;
+
+private:
+    Ground ground_;
 };
 
 } // namespace marsview

@@ -1,4 +1,4 @@
-#include "ui/overlay/focus_frame.h"
+#include "ui/widgets/focus_frame.h"
 
 #include "ui/widgets/plate.h"
 
@@ -28,8 +28,9 @@ bool isReturn(Qt::FocusReason reason)
 
 } // namespace
 
-FocusFrame::FocusFrame(QWidget* parent)
+FocusFrame::FocusFrame(QWidget* parent, Ground ground)
     : QWidget(parent)
+    , ground_(ground)
 {
     setAttribute(Qt::WA_TransparentForMouseEvents);
     setFocusPolicy(Qt::NoFocus);
@@ -70,6 +71,12 @@ bool FocusFrame::eventFilter(QObject* watched, QEvent* event)
 void FocusFrame::paintEvent(QPaintEvent* /*event*/)
 {
     QPainter painter(this);
+    if (ground_ == Ground::Panel) {
+        constexpr double kWidth = 2.0;
+        painter.setPen(QPen(palette().color(QPalette::Highlight), kWidth));
+        painter.drawRect(QRectF(rect()).adjusted(1.0, 1.0, -1.0, -1.0));
+        return;
+    }
     QPainterPath edge;
     edge.addRect(QRectF(rect()).adjusted(1.5, 1.5, -1.5, -1.5));
     drawContrasting(painter, edge, overlayFocusColor(), 2.0);
