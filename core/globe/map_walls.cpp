@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kCells = DetailErrors::kNodeCells;
 
 // A node with more edges than this gets longer ones: voids are like noise there.
-constexpr std::size_t kEdgesMax = 3000;
+constexpr std::size_t kEdgesMax = 12000;
 
 // Those of the nodes that are kept, 60 MB.
 constexpr std::size_t kCornersMax = 3'000'000;
@@ -33,15 +33,6 @@ std::size_t count(const MapWalls::NodeWalls& walls)
         corners += quadrant.corners.size();
     }
     return corners;
-}
-
-std::size_t powerOf(std::size_t step)
-{
-    std::size_t power = 0;
-    while (std::size_t{1} << power < step) {
-        ++power;
-    }
-    return power;
 }
 
 } // namespace
@@ -90,12 +81,16 @@ bool mayEnd(const BodyGrid& grid, const BlockMeans& means, const DetailNode& nod
     return false;
 }
 
-// The samples of a node at some step, with one more around them: which are void.
+// The triangles between every so many samples of a node, with those next to it: which have data.
 class MapWalls::Outline {
 public:
-    Outline(const Heightfield& heightfield, const BodyGrid& grid, const Key& key)
+    Outline(const Heightfield& heightfield,
+            const BodyGrid& grid,
+            const BlockMeans& means,
+            const Key& key)
         : heightfield_(heightfield)
         , grid_(grid)
+        , means_(means)
         , step_(key.step)
         , side_(kCells << key.node.level)
         , first_column_(key.node.column * side_)
@@ -105,14 +100,17 @@ public:
     {
         if (heightfield.isTiled() && heightfield.hasVoids()) {
             cursor_.emplace(*heightfield.tiles(), heightfield.scale(), TileAccess::Resident);
-            level_ = std::min(powerOf(step_), heightfield.tiles()->layout().topLevel());
         }
-        stride_ = columns_ + 3;
-        has_.assign(stride_ * (rows_ + 3), true);
-        for (std::size_t j = 0; j < rows_ + 3; ++j) {
-            const std::size_t apart = isInside(j, rows_ + 3) ? stride_ - 1 : 1;
+        while (block_level_ + 1 < means.levelCount() &&
+               (means.blockSamples() << (block_level_ + 4)) <= step_) {
+            ++block_level_;
+        }
+        stride_ = columns_ + 2;
+        triangles_.assign(stride_ * (rows_ + 2), kBoth);
+        for (std::size_t j = 0; j < rows_ + 2; ++j) {
+            const std::size_t apart = isInside(j, rows_ + 2) ? stride_ - 1 : 1;
             for (std::size_t i = 0; i < stride_; i += apart) {
-                has_[j * stride_ + i] = hasData(i, j);
+                triangles_[j * stride_ + i] = trianglesIn(columnsOf(i), rowsOf(j));
             }
         }
     }
@@ -163,6 +161,18 @@ public:
     }
 
 private:
+    // Bits of a cell: its triangles with data.
+    static constexpr std::uint8_t kUpper = 1;
+    static constexpr std::uint8_t kLower = 2;
+    static constexpr std::uint8_t kBoth = kUpper | kLower;
+
+    // The samples of a line of cells, from its first to its last ones. Both are the same next to a
+    // pole, where the triangles have one row.
+    struct Span {
+        std::size_t first = 0;
+        std::size_t last = 0;
+    };
+
     std::size_t cellsFrom(std::size_t first, std::size_t samples) const
     {
         return (std::min(side_, samples - 1 - first) + step_ - 1) / step_;
@@ -174,52 +184,111 @@ private:
     }
     std::size_t half(std::size_t cell) const { return 2 * cell * step_ < side_ ? 0 : 1; }
 
-    // Vertices are counted from the one before the node's first.
-    bool hasData(std::size_t i, std::size_t j)
+    // Cells are counted from the one before the node's first. Nothing beyond the map.
+    std::optional<Span> columnsOf(std::size_t i) const
     {
-        std::size_t column = this->column(i - std::min<std::size_t>(i, 1));
-        std::size_t row = this->row(j - std::min<std::size_t>(j, 1));
-        const std::size_t last_column = grid_.columns() - 1;
-        if (i == 0) {
-            if (column == 0 && !grid_.closes()) {
-                return false;
-            }
-            column = column == 0 ? last_column - std::min(step_, last_column) : column - step_;
-        } else if (i == columns_ + 2 && this->column(columns_) == last_column) {
-            if (!grid_.closes()) {
-                return false;
-            }
-            column = std::min(step_, last_column);
+        const std::size_t last = grid_.columns() - 1;
+        if (i == 0 && first_column_ == 0) {
+            return grid_.closes() ? std::optional(Span{(last - 1) / step_ * step_, last})
+                                  : std::nullopt;
         }
-        const std::size_t last_row = grid_.rows() - 1;
-        if (j == 0) {
-            if (row == 0) {
-                return grid_.poleAtFirstRow() != BodyGrid::Pole::None;
-            }
-            row -= step_;
-        } else if (j == rows_ + 2 && this->row(rows_) == last_row) {
-            return grid_.poleAtLastRow() != BodyGrid::Pole::None;
+        if (i > columns_ && column(columns_) == last) {
+            return grid_.closes() ? std::optional(Span{0, std::min(step_, last)}) : std::nullopt;
         }
-        if (!heightfield_.hasVoids()) {
-            return true;
+        const std::size_t first = first_column_ + i * step_ - step_;
+        return Span{first, std::min(first + step_, last)};
+    }
+    std::optional<Span> rowsOf(std::size_t j) const
+    {
+        const std::size_t last = grid_.rows() - 1;
+        const auto at_pole = [](BodyGrid::Pole pole, std::size_t row) {
+            return pole != BodyGrid::Pole::None ? std::optional(Span{row, row}) : std::nullopt;
+        };
+        if (j == 0 && first_row_ == 0) {
+            return at_pole(grid_.poleAtFirstRow(), 0);
         }
-        const std::size_t sample = grid_.rasterColumn(column);
-        return cursor_ ? !std::isnan(cursor_->vertex(level_, sample, row))
-                       : !heightfield_.samples().isVoid(sample, row);
+        if (j > rows_ && row(rows_) == last) {
+            return at_pole(grid_.poleAtLastRow(), last);
+        }
+        const std::size_t first = first_row_ + j * step_ - step_;
+        return Span{first, std::min(first + step_, last)};
     }
 
-    bool has(std::size_t i, std::size_t j) const { return has_[j * stride_ + i]; }
+    // Larger triangles than those between single samples have data if all samples in them do:
+    // the picture has holes at voids that none of their corners meets.
+    std::uint8_t trianglesIn(const std::optional<Span>& columns, const std::optional<Span>& rows)
+    {
+        if (!columns || !rows) {
+            return 0;
+        }
+        if (!heightfield_.hasVoids() || isWhole(*columns, *rows)) {
+            return kBoth;
+        }
+        if (cursor_ && step_ > 1) {
+            return 0; // the samples between may not be in memory
+        }
+        const std::size_t width = columns->last - columns->first;
+        const std::size_t height = rows->last - rows->first;
+        std::uint8_t triangles = kBoth;
+        for (std::size_t y = 0; y <= height; ++y) {
+            for (std::size_t x = 0; x <= width; ++x) {
+                if (!isVoid(columns->first + x, rows->first + y)) {
+                    continue;
+                }
+                const std::size_t right = x * height;
+                const std::size_t down = y * width;
+                triangles &= static_cast<std::uint8_t>(right > down   ? ~kUpper
+                                                       : right < down ? ~kLower
+                                                                      : 0);
+                if (triangles == 0) {
+                    return 0;
+                }
+            }
+        }
+        return triangles;
+    }
+
+    // Whether the blocks of these samples have no voids.
+    bool isWhole(const Span& columns, const Span& rows) const
+    {
+        const std::size_t block = means_.blockSamples() << block_level_;
+        const GridView<const float> blocks = means_.means(block_level_);
+        const std::size_t last_row = std::min(rows.last / block, blocks.rows() - 1);
+        const std::size_t last_column = std::min(columns.last / block, blocks.columns() - 1);
+        const bool has_first = grid_.rasterColumn(columns.last) < columns.last; // where it closes
+        for (std::size_t row = rows.first / block; row <= last_row; ++row) {
+            for (std::size_t column = columns.first / block; column <= last_column; ++column) {
+                if (means_.share(block_level_, column, row) < 1.0F) {
+                    return false;
+                }
+            }
+            if (has_first && means_.share(block_level_, 0, row) < 1.0F) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    bool isVoid(std::size_t column, std::size_t row)
+    {
+        const std::size_t sample = grid_.rasterColumn(column);
+        return cursor_ ? std::isnan(cursor_->sample(sample, row))
+                       : heightfield_.samples().isVoid(sample, row);
+    }
+
     bool hasUpper(std::size_t i, std::size_t j) const
     {
-        return has(i, j) && has(i + 1, j) && has(i + 1, j + 1);
+        return (triangles_[j * stride_ + i] & kUpper) != 0;
     }
     bool hasLower(std::size_t i, std::size_t j) const
     {
-        return has(i, j) && has(i, j + 1) && has(i + 1, j + 1);
+        return (triangles_[j * stride_ + i] & kLower) != 0;
     }
 
     const Heightfield& heightfield_;
     const BodyGrid& grid_;
+    const BlockMeans& means_;
+    std::size_t block_level_ = 0; // of the means
     std::size_t step_;
     std::size_t side_; // of the node, samples
     std::size_t first_column_;
@@ -227,9 +296,8 @@ private:
     std::size_t columns_;
     std::size_t rows_;
     std::size_t stride_ = 0;
-    std::vector<bool> has_;
+    std::vector<std::uint8_t> triangles_;
     std::optional<TileCursor> cursor_; // of a tiled map with voids
-    std::size_t level_ = 0;            // of its tiles
 };
 
 // The terrain of the maps below.
@@ -364,23 +432,23 @@ const MapWalls::NodeWalls& MapWalls::of(const DetailNode& node,
     if (is_new || (!kept.is_final && kept.generation != generation)) {
         kept.generation = generation;
         corner_count_ -= count(kept.walls);
-        build(key, kept);
+        build(key, means, kept);
         corner_count_ += count(kept.walls);
     }
     return kept.walls;
 }
 
-void MapWalls::build(const Key& key, Kept& kept) const
+void MapWalls::build(const Key& key, const BlockMeans& means, Kept& kept) const
 {
     for (Walls& quadrant : kept.walls) {
         quadrant.corners.clear();
         quadrant.triangles.clear();
     }
-    const Outline outline(*heightfield_, *grid_, key);
+    const Outline outline(*heightfield_, *grid_, means, key);
     const std::vector<GridEdge> edges = outline.edges();
     const std::size_t cell = std::size_t{1} << key.node.level;
     if (edges.size() > kEdgesMax && key.step < cell) {
-        build({key.node, 2 * key.step}, kept);
+        build({key.node, 2 * key.step}, means, kept);
         return;
     }
     Ground ground(lower_);

@@ -78,7 +78,7 @@ private:
     class Outline;
     class Ground;
 
-    void build(const Key& key, Kept& kept) const;
+    void build(const Key& key, const BlockMeans& means, Kept& kept) const;
 
     std::shared_ptr<const Heightfield> heightfield_;
     std::shared_ptr<const BodyGrid> grid_;

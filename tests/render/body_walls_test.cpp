@@ -8,10 +8,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <functional>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -248,6 +250,102 @@ TEST_F(BodyWalls, NoPixelIsSeenThroughWhereAMapEndsWithinANode)
     camera.azimuth = Angle::degrees(60.0);
     const OffscreenPicture picture = drawFrom({upper.layer(), lower.layer()}, camera);
     EXPECT_EQ(open(picture.colors, camera, -200.0), 0U);
+}
+
+// Voids up to three samples wide.
+struct Strips {
+    struct Strip {
+        double column;
+        double row;
+        double angle;
+        double half_width;
+    };
+    std::vector<Strip> all;
+
+    Strips(Random& random, std::size_t columns, std::size_t rows)
+    {
+        const std::size_t count = 1 + random.below(12);
+        constexpr std::array<double, 4> kAngles{0.0, 0.5, 0.25, 0.75}; // along the grid's lines
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::size_t angle = random.below(6);
+            all.push_back({.column = std::floor(random.uniform(0.0, static_cast<double>(columns))),
+                           .row = std::floor(random.uniform(0.0, static_cast<double>(rows))),
+                           .angle = std::numbers::pi * (angle < 4 ? kAngles[angle] : random.unit()),
+                           .half_width = 0.5 * static_cast<double>(random.below(4)) + 0.3});
+        }
+    }
+    bool has(std::size_t column, std::size_t row) const
+    {
+        return std::any_of(all.begin(), all.end(), [&](const Strip& strip) {
+            const double across =
+                (static_cast<double>(column) - strip.column) * std::sin(strip.angle) -
+                (static_cast<double>(row) - strip.row) * std::cos(strip.angle);
+            return std::abs(across) < strip.half_width;
+        });
+    }
+};
+
+// Texels and cells of the pictures may be larger than the voids, which none of their corners meets.
+TEST_F(BodyWalls, NoPixelIsSeenThroughAtNarrowVoids)
+{
+    Random random(20240229);
+    const auto wide = fractalHeights(random, 1440, 720, 3000.0, 0.5);
+    const std::vector<StepMap> lower{
+        globe(level), globe([&](std::size_t c, std::size_t r) { return wide[r * 1440 + c]; })};
+    std::size_t picture_count = 0;
+    for (int map = 0; map < 10; ++map) {
+        const std::size_t columns = 100 + random.below(600);
+        const std::size_t rows = 100 + random.below(500);
+        const double cell_m = std::pow(10.0, random.uniform(1.0, 2.3));
+        const double relief_m = map % 2 == 0 ? 0.0 : random.uniform(0.0, 600.0);
+        const double step_m =
+            (random.chance(0.5) ? 1.0 : -1.0) * std::pow(10.0, random.uniform(1.5, 3.3));
+        const auto local = fractalHeights(random, columns, rows, relief_m, 0.6);
+        const Strips strips(random, columns, rows);
+        const double width_m = cell_m * static_cast<double>(columns - 1);
+        const double height_m = cell_m * static_cast<double>(rows - 1);
+        const StepMap upper(fmt::format("+proj={} +lat_0=18.5 +lon_0=77.4 +R=3396190 +units=m",
+                                        random.chance(0.5) ? "tmerc" : "stere"),
+                            columns, rows, {-0.5 * width_m, cell_m, 0, 0.5 * height_m, 0, -cell_m},
+                            [&](std::size_t c, std::size_t r) {
+                                return strips.has(c, r) ? kNaN : step_m + local[r * columns + c];
+                            });
+        const StepMap& under = lower[random.below(2)];
+        const HeightRange own = upper.drawn.field->range().value();
+        const HeightRange other = under.drawn.field->range().value();
+        for (int i = 0; i < 8; ++i) {
+            constexpr std::array<double, 4> kExaggerations{0.5, 1.0, 3.0, 10.0};
+            constexpr std::array<double, 3> kErrors{1.0, 2.0, 8.0};
+            const double exaggeration = kExaggerations.at(random.below(4));
+            const DetailTarget detail{.error_px = kErrors.at(random.below(3)),
+                                      .texel_px = random.chance(0.5) ? 1.0 : 2.0};
+            const auto target = upper.georeference.toGeographic(
+                GridPoint{random.uniform(0.0, static_cast<double>(columns - 1)),
+                          random.uniform(0.0, static_cast<double>(rows - 1))});
+            const BodyCamera camera{
+                .target = *target,
+                .height_m = exaggeration * std::max(step_m, 0.0),
+                .distance_m = width_m * std::pow(10.0, random.uniform(-1.0, 0.5)),
+                .azimuth = Angle::degrees(random.uniform(0.0, 360.0)),
+                .tilt = Angle::degrees(random.chance(0.2) ? 0.0 : random.uniform(0.0, 80.0))};
+            const CameraPose pose = poseOf(camera, Ellipsoid{kRadius, kRadius});
+            if (length(pose.eye) - kRadius <
+                exaggeration * std::max(own.maximum_m, other.maximum_m) + 0.1 * cell_m) {
+                continue;
+            }
+            ++picture_count;
+            const double pixel_m = camera.distance_m / kViewport.height;
+            const double lowest_m = exaggeration * std::min(own.minimum_m, other.minimum_m) -
+                                    300.0 - 4.0 * detail.error_px * pixel_m;
+            const OffscreenPicture picture =
+                drawFrom({upper.layer(), under.layer()}, camera, exaggeration, detail);
+            EXPECT_EQ(open(picture.colors, camera, lowest_m), 0U)
+                << "map " << map << " from " << camera.distance_m << " m, " << camera.tilt.degrees()
+                << "°, × " << exaggeration << ", " << detail.error_px << " px, texels of "
+                << detail.texel_px << " px";
+        }
+    }
+    EXPECT_GT(picture_count, 60U);
 }
 
 // Rays are followed in small steps to where they are below the uppermost map with data.

@@ -434,7 +434,11 @@ uniform vec2 u_cover_overlap[COVERS]; // shares by which both maps are drawn at 
 uniform vec4 u_cover_range[COVERS];   // least and most of the first share, and of the second
 uniform float u_cover_turn[COVERS];   // of the first; 0 where the cover does not go around
 
-// Whether there is a surface at all corners of a square around the place. Most cells know by
+// Texels of a relief's last level, in those of its first one.
+const float kReliefLargest = 8.0;
+
+// Whether there is a surface at all corners of a square around the place. Ground that is seen at a
+// low angle has larger texels, and holes as much larger in the picture. Most cells know by
 // themselves; software drivers leave the loop once that is so for some neighboring pixels.
 bool isUnder(usampler2D cover,
              vec3 share,
@@ -450,7 +454,10 @@ bool isUnder(usampler2D cover,
                     all(lessThanEqual(place, range.yw));
     vec2 middle = place * to_texture.xy + to_texture.zw;
     vec2 to_corner = overlap * to_texture.xy;
-    int drawn_level = levelOf(level.x / gl_FragCoord.w, level.y);
+    float texel = level.x / gl_FragCoord.w;
+    vec2 per_share = to_texture.xy * vec2(textureSize(cover, 0));
+    float seen = max(length(dFdx(share.xy) * per_share), length(dFdy(share.xy) * per_share));
+    int drawn_level = levelOf(clamp(seen, texel, kReliefLargest * texel), level.y);
     int looks = is_under ? 5 : 0;
     for (int i = int(level.w); i < looks; ++i) {
         bool is_middle = i == 0;
