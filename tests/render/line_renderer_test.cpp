@@ -136,6 +136,56 @@ TEST_F(LineRendererTest, ADarkBorderSeparatesALineFromTheGround)
     EXPECT_EQ(rgb[beyond], without[beyond]);
 }
 
+// At turns of every angle, to both sides, and where points coincide.
+TEST_F(LineRendererTest, JointsAreRoundAndWithoutGaps)
+{
+    constexpr double kWidthPx = 9.0;
+    const OrbitCamera camera = fromAbove(900.0);
+    DrapedLine line{.points = {{-260.0, 0.0, 0.0}}, .color = kLineColor, .width_points = kWidthPx};
+    for (double turn_deg = -170.0; turn_deg <= 180.0; turn_deg += 25.0) {
+        const ScenePoint& from = line.points.back();
+        const double turn = Angle::degrees(turn_deg).radians();
+        line.points.push_back({from.x + 25.0, from.y + 12.0, 0.0});
+        line.points.push_back(line.points.back());
+        line.points.push_back({line.points.back().x + 20.0 * std::cos(turn),
+                               line.points.back().y + 20.0 * std::sin(turn), 0.0});
+    }
+    const auto rgb = drawn(plain(), camera, {line});
+    std::vector<PixelPoint> pixels;
+    for (const ScenePoint& point : line.points) {
+        const auto pixel = project(camera, kPictureSize, point);
+        ASSERT_TRUE(pixel);
+        pixels.push_back(*pixel);
+    }
+    const auto distance = [&](double x, double y) {
+        double nearest = 1e9;
+        for (std::size_t i = 1; i < pixels.size(); ++i) {
+            const double dx = pixels[i].x - pixels[i - 1].x;
+            const double dy = pixels[i].y - pixels[i - 1].y;
+            const double square = dx * dx + dy * dy;
+            const double along = (x - pixels[i - 1].x) * dx + (y - pixels[i - 1].y) * dy;
+            const double share = square > 0.0 ? std::clamp(along / square, 0.0, 1.0) : 0.0;
+            nearest = std::min(nearest, std::hypot(x - pixels[i - 1].x - share * dx,
+                                                   y - pixels[i - 1].y - share * dy));
+        }
+        return nearest;
+    };
+    int inside = 0;
+    for (int y = 0; y < kPictureSize.height; ++y) {
+        for (int x = 0; x < kPictureSize.width; ++x) {
+            const double from_line = distance(x + 0.5, y + 0.5);
+            const double share = lineShare(rgb, x, kPictureSize.height - 1 - y);
+            if (from_line < 0.5 * kWidthPx - 0.6) {
+                EXPECT_GT(share, 0.95) << x << ' ' << y;
+                ++inside;
+            } else if (from_line > 0.5 * kWidthPx + 0.6) {
+                EXPECT_LT(share, 0.05) << x << ' ' << y;
+            }
+        }
+    }
+    EXPECT_GT(inside, 2000);
+}
+
 TEST_F(LineRendererTest, ChangesNothingOutsideItsArea)
 {
     const std::vector<DrapedLine> lines{

@@ -1,5 +1,8 @@
 // Each segment is a rectangle on the screen, in which the fragment shader draws what lies within
-// half a width of the segment. Ends are round, so that segments join without gaps.
+// half a width of the segment. Ends are round, so that segments join without gaps. Where a segment
+// begins at the end of another one, its rectangle begins square there: the round end of the other
+// covers the rest. Software renderers spend most of the time on the pixels of the rectangles, so
+// these are no larger than a pass needs.
 
 #include "ui/render/line_renderer.h"
 
@@ -11,6 +14,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <utility>
 
@@ -27,10 +31,13 @@ constexpr float kHiddenAlpha = 0.35F;
 constexpr double kLiftPerReach = 6.0;
 
 constexpr const char* kVertex = R"(#version 330 core
-layout(location = 0) in vec3 a_device;
-layout(location = 1) in vec4 a_ends; // of the segment, in pixels
-layout(location = 2) in vec3 a_color;
-layout(location = 3) in float a_half_width; // in pixels
+layout(location = 0) in vec4 a_ends;  // of the segment, in pixels
+layout(location = 1) in vec2 a_corner; // along: 1 beyond the end, -1 before the begin, 0 at it
+layout(location = 2) in float a_depth; // in normalized device coordinates
+layout(location = 3) in vec3 a_color;
+layout(location = 4) in float a_half_width; // in pixels
+uniform float u_border;                     // in pixels
+uniform vec2 u_size;                        // of the picture, in pixels
 flat out vec4 v_ends;
 flat out vec3 v_color;
 flat out float v_half_width;
@@ -39,7 +46,14 @@ void main()
     v_ends = a_ends;
     v_color = a_color;
     v_half_width = a_half_width;
-    gl_Position = vec4(a_device, 1.0);
+    vec2 along = a_ends.zw - a_ends.xy;
+    float segment = length(along);
+    along = segment > 0.0 ? along / segment : vec2(1.0, 0.0);
+    // Half a pixel of coverage, and a little for rounding.
+    vec2 reach = (a_half_width + u_border + 0.6) * a_corner;
+    vec2 pixel = (a_corner.x > 0.0 ? a_ends.zw : a_ends.xy) + reach.x * along +
+                 reach.y * vec2(-along.y, along.x);
+    gl_Position = vec4(pixel * 2.0 / u_size - 1.0, a_depth, 1.0);
 }
 )";
 
@@ -71,11 +85,15 @@ void main()
 )";
 
 struct Vertex {
-    std::array<float, 3> device; // normalized device coordinates
     std::array<float, 4> ends;
-    std::array<float, 3> color;
+    std::array<float, 2> corner;
+    float depth;
+    std::array<std::uint8_t, 4> color; // the last is unused
     float half_width;
 };
+
+constexpr std::size_t kCorners = 4; // of a rectangle
+constexpr std::size_t kIndices = 6; // of its two triangles
 
 // Homogeneous clip coordinates.
 struct ClipPoint {
@@ -100,6 +118,8 @@ struct DevicePoint {
 struct DeviceSegment {
     DevicePoint begin;
     DevicePoint end;
+    bool is_begin_cut = false;
+    bool is_end_cut = false;
 };
 
 // Scene to screen for one picture.
@@ -148,16 +168,15 @@ public:
         if (begin > end) {
             return std::nullopt;
         }
-        return DeviceSegment{devicePoint(between(a, b, begin)), devicePoint(between(a, b, end))};
+        return DeviceSegment{.begin = devicePoint(between(a, b, begin)),
+                             .end = devicePoint(between(a, b, end)),
+                             .is_begin_cut = begin > 0.0,
+                             .is_end_cut = end < 1.0};
     }
 
     PixelPoint pixel(const DevicePoint& p) const
     {
         return {(p.x + 1.0) * 0.5 * viewport_.width, (p.y + 1.0) * 0.5 * viewport_.height};
-    }
-    DevicePoint device(const PixelPoint& pixel, double z) const
-    {
-        return {pixel.x * 2.0 / viewport_.width - 1.0, pixel.y * 2.0 / viewport_.height - 1.0, z};
     }
 
 private:
@@ -178,33 +197,30 @@ private:
     double pixel_share_; // of the distance along the view axis: a pixel's side
 };
 
+enum class SegmentBegin : std::uint8_t { Round, Square };
+
 // The rectangle around a segment that its line can cover: `reach` pixels to all sides.
-void addSegment(std::vector<Vertex>& triangles,
+void addSegment(std::vector<Vertex>& corners,
                 const Screen& screen,
                 const DeviceSegment& segment,
+                SegmentBegin begin,
                 double reach,
                 const Vertex& paint)
 {
     const PixelPoint a = screen.pixel(segment.begin);
     const PixelPoint b = screen.pixel(segment.end);
-    const double length = std::hypot(b.x - a.x, b.y - a.y);
-    const double along_x = length > 0.0 ? (b.x - a.x) / length : 1.0;
-    const double along_y = length > 0.0 ? (b.y - a.y) / length : 0.0;
-    const auto corner = [&](const PixelPoint& end, double z, double along, double aside) {
-        const DevicePoint p = screen.device({end.x + reach * (along * along_x - aside * along_y),
-                                             end.y + reach * (along * along_y + aside * along_x)},
-                                            screen.lifted(z, kLiftPerReach * reach));
-        Vertex vertex = paint;
-        vertex.device = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
-        vertex.ends = {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(b.x),
-                       static_cast<float>(b.y)};
-        return vertex;
+    Vertex vertex = paint;
+    vertex.ends = {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(b.x),
+                   static_cast<float>(b.y)};
+    const auto add = [&](double z, float along) {
+        vertex.depth = static_cast<float>(screen.lifted(z, kLiftPerReach * reach));
+        for (const float aside : {-1.0F, 1.0F}) {
+            vertex.corner = {along, aside};
+            corners.push_back(vertex);
+        }
     };
-    const Vertex v0 = corner(a, segment.begin.z, -1.0, -1.0);
-    const Vertex v1 = corner(a, segment.begin.z, -1.0, 1.0);
-    const Vertex v2 = corner(b, segment.end.z, 1.0, -1.0);
-    const Vertex v3 = corner(b, segment.end.z, 1.0, 1.0);
-    triangles.insert(triangles.end(), {v0, v1, v2, v2, v1, v3});
+    add(segment.begin.z, begin == SegmentBegin::Round ? -1.0F : 0.0F);
+    add(segment.end.z, 1.0F);
 }
 
 } // namespace
@@ -212,6 +228,8 @@ void addSegment(std::vector<Vertex>& triangles,
 struct LineRenderer::Impl {
     GlProgram program;
     GlBuffer vertices;
+    GlBuffer indices; // of rectangles one after the other
+    std::size_t indexed = 0;
     GlVertexArray array;
 
     explicit Impl(GlProgram compiled)
@@ -219,17 +237,40 @@ struct LineRenderer::Impl {
     {
         glBindVertexArray(array.id());
         glBindBuffer(GL_ARRAY_BUFFER, vertices.id());
-        const auto attribute = [](GLuint location, GLint count, std::size_t offset) {
+        glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices.id());
+        const auto attribute = [](GLuint location, GLint count, GLenum type, std::size_t offset) {
             glEnableVertexAttribArray(location);
-            glVertexAttribPointer(location, count, GL_FLOAT, GL_FALSE, sizeof(Vertex),
+            glVertexAttribPointer(location, count, type,
+                                  type == GL_UNSIGNED_BYTE ? GL_TRUE : GL_FALSE, sizeof(Vertex),
                                   reinterpret_cast<const void*>(offset)); // NOLINT: OpenGL's way
         };
-        attribute(0, 3, offsetof(Vertex, device));
-        attribute(1, 4, offsetof(Vertex, ends));
-        attribute(2, 3, offsetof(Vertex, color));
-        attribute(3, 1, offsetof(Vertex, half_width));
+        attribute(0, 4, GL_FLOAT, offsetof(Vertex, ends));
+        attribute(1, 2, GL_FLOAT, offsetof(Vertex, corner));
+        attribute(2, 1, GL_FLOAT, offsetof(Vertex, depth));
+        attribute(3, 3, GL_UNSIGNED_BYTE, offsetof(Vertex, color));
+        attribute(4, 1, GL_FLOAT, offsetof(Vertex, half_width));
         glBindVertexArray(0);
         glBindBuffer(GL_ARRAY_BUFFER, 0);
+        glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, 0);
+    }
+
+    // With the vertex array bound.
+    void indexRectangles(std::size_t count)
+    {
+        if (count <= indexed) {
+            return;
+        }
+        indexed = std::max(count, 2 * indexed);
+        constexpr std::array<GLuint, kIndices> kTwoTriangles{0, 1, 2, 2, 1, 3};
+        std::vector<GLuint> all;
+        all.reserve(indexed * kIndices);
+        for (std::size_t i = 0; i < indexed; ++i) {
+            for (const GLuint corner : kTwoTriangles) {
+                all.push_back(static_cast<GLuint>(i * kCorners) + corner);
+            }
+        }
+        glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(all.size() * sizeof(GLuint)),
+                     all.data(), GL_STATIC_DRAW);
     }
 
     struct Pass {
@@ -239,17 +280,18 @@ struct LineRenderer::Impl {
         bool is_hard = false;
     };
 
-    void draw(const Pass& pass, std::size_t vertex_count) const
+    void draw(const Pass& pass, std::size_t rectangles) const
     {
         glUniform1f(program.uniform("u_border"), static_cast<GLfloat>(pass.border_px));
         glUniform4f(program.uniform("u_paint"), 0.0F, 0.0F, 0.0F, pass.alpha);
         glUniform1i(program.uniform("u_has_own_color"), pass.has_own_color ? 1 : 0);
         glUniform1i(program.uniform("u_is_hard"), pass.is_hard ? 1 : 0);
-        glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(vertex_count));
+        glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(rectangles * kIndices), GL_UNSIGNED_INT,
+                       nullptr);
     }
 
     // Every pixel once, or parts with several segments would be less faint.
-    void drawHidden(std::size_t vertex_count) const
+    void drawHidden(std::size_t rectangles) const
     {
         glDepthFunc(GL_GREATER);
         glEnable(GL_STENCIL_TEST);
@@ -258,7 +300,7 @@ struct LineRenderer::Impl {
         glClear(GL_STENCIL_BUFFER_BIT);
         glStencilFunc(GL_NOTEQUAL, 1, 0xFF);
         glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
-        draw({.alpha = kHiddenAlpha, .is_hard = true}, vertex_count);
+        draw({.alpha = kHiddenAlpha, .is_hard = true}, rectangles);
         glDisable(GL_STENCIL_TEST);
     }
 };
@@ -285,20 +327,25 @@ void LineRenderer::draw(std::span<const DrapedLine> lines, const LinePicture& pi
     const double pixels_per_point = picture.pixels_per_point;
     const double border_px = kBorderPoints * pixels_per_point;
     // Lines with faint parts first, since only these are drawn where the terrain hides them.
-    std::vector<Vertex> triangles;
-    std::size_t faint_count = 0;
+    std::vector<Vertex> corners;
+    std::size_t faint_count = 0; // of rectangles
     const auto add = [&](const DrapedLine& line) {
         const double half_width = 0.5 * line.width_points * pixels_per_point;
-        const Vertex paint{.device = {},
-                           .ends = {},
-                           .color = {static_cast<float>(line.color.red) / 255.0F,
-                                     static_cast<float>(line.color.green) / 255.0F,
-                                     static_cast<float>(line.color.blue) / 255.0F},
+        const Vertex paint{.ends = {},
+                           .corner = {},
+                           .depth = 0.0F,
+                           .color = {line.color.red, line.color.green, line.color.blue, 0},
                            .half_width = static_cast<float>(half_width)};
+        bool is_joint = false; // the segment before ends where this one begins
         for (std::size_t i = 1; i < line.points.size(); ++i) {
-            if (const auto segment = screen.segment(line.points[i - 1], line.points[i])) {
-                addSegment(triangles, screen, *segment, half_width + border_px + 1.0, paint);
+            const auto segment = screen.segment(line.points[i - 1], line.points[i]);
+            if (segment) {
+                addSegment(corners, screen, *segment,
+                           is_joint && !segment->is_begin_cut ? SegmentBegin::Square
+                                                              : SegmentBegin::Round,
+                           half_width + border_px + 1.0, paint);
             }
+            is_joint = segment && !segment->is_end_cut;
         }
     };
     for (const HiddenParts hidden_parts : {HiddenParts::Faint, HiddenParts::Invisible}) {
@@ -308,23 +355,27 @@ void LineRenderer::draw(std::span<const DrapedLine> lines, const LinePicture& pi
             }
         }
         if (hidden_parts == HiddenParts::Faint) {
-            faint_count = triangles.size();
+            faint_count = corners.size() / kCorners;
         }
     }
-    if (triangles.empty()) {
+    if (corners.empty()) {
         return;
     }
+    const std::size_t count = corners.size() / kCorners;
     glUseProgram(impl_->program.id());
     glBindVertexArray(impl_->array.id());
     glBindBuffer(GL_ARRAY_BUFFER, impl_->vertices.id());
-    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(triangles.size() * sizeof(Vertex)),
-                 triangles.data(), GL_STREAM_DRAW);
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(corners.size() * sizeof(Vertex)),
+                 corners.data(), GL_STREAM_DRAW);
+    impl_->indexRectangles(count);
     const PixelArea part = picture.part.value_or(PixelArea{.left = 0,
                                                            .bottom = 0,
                                                            .width = picture.viewport.width,
                                                            .height = picture.viewport.height});
     glUniform2f(impl_->program.uniform("u_corner"), static_cast<GLfloat>(part.left),
                 static_cast<GLfloat>(part.bottom));
+    glUniform2f(impl_->program.uniform("u_size"), static_cast<GLfloat>(picture.viewport.width),
+                static_cast<GLfloat>(picture.viewport.height));
     glViewport(-part.left, -part.bottom, picture.viewport.width, picture.viewport.height);
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
@@ -334,14 +385,14 @@ void LineRenderer::draw(std::span<const DrapedLine> lines, const LinePicture& pi
         impl_->drawHidden(faint_count);
     }
     glDepthFunc(GL_LEQUAL);
-    impl_->draw({.border_px = border_px, .alpha = kBorderAlpha, .has_own_color = false},
-                triangles.size());
-    impl_->draw({}, triangles.size());
+    impl_->draw({.border_px = border_px, .alpha = kBorderAlpha, .has_own_color = false}, count);
+    impl_->draw({}, count);
     glDepthMask(GL_TRUE);
     glDisable(GL_BLEND);
     glViewport(0, 0, part.width, part.height);
     glBindVertexArray(0);
     glBindBuffer(GL_ARRAY_BUFFER, 0);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, 0);
     glUseProgram(0);
 }
 
