@@ -1,6 +1,7 @@
 #include "core/body/body_mesh.h"
 
 #include "core/base/check.h"
+#include "core/body/tiled_rim.h"
 
 #include <algorithm>
 #include <cmath>
@@ -290,8 +291,12 @@ double BodyMesh::tiledHeight(std::size_t column, std::size_t raster_row) const n
     const auto c = static_cast<std::int32_t>(column);
     const auto r = static_cast<std::int32_t>(raster_row);
     double height_m = 0.0;
-    if (const std::int16_t* raw =
-            tile_type_ == SampleType::Int16 ? terrain_->plainSample<std::int16_t>(c, r) : nullptr) {
+    if (const double* at_rim =
+            rim_ ? rim_->find(column, raster_row - positions_->firstRow()) : nullptr) {
+        height_m = *at_rim;
+    } else if (const std::int16_t* raw = tile_type_ == SampleType::Int16
+                                             ? terrain_->plainSample<std::int16_t>(c, r)
+                                             : nullptr) {
         height_m = scale_.height(static_cast<double>(*raw));
     } else if (const float* value = tile_type_ == SampleType::Float32
                                         ? terrain_->plainSample<float>(c, r)

@@ -21,6 +21,8 @@
 
 namespace marsview {
 
+class TiledRim;
+
 /// Of a vertex, a face or a corner of maps on a body: a planet at 200 m has more than 2^32 corners.
 using BodyIndex = std::uint64_t;
 using BodyFace = std::array<BodyIndex, 3>;
@@ -89,6 +91,11 @@ public:
     const BodyPositions& positions() const noexcept { return *positions_; }
     const Ellipsoid& ellipsoid() const noexcept { return positions_->ellipsoid(); }
     double exaggeration() const noexcept { return exaggeration_; }
+    std::uint32_t cellColumns() const noexcept { return cell_columns_; }
+    std::uint32_t cellRows() const noexcept { return rows_ - 1; }
+    bool isTiled() const noexcept { return nodes_ != nullptr; }
+    /// Of a map in tiles whose border does not depend on them; otherwise null.
+    const std::shared_ptr<const TiledRim>& rim() const noexcept { return rim_; }
 
     ScenePoint vertex(BodyIndex index) const noexcept { return pointOf(sampleOf(index)); }
     BodyFace face(BodyIndex index) const noexcept
@@ -205,6 +212,21 @@ public:
             return heights_ ? heights_->isVoid(sample.column, row)
                             : terrain_->isVoid(sample.column, row);
         });
+    }
+
+    /// Calls visit(face) with the faces of the cells in the outermost rows and columns.
+    template <typename F>
+    void eachFaceAtBorder(F&& visit) const
+    {
+        for (std::uint32_t row = 0; row + 1 < rows_; ++row) {
+            const bool is_whole = row == 0 || row + 2 == rows_;
+            const std::uint32_t step = is_whole ? 1 : std::max<std::uint32_t>(cell_columns_ - 1, 1);
+            for (std::uint32_t column = 0; column < cell_columns_; column += step) {
+                const BodyIndex cell = BodyIndex{row} * cell_columns_ + column;
+                visit(2 * cell);
+                visit(2 * cell + 1);
+            }
+        }
     }
 
     static BodyIndex faceOf(BodyIndex corner) noexcept { return corner / 3; }
@@ -595,8 +617,9 @@ private:
     Status buildTree(JobMonitor& monitor);
 
     std::shared_ptr<const FilledHeightfield> heights_; // of a map in memory
-    std::shared_ptr<const TiledBodyNodes> nodes_;      // these two: of a map in tiles
+    std::shared_ptr<const TiledBodyNodes> nodes_;      // these: of a map in tiles
     std::shared_ptr<const TiledTerrain> terrain_;
+    std::shared_ptr<const TiledRim> rim_; // of these tiles, or null
     SampleType tile_type_ = SampleType::Int16;
     std::shared_ptr<const BodyPositions> positions_;
     double exaggeration_;

@@ -96,10 +96,9 @@ private:
     {
         std::vector<RimEdge> edges;
         std::unordered_map<BodyIndex, std::vector<std::size_t>> from;
-        const auto count = map_.mesh->faceCount();
-        for (BodyIndex own = 0; own < count; ++own) {
+        const auto look_at = [&](BodyIndex own) {
             if (map_.is_gone[own]) {
-                continue;
+                return;
             }
             for (BodyIndex i = 0; i < 3; ++i) {
                 const BodyIndex beyond = map_.mesh->across(3 * own + i);
@@ -113,6 +112,14 @@ private:
                 if (beyond != kNone) {
                     patch_.setAcross(3 * face + i, kNone);
                 }
+            }
+        };
+        if (map_.mesh->rim()) {
+            map_.mesh->eachFaceAtBorder(look_at);
+        } else {
+            const auto count = map_.mesh->faceCount();
+            for (BodyIndex own = 0; own < count; ++own) {
+                look_at(own);
             }
         }
         std::vector<bool> is_taken(edges.size(), false);

@@ -52,8 +52,10 @@ double zeroOn(const Ellipsoid& body, const ScenePoint& from, const ScenePoint& t
 LayerPatch::LayerPatch(const std::vector<std::shared_ptr<const BodyMesh>>& maps)
 {
     for (const auto& mesh : maps) {
-        maps_.push_back({.mesh = mesh, .first_vertex = map_vertices_, .first_face = map_faces_});
-        maps_.back().is_gone.assign(mesh->faceCount(), false);
+        maps_.push_back({.mesh = mesh,
+                         .first_vertex = map_vertices_,
+                         .first_face = map_faces_,
+                         .is_gone = FaceMarks(*mesh)});
         map_vertices_ += mesh->vertexCount();
         map_faces_ += mesh->faceCount();
     }
@@ -179,7 +181,7 @@ void LayerPatch::removeFace(BodyIndex face)
         cut_[face - map_faces_].is_gone = true;
     } else {
         Map& map = maps_[mapOf(face)];
-        map.is_gone[face - map.first_face] = true;
+        map.is_gone.set(face - map.first_face);
     }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/body/body_mesh.h"
+#include "core/body/face_marks.h"
 
 #include <array>
 #include <cstddef>
@@ -28,7 +29,7 @@ public:
         std::shared_ptr<const BodyMesh> mesh;
         BodyIndex first_vertex = 0;
         BodyIndex first_face = 0;
-        std::vector<bool> is_gone{}; // faces that are cut or covered
+        FaceMarks is_gone; // cut or covered
     };
     struct Face {
         std::array<BodyIndex, 3> vertices;

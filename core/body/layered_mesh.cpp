@@ -19,6 +19,11 @@ LayeredMesh::build(const std::vector<std::shared_ptr<const BodyMesh>>& maps, Job
                      fmt::format("{} maps lie on top of each other; up to {} can be joined",
                                  maps.size(), kMapsMax)};
     }
+    for (std::size_t i = 0; i < maps.size(); ++i) {
+        if (maps[i]->isTiled() && (i > 0 || !maps[i]->rim())) {
+            return Error{ErrorCode::Unsupported, "a map in tiles lies below others"};
+        }
+    }
     LayerPatch patch(maps);
     for (std::size_t i = maps.size() - 1; i-- > 0;) {
         if (Status cut = cutOut(patch, i, monitor); !cut) {
@@ -30,12 +35,14 @@ LayeredMesh::build(const std::vector<std::shared_ptr<const BodyMesh>>& maps, Job
     std::shared_ptr<LayeredMesh> mesh(new LayeredMesh);
     mesh->map_faces_ = patch.mapFaces();
     mesh->map_vertices_ = patch.mapVertices();
-    mesh->cut_vertices_ = patch.cutVertices();
+    const auto cut = std::make_shared<Cut>();
+    mesh->cut_ = cut;
+    cut->vertices = patch.cutVertices();
+    std::vector<FaceMarks> linked; // by map
     for (const LayerPatch::Map& map : patch.maps()) {
         mesh->maps_.push_back(
             {.mesh = map.mesh, .first_vertex = map.first_vertex, .first_face = map.first_face});
-        mesh->maps_.back().is_gone = map.is_gone;
-        mesh->maps_.back().is_linked = map.is_gone;
+        linked.push_back(map.is_gone);
     }
     // Cut faces that are not gone, by new numbers.
     std::vector<BodyIndex> numbers(patch.cutFaces().size(), kNone);
@@ -50,37 +57,34 @@ LayeredMesh::build(const std::vector<std::shared_ptr<const BodyMesh>>& maps, Job
     };
     for (const LayerPatch::Face& face : patch.cutFaces()) {
         if (!face.is_gone) {
-            mesh->cut_faces_.push_back(face.vertices);
-            mesh->cut_across_.push_back({renumbered(face.across[0]), renumbered(face.across[1]),
-                                         renumbered(face.across[2])});
-            mesh->is_wall_.push_back(face.origin == LayerPatch::kNone);
+            cut->faces.push_back(face.vertices);
+            cut->across.push_back({renumbered(face.across[0]), renumbered(face.across[1]),
+                                   renumbered(face.across[2])});
+            cut->is_wall.push_back(face.origin == LayerPatch::kNone);
         }
     }
     for (const auto& [corner, beyond] : patch.links()) {
-        Map& map = mesh->maps_[patch.mapOf(corner / 3)];
+        const std::size_t index = patch.mapOf(corner / 3);
+        const LayerPatch::Map& map = patch.maps()[index];
         if (!map.is_gone[corner / 3 - map.first_face]) {
-            map.is_linked[corner / 3 - map.first_face] = true;
-            mesh->links_.push_back({corner, renumbered(beyond)});
+            linked[index].set(corner / 3 - map.first_face);
+            cut->links.push_back({corner, renumbered(beyond)});
         }
     }
-    std::sort(mesh->links_.begin(), mesh->links_.end(),
+    std::sort(cut->links.begin(), cut->links.end(),
               [](const Link& a, const Link& b) { return a.corner < b.corner; });
-    for (Map& map : mesh->maps_) {
-        const auto is_any = [](const std::vector<bool>& bits) {
-            return std::find(bits.begin(), bits.end(), true) != bits.end();
-        };
-        if (!is_any(map.is_gone)) {
-            map.is_gone = {};
-        }
-        if (!is_any(map.is_linked)) {
-            map.is_linked = {};
-        }
+    const auto shared = [](const FaceMarks& marks) {
+        return marks.isAny() ? std::make_shared<const FaceMarks>(marks) : nullptr;
+    };
+    for (std::size_t i = 0; i < maps.size(); ++i) {
+        mesh->maps_[i].gone = shared(patch.maps()[i].is_gone);
+        mesh->maps_[i].linked = shared(linked[i]);
     }
 
     std::vector<std::pair<BodyIndex, BodyIndex>> begins; // a vertex, one of its corners
-    for (BodyIndex i = 0; i < mesh->cut_faces_.size(); ++i) {
+    for (BodyIndex i = 0; i < cut->faces.size(); ++i) {
         for (BodyIndex k = 0; k < 3; ++k) {
-            begins.emplace_back(mesh->cut_faces_[i][k], 3 * (mesh->map_faces_ + i) + k);
+            begins.emplace_back(cut->faces[i][k], 3 * (mesh->map_faces_ + i) + k);
         }
     }
     std::sort(begins.begin(), begins.end());
@@ -89,7 +93,7 @@ LayeredMesh::build(const std::vector<std::shared_ptr<const BodyMesh>>& maps, Job
         if (i > 0 && begins[i - 1].first == vertex) {
             continue;
         }
-        mesh->fans_.push_back({vertex, mesh->fan_corners_.size()});
+        cut->fans.push_back({vertex, cut->fan_corners.size()});
         BodyIndex first = some;
         for (BodyIndex before = mesh->across(previousCorner(first)); before != kNone;
              before = mesh->across(previousCorner(first))) {
@@ -100,36 +104,46 @@ LayeredMesh::build(const std::vector<std::shared_ptr<const BodyMesh>>& maps, Job
         }
         BodyIndex corner = first;
         do {
-            mesh->fan_corners_.push_back(corner);
+            cut->fan_corners.push_back(corner);
             const BodyIndex beyond = mesh->across(nextCorner(corner));
             corner = beyond == kNone ? first : nextCorner(beyond);
         } while (corner != first);
     }
-    mesh->fans_.push_back({kNone, mesh->fan_corners_.size()});
+    cut->fans.push_back({kNone, cut->fan_corners.size()});
 
-    std::vector<TriangleTree::Bounds> bounds(mesh->cut_faces_.size());
+    std::vector<TriangleTree::Bounds> bounds(cut->faces.size());
     for (BodyIndex i = 0; i < bounds.size(); ++i) {
         for (const ScenePoint& point : mesh->points(mesh->map_faces_ + i)) {
             bounds[i].add(point);
         }
     }
     if (!bounds.empty()) {
-        mesh->cut_tree_ = TriangleTree(bounds);
+        cut->tree = TriangleTree(bounds);
     }
     return std::shared_ptr<const LayeredMesh>(std::move(mesh));
+}
+
+std::shared_ptr<const LayeredMesh>
+LayeredMesh::over(std::shared_ptr<const BodyMesh> uppermost) const
+{
+    MARSVIEW_CHECK(uppermost->rim() && uppermost->rim() == maps_.front().mesh->rim());
+    std::shared_ptr<LayeredMesh> mesh(new LayeredMesh(*this));
+    mesh->maps_.front().mesh = std::move(uppermost);
+    return mesh;
 }
 
 BodyIndex LayeredMesh::across(BodyIndex corner) const noexcept
 {
     const BodyIndex face = corner / 3;
     if (face >= map_faces_) {
-        return cut_across_[face - map_faces_][corner % 3];
+        return cut_->across[face - map_faces_][corner % 3];
     }
     const Map& map = mapOf(face);
-    if (!map.is_linked.empty() && map.is_linked[face - map.first_face]) {
-        const auto link = std::lower_bound(links_.begin(), links_.end(), corner,
+    if (map.isLinked(face - map.first_face)) {
+        const auto& links = cut_->links;
+        const auto link = std::lower_bound(links.begin(), links.end(), corner,
                                            [](const Link& a, BodyIndex b) { return a.corner < b; });
-        if (link != links_.end() && link->corner == corner) {
+        if (link != links.end() && link->corner == corner) {
             return link->beyond;
         }
     }
@@ -139,12 +153,13 @@ BodyIndex LayeredMesh::across(BodyIndex corner) const noexcept
 
 LayeredFan LayeredMesh::listedFan(BodyIndex vertex) const noexcept
 {
-    const auto fan = std::lower_bound(fans_.begin(), fans_.end(), vertex,
+    const auto& fans = cut_->fans;
+    const auto fan = std::lower_bound(fans.begin(), fans.end(), vertex,
                                       [](const Fan& a, BodyIndex b) { return a.vertex < b; });
-    if (fan == fans_.end() || fan->vertex != vertex) {
+    if (fan == fans.end() || fan->vertex != vertex) {
         return {nullptr, 0};
     }
-    return {fan_corners_.data() + fan->begin, (fan + 1)->begin - fan->begin};
+    return {cut_->fan_corners.data() + fan->begin, (fan + 1)->begin - fan->begin};
 }
 
 LayeredFan LayeredMesh::fan(BodyIndex vertex) const noexcept
@@ -154,9 +169,8 @@ LayeredFan LayeredMesh::fan(BodyIndex vertex) const noexcept
     }
     const Map& map = mapOfVertex(vertex);
     const FanCorners corners = map.mesh->fan(vertex - map.first_vertex);
-    if (!map.is_linked.empty() &&
-        std::any_of(corners.begin(), corners.end(),
-                    [&map](BodyIndex corner) { return map.is_linked[corner / 3]; })) {
+    if (std::any_of(corners.begin(), corners.end(),
+                    [&map](BodyIndex corner) { return map.isLinked(corner / 3); })) {
         if (const LayeredFan listed = listedFan(vertex); listed.size() > 0) {
             return listed;
         }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/body/body_mesh.h"
+#include "core/body/face_marks.h"
 
 #include <algorithm>
 #include <array>
@@ -46,8 +47,12 @@ private:
 /// border to a few thousandths of how far a cell lies below the curved surface: c² / 8R. All other
 /// triangles are those of BodyMesh, which stores none of them.
 ///
-/// The same queries as TriangleMesh. Immutable, any thread, allocates nothing after construction.
-/// About 150 bytes per edge of a border, and two bits per face of each map.
+/// The uppermost map may be in tiles if it has a rim: the stored triangles do not depend on the
+/// tiles in memory. Such a mesh is as constant as that map's terrain, and for the thread that has
+/// the terrain: each user gets one by over().
+///
+/// The same queries as TriangleMesh. Otherwise immutable, any thread; allocates nothing after
+/// construction. About 150 bytes per edge of a border, and two bits per face of each map in memory.
 class LayeredMesh {
 public:
     using Index = BodyIndex;
@@ -56,14 +61,18 @@ public:
     static constexpr std::size_t kMapsMax = 32;
 
     /// The uppermost map first; all with the same ellipsoid and exaggeration. Errors: Unsupported
-    /// where the border of a map leads beyond the maps below it, or cannot be cut out of them;
-    /// TooLarge above kMapsMax maps; Canceled.
+    /// where the border of a map leads beyond the maps below it, or cannot be cut out of them, and
+    /// for maps in tiles other than the above; TooLarge above kMapsMax maps; Canceled.
     static Result<std::shared_ptr<const LayeredMesh>>
     build(const std::vector<std::shared_ptr<const BodyMesh>>& maps, JobMonitor& monitor);
 
+    /// The same with the uppermost map, which has a rim, over another terrain. The stored
+    /// triangles are shared.
+    std::shared_ptr<const LayeredMesh> over(std::shared_ptr<const BodyMesh> uppermost) const;
+
     /// Faces that are cut or covered are counted, but none of the queries finds them.
-    std::size_t faceCount() const noexcept { return map_faces_ + cut_faces_.size(); }
-    std::size_t vertexCount() const noexcept { return map_vertices_ + cut_vertices_.size(); }
+    std::size_t faceCount() const noexcept { return map_faces_ + cut_->faces.size(); }
+    std::size_t vertexCount() const noexcept { return map_vertices_ + cut_->vertices.size(); }
     std::size_t mapCount() const noexcept { return maps_.size(); }
     const std::shared_ptr<const BodyMesh>& map(std::size_t index) const noexcept
     {
@@ -80,20 +89,20 @@ public:
             return false;
         }
         const Map& map = mapOf(face);
-        return !map.is_gone.empty() && map.is_gone[face - map.first_face];
+        return map.isGone(face - map.first_face);
     }
     /// Cut faces and walls: those from here on.
     BodyIndex firstCutFace() const noexcept { return map_faces_; }
     /// Whether a face is part of a wall.
     bool isWall(BodyIndex face) const noexcept
     {
-        return face >= map_faces_ && is_wall_[face - map_faces_];
+        return face >= map_faces_ && cut_->is_wall[face - map_faces_];
     }
 
     ScenePoint vertex(BodyIndex index) const noexcept
     {
         if (index >= map_vertices_) {
-            return cut_vertices_[index - map_vertices_];
+            return cut_->vertices[index - map_vertices_];
         }
         const Map& map = mapOfVertex(index);
         return map.mesh->vertex(index - map.first_vertex);
@@ -101,7 +110,7 @@ public:
     BodyFace face(BodyIndex index) const noexcept
     {
         if (index >= map_faces_) {
-            return cut_faces_[index - map_faces_];
+            return cut_->faces[index - map_faces_];
         }
         const Map& map = mapOf(index);
         const BodyFace own = map.mesh->face(index - map.first_face);
@@ -110,7 +119,7 @@ public:
     std::array<ScenePoint, 3> points(BodyIndex face) const noexcept
     {
         if (face >= map_faces_) {
-            const BodyFace& f = cut_faces_[face - map_faces_];
+            const BodyFace& f = cut_->faces[face - map_faces_];
             return {vertex(f[0]), vertex(f[1]), vertex(f[2])};
         }
         const Map& map = mapOf(face);
@@ -157,16 +166,16 @@ public:
                 const auto tree = map.mesh->tree();
                 tree.pointsAlong(from + (middle() - tree.middle()), along, slack,
                                  [&](BodyIndex face, const auto& at, double& t_max) {
-                                     if (map.is_gone.empty() || !map.is_gone[face]) {
+                                     if (!map.isGone(face)) {
                                          look_at(face + map.first_face, at, t_max);
                                      }
                                  });
             }
-            mesh_.cut_tree_.alongSegment(from + (middle() - mesh_.cut_tree_.middle()), along, slack,
-                                         [&](BodyIndex face, double& t_max) {
-                                             look_at(face + mesh_.map_faces_,
-                                                     mesh_.points(face + mesh_.map_faces_), t_max);
-                                         });
+            mesh_.cut_->tree.alongSegment(from + (middle() - mesh_.cut_->tree.middle()), along,
+                                          slack, [&](BodyIndex face, double& t_max) {
+                                              look_at(face + mesh_.map_faces_,
+                                                      mesh_.points(face + mesh_.map_faces_), t_max);
+                                          });
         }
         template <typename F>
         void pointsNearest(const ScenePoint& point, F&& visit) const noexcept
@@ -181,12 +190,12 @@ public:
             for (const Map& map : mesh_.maps_) {
                 map.mesh->tree().pointsNearest(point,
                                                [&](BodyIndex face, const auto& at, double& limit) {
-                                                   if (map.is_gone.empty() || !map.is_gone[face]) {
+                                                   if (!map.isGone(face)) {
                                                        look_at(face + map.first_face, at, limit);
                                                    }
                                                });
             }
-            mesh_.cut_tree_.nearestFirst(point, [&](BodyIndex face, double& limit) {
+            mesh_.cut_->tree.nearestFirst(point, [&](BodyIndex face, double& limit) {
                 look_at(face + mesh_.map_faces_, mesh_.points(face + mesh_.map_faces_), limit);
             });
         }
@@ -195,13 +204,13 @@ public:
         {
             for (const Map& map : mesh_.maps_) {
                 map.mesh->tree().inBox(low, high, [&](BodyIndex face) {
-                    if (map.is_gone.empty() || !map.is_gone[face]) {
+                    if (!map.isGone(face)) {
                         visit(face + map.first_face);
                     }
                 });
             }
-            mesh_.cut_tree_.inBox(low, high,
-                                  [&](BodyIndex face) { visit(face + mesh_.map_faces_); });
+            mesh_.cut_->tree.inBox(low, high,
+                                   [&](BodyIndex face) { visit(face + mesh_.map_faces_); });
         }
 
     private:
@@ -218,9 +227,13 @@ private:
         std::shared_ptr<const BodyMesh> mesh;
         BodyIndex first_vertex = 0;
         BodyIndex first_face = 0;
-        // By face; empty if the map is neither cut nor covered.
-        std::vector<bool> is_gone{};
-        std::vector<bool> is_linked{}; // gone, or links_ has one of its corners
+        // Null if the map is neither cut nor covered.
+        std::shared_ptr<const FaceMarks> gone{};
+        std::shared_ptr<const FaceMarks> linked{}; // gone, or `links` has one of its corners
+
+        // By the map's own numbers.
+        bool isGone(BodyIndex face) const noexcept { return gone && (*gone)[face]; }
+        bool isLinked(BodyIndex face) const noexcept { return linked && (*linked)[face]; }
     };
     struct Link {
         BodyIndex corner;
@@ -228,7 +241,18 @@ private:
     };
     struct Fan {
         BodyIndex vertex;
-        BodyIndex begin; // in fan_corners_
+        BodyIndex begin; // in fan_corners
+    };
+    // The stored triangles, along borders.
+    struct Cut {
+        std::vector<ScenePoint> vertices;
+        std::vector<BodyFace> faces;
+        std::vector<std::array<BodyIndex, 3>> across;
+        std::vector<bool> is_wall;
+        std::vector<Link> links; // of corners of maps whose neighbors are cut faces, by corner
+        std::vector<Fan> fans;   // of the vertices of cut faces, by vertex, and an end
+        std::vector<BodyIndex> fan_corners;
+        TriangleTree tree;
     };
 
     LayeredMesh() = default;
@@ -255,14 +279,7 @@ private:
     std::vector<Map> maps_;
     BodyIndex map_faces_ = 0;
     BodyIndex map_vertices_ = 0;
-    std::vector<ScenePoint> cut_vertices_;
-    std::vector<BodyFace> cut_faces_;
-    std::vector<std::array<BodyIndex, 3>> cut_across_;
-    std::vector<bool> is_wall_;
-    std::vector<Link> links_; // of corners of maps whose neighbors are cut faces, by corner
-    std::vector<Fan> fans_;   // of the vertices of cut faces, by vertex, and an end
-    std::vector<BodyIndex> fan_corners_;
-    TriangleTree cut_tree_;
+    std::shared_ptr<const Cut> cut_;
 };
 
 } // namespace marsview

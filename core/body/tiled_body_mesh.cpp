@@ -67,13 +67,14 @@ Status TiledBodyMesh::buildTree(JobMonitor& monitor)
     return Done{};
 }
 
-std::shared_ptr<const BodyMesh>
-TiledBodyMesh::over(std::shared_ptr<const TiledTerrain> terrain) const
+std::shared_ptr<const BodyMesh> TiledBodyMesh::over(std::shared_ptr<const TiledTerrain> terrain,
+                                                    std::shared_ptr<const TiledRim> rim) const
 {
     MARSVIEW_CHECK(terrain && terrain->heights().layout().columns ==
                                   shape_.nodes_->heights().layout().columns);
     auto mesh = std::make_shared<BodyMesh>(shape_);
     mesh->terrain_ = std::move(terrain);
+    mesh->rim_ = std::move(rim);
     return mesh;
 }
 

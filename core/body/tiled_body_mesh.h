@@ -31,8 +31,9 @@ public:
     const std::shared_ptr<const BodyLocator>& locator() const noexcept { return locator_; }
 
     /// The triangles over a terrain of the map. Where its tiles are in memory, those of the map in
-    /// memory to the bit.
-    std::shared_ptr<const BodyMesh> over(std::shared_ptr<const TiledTerrain> terrain) const;
+    /// memory to the bit; at a rim, always.
+    std::shared_ptr<const BodyMesh> over(std::shared_ptr<const TiledTerrain> terrain,
+                                         std::shared_ptr<const TiledRim> rim = nullptr) const;
 
 private:
     TiledBodyMesh(std::shared_ptr<const BodyGrid> grid,

@@ -96,16 +96,31 @@ void BodyStylus::deepen(double factor)
         std::clamp(reach_.depth_points * factor, kStylusDepthMin, kStylusDepthMax);
 }
 
+// The map in tiles that a surface has or is joined with; null without one.
+const BodyStylus::Surface* BodyStylus::tilesOf(const Surface& surface) const
+{
+    if (!surface.joined) {
+        return surface.tiled ? &surface : nullptr;
+    }
+    const auto found =
+        std::find_if(surfaces_.begin(), surfaces_.end(), [&surface](const Surface& other) {
+            return other.joined == surface.joined && other.tiled;
+        });
+    return found != surfaces_.end() ? &*found : nullptr;
+}
+
 void BodyStylus::makeModel()
 {
     const Surface& surface = surfaces_[at_.index];
-    if (surface.tiled) {
+    if (const Surface* tiles = tilesOf(surface)) {
         if (!touch_) {
             touch_ = std::make_unique<TouchMap>(
-                SceneMap{.map = surface.map, .frame = surface.map->georeference().sceneFrame()},
+                SceneMap{.map = tiles->map, .frame = tiles->map->georeference().sceneFrame()},
                 MapEnds::Meet);
         }
-        made_ = touch_->make(kind_, surface.tiled, surface.radius_m);
+        made_ = surface.joined
+                    ? touch_->make(kind_, *tiles->tiled, *surface.joined, {}, surface.radius_m)
+                    : touch_->make(kind_, surface.tiled, surface.radius_m);
         model_ = {made_, made_->model.get()};
         return;
     }

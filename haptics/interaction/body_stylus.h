@@ -34,7 +34,7 @@ public:
         std::shared_ptr<const TiledBodyMesh> tiled{};
         std::shared_ptr<const Map> map{};
         /// The map joined with others, which is pressed in place of the mesh; null for a map by
-        /// itself. Surfaces that share it are one.
+        /// itself. Surfaces that share it are one. If one of them is in tiles, it is the uppermost.
         std::shared_ptr<const LayeredMesh> joined{};
         double radius_m = 1.0; // of the sphere of a VirtualProxy
 
@@ -72,6 +72,7 @@ public:
     const Vec3& up() const noexcept { return at_.up; }
 
 private:
+    const Surface* tilesOf(const Surface& surface) const;
     void makeModel();
     void releaseModel();
     void press(const ScenePoint& goal);
@@ -85,7 +86,7 @@ private:
     BodyAim at_;
     double point_m_ = 1.0;
     ContactModelKind kind_ = kContactModelDefault;
-    std::unique_ptr<TouchMap> touch_;     // of a map in tiles, from its first touch on
+    std::unique_ptr<TouchMap> touch_;     // of tilesOf(), from its first touch on
     std::shared_ptr<ServoMap> made_;      // on touch_; while in contact
     std::shared_ptr<ContactModel> model_; // while in contact
     std::optional<StylusPose> pose_;

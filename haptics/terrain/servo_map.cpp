@@ -310,4 +310,21 @@ std::shared_ptr<ServoMap> makeServoMap(const std::vector<std::shared_ptr<const G
     return map;
 }
 
+std::shared_ptr<ServoMap>
+makeServoMap(const std::shared_ptr<const Georeference>& uppermost,
+             const std::vector<std::shared_ptr<const Georeference>>& below,
+             const LayeredMesh& mesh,
+             const TiledBodyMesh& tiled,
+             std::shared_ptr<ServoTerrain> terrain,
+             const ServoMapOptions& options)
+{
+    MARSVIEW_CHECK(below.empty() || below.size() + 1 == mesh.mapCount());
+    auto map = bodyMapOf<LayeredSurface>(
+        uppermost, mesh.over(tiled.over(terrain->terrain(), mesh.map(0)->rim())), options,
+        tiled.locator());
+    map->terrain = std::move(terrain);
+    map->below = below;
+    return map;
+}
+
 } // namespace marsview

@@ -78,5 +78,14 @@ std::shared_ptr<ServoMap> makeServoMap(const std::shared_ptr<const Georeference>
 std::shared_ptr<ServoMap> makeServoMap(const std::vector<std::shared_ptr<const Georeference>>& maps,
                                        const std::shared_ptr<const LayeredMesh>& mesh,
                                        const ServoMapOptions& options);
+/// The same with the uppermost map in tiles: `mesh` has been built from `tiled`. `below` are the
+/// maps below it, or nothing if there will be no recording.
+std::shared_ptr<ServoMap>
+makeServoMap(const std::shared_ptr<const Georeference>& uppermost,
+             const std::vector<std::shared_ptr<const Georeference>>& below,
+             const LayeredMesh& mesh,
+             const TiledBodyMesh& tiled,
+             std::shared_ptr<ServoTerrain> terrain,
+             const ServoMapOptions& options);
 
 } // namespace marsview

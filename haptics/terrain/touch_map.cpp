@@ -55,6 +55,19 @@ std::shared_ptr<ServoMap> TouchMap::make(ContactModelKind kind,
                         {.kind = kind, .contact = {.radius_m = radius_m}, .map_id = map_id_});
 }
 
+std::shared_ptr<ServoMap>
+TouchMap::make(ContactModelKind kind,
+               const TiledBodyMesh& tiled,
+               const LayeredMesh& mesh,
+               const std::vector<std::shared_ptr<const Georeference>>& below,
+               double radius_m)
+{
+    MARSVIEW_CHECK(terrain_ != nullptr);
+    stream();
+    return makeServoMap({map_.map, &map_.map->georeference()}, below, mesh, tiled, terrain_,
+                        {.kind = kind, .contact = {.radius_m = radius_m}, .map_id = map_id_});
+}
+
 void TouchMap::stream()
 {
     if (!std::exchange(is_streaming_, true)) {

@@ -2816,8 +2816,8 @@ y %2</translation>
 <context>
     <name>marsview::GlobeMeshes</name>
     <message>
-        <source>Maps larger than memory are touched one by one where they lie on top of others</source>
-        <translation>Karten, die größer als der Speicher sind, werden einzeln ertastet, wo sie auf anderen liegen</translation>
+        <source>A map larger than memory is joined only with layers in memory that lie below it, and only without nodata</source>
+        <translation>Eine Karte, die größer als der Speicher ist, wird nur mit Ebenen im Speicher verbunden, die unter ihr liegen, und nur ohne Nodata</translation>
     </message>
 </context>
 <context>

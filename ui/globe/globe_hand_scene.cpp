@@ -79,14 +79,15 @@ std::vector<BodyTerrain> GlobeHandScene::surfaceOf(std::size_t index) const
 
 void GlobeHandScene::touch(std::size_t index)
 {
-    const BodyStylus::Surface& surface = globe_.meshes().ground()->surfaces[index];
+    const auto& surfaces = globe_.meshes().ground()->surfaces;
+    const BodyStylus::Surface& surface = surfaces[index];
     touched_ = Touched{.maps = surfaceOf(index),
                        .map_id = nextMapId(),
                        .joined = surface.joined,
                        .radius_m = surface.radius_m};
-    if (surface.tiled) {
+    if (const BodyStylus::Surface& uppermost = surfaces[*touched()]; uppermost.tiled) {
         touched_->tiles = std::make_unique<TouchMap>(
-            SceneMap{.map = surface.map, .frame = surface.map->georeference().sceneFrame()},
+            SceneMap{.map = uppermost.map, .frame = uppermost.map->georeference().sceneFrame()},
             MapEnds::Meet);
     }
 }
@@ -138,21 +139,22 @@ std::shared_ptr<ServoMap> GlobeHandScene::make(ContactModelKind kind) const
 {
     const auto index = *touched();
     const BodyStylus::Surface& surface = globe_.meshes().ground()->surfaces[index];
-    if (touched_->tiles) {
-        return touched_->tiles->make(kind, surface.tiled, touched_->radius_m);
-    }
-    const ServoMapOptions options{
-        .kind = kind, .contact = {.radius_m = touched_->radius_m}, .map_id = touched_->map_id};
+    // At another exaggeration the same maps are joined again.
+    const auto& joined = surface.joined && isTouched(index) ? surface.joined : touched_->joined;
     std::vector<std::shared_ptr<const Georeference>> maps;
     for (const BodyTerrain& terrain : touched_->maps) {
         maps.emplace_back(terrain.map(), &terrain.map()->georeference());
     }
-    if (maps.size() == 1) {
-        return makeServoMap(maps.front(), surface.mesh, options);
+    if (touched_->tiles) {
+        return maps.size() == 1
+                   ? touched_->tiles->make(kind, surface.tiled, touched_->radius_m)
+                   : touched_->tiles->make(kind, *surface.tiled, *joined,
+                                           {maps.begin() + 1, maps.end()}, touched_->radius_m);
     }
-    // At another exaggeration the same maps are joined again.
-    return makeServoMap(
-        maps, surface.joined && isTouched(index) ? surface.joined : touched_->joined, options);
+    const ServoMapOptions options{
+        .kind = kind, .contact = {.radius_m = touched_->radius_m}, .map_id = touched_->map_id};
+    return maps.size() == 1 ? makeServoMap(maps.front(), surface.mesh, options)
+                            : makeServoMap(maps, joined, options);
 }
 
 BodyGround GlobeHandScene::ground() const

@@ -63,7 +63,7 @@ private:
         std::uint64_t map_id = 0;
         std::shared_ptr<const LayeredMesh> joined{}; // the latest
         double radius_m = 1.0;
-        std::unique_ptr<TouchMap> tiles{}; // of a map in tiles
+        std::unique_ptr<TouchMap> tiles{}; // of the uppermost, if it is in tiles
     };
 
     std::vector<BodyTerrain> surfaceOf(std::size_t index) const;

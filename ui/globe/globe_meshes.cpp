@@ -1,5 +1,7 @@
 #include "ui/globe/globe_meshes.h"
 
+#include "core/body/tiled_rim.h"
+#include "core/levels/waiting_terrain.h"
 #include "core/session/joined_maps.h"
 
 #include <algorithm>
@@ -24,6 +26,11 @@ const BodyStylus::Surface* keptSurface(const std::optional<GlobeMeshes::Ground>&
                                : nullptr;
 }
 
+std::shared_ptr<const TileHeights> tileHeightsOf(const Map& map)
+{
+    return std::make_shared<const TileHeights>(map.levels(), map.heightfield().scale());
+}
+
 // The triangles of a map by itself.
 Status layOnBody(const BodyTerrain& terrain,
                  double exaggeration,
@@ -41,10 +48,7 @@ Status layOnBody(const BodyTerrain& terrain,
         surface.mesh = std::move(mesh).value();
         return Done{};
     }
-    auto tiled = TiledBodyMesh::build(
-        terrain.grid(),
-        std::make_shared<const TileHeights>(map->levels(), map->heightfield().scale()),
-        exaggeration, monitor);
+    auto tiled = TiledBodyMesh::build(terrain.grid(), tileHeightsOf(*map), exaggeration, monitor);
     if (!tiled) {
         return std::move(tiled).error();
     }
@@ -53,46 +57,92 @@ Status layOnBody(const BodyTerrain& terrain,
     return Done{};
 }
 
-using Piles = std::vector<std::vector<std::size_t>>;
+struct Piles {
+    std::vector<std::vector<std::size_t>> joined;
+    bool is_tiled_apart = false; // some map in tiles lies on top of others or below them
+};
 
-Piles pilesInMemory(const GlobeMeshes::Ground& ground)
+// A pile is joined as a whole if its maps are in memory, except that the uppermost may be in tiles.
+// Of other piles, the maps in memory are joined.
+Piles pilesIn(const GlobeMeshes::Ground& ground)
 {
-    std::vector<std::size_t> in_memory;
+    const auto is_tiled = [&](std::size_t i) { return ground.surfaces[i].tiled != nullptr; };
+    std::vector<std::size_t> all;
     for (std::size_t i = 0; i < ground.surfaces.size(); ++i) {
-        if (ground.surfaces[i].mesh) {
-            in_memory.push_back(i);
+        if (ground.surfaces[i].canBePressed()) {
+            all.push_back(i);
         }
     }
-    return pilesOf(ground.scene, in_memory);
+    Piles piles;
+    for (std::vector<std::size_t>& pile : pilesOf(ground.scene, all)) {
+        const std::size_t top = pile.front();
+        const bool has_rim =
+            is_tiled(top) && TiledRim::canRead(*tileHeightsOf(*ground.surfaces[top].map));
+        if (std::none_of(pile.begin() + (has_rim ? 1 : 0), pile.end(), is_tiled)) {
+            piles.joined.push_back(std::move(pile));
+            continue;
+        }
+        piles.is_tiled_apart = true;
+        std::erase_if(pile, is_tiled);
+        for (std::vector<std::size_t>& in_memory : pilesOf(ground.scene, pile)) {
+            piles.joined.push_back(std::move(in_memory));
+        }
+    }
+    return piles;
 }
 
-bool isTiledInPile(const GlobeMeshes::Ground& ground)
+// With a rim, if the map is in tiles. To touch it, each user puts it over a terrain of its own.
+Result<std::shared_ptr<const BodyMesh>> meshToJoin(const BodyStylus::Surface& surface,
+                                                   JobMonitor& monitor)
 {
-    const auto& maps = ground.scene.maps();
-    for (std::size_t i = 0; i < maps.size(); ++i) {
-        for (std::size_t k = 0; ground.surfaces[i].tiled && k < maps.size(); ++k) {
-            if (k != i && doOverlap(maps[i], maps[k])) {
-                return true;
-            }
-        }
+    if (!surface.tiled) {
+        return surface.mesh;
     }
-    return false;
+    constexpr std::size_t kTiles = 4;
+    const auto terrain = std::make_shared<const WaitingTerrain>(
+        surface.map->heightfield().tiles()->raster(), tileHeightsOf(*surface.map), kTiles);
+    const auto rim = TiledRim::read(surface.tiled->grid()->positions(), *terrain, monitor);
+    if (!rim) {
+        return rim.error();
+    }
+    return surface.tiled->over(terrain, *rim);
+}
+
+Result<std::shared_ptr<const LayeredMesh>> joinedOf(const std::vector<std::size_t>& pile,
+                                                    const GlobeMeshes::Ground& ground,
+                                                    JobMonitor& monitor)
+{
+    std::vector<std::shared_ptr<const BodyMesh>> meshes;
+    for (const std::size_t i : pile) {
+        auto mesh = meshToJoin(ground.surfaces[i], monitor);
+        if (!mesh) {
+            return std::move(mesh).error();
+        }
+        meshes.push_back(std::move(mesh).value());
+    }
+    return LayeredMesh::build(meshes, monitor);
 }
 
 // Each pile that can be joined becomes one surface.
-void join(GlobeMeshes::Ground& ground, const Piles& piles, JobMonitor& monitor)
+void join(GlobeMeshes::Ground& ground, Piles piles, JobMonitor& monitor)
 {
-    for (const std::vector<std::size_t>& pile : piles) {
-        std::vector<std::shared_ptr<const BodyMesh>> meshes;
-        double radius_m = ground.surfaces[pile.front()].radius_m;
-        for (const std::size_t i : pile) {
-            meshes.push_back(ground.surfaces[i].mesh);
-            radius_m = std::min(radius_m, ground.surfaces[i].radius_m);
-        }
-        const auto joined = LayeredMesh::build(meshes, monitor);
+    while (!piles.joined.empty()) {
+        std::vector<std::size_t> pile = std::move(piles.joined.back());
+        piles.joined.pop_back();
+        const auto joined = joinedOf(pile, ground, monitor);
         if (!joined) {
             ground.why_apart = QString::fromStdString(joined.error().message);
+            if (ground.surfaces[pile.front()].tiled && !monitor.isCanceled()) {
+                pile.erase(pile.begin()); // what lies below it may be joined without it
+                for (std::vector<std::size_t>& below : pilesOf(ground.scene, pile)) {
+                    piles.joined.push_back(std::move(below));
+                }
+            }
             continue;
+        }
+        double radius_m = ground.surfaces[pile.front()].radius_m;
+        for (const std::size_t i : pile) {
+            radius_m = std::min(radius_m, ground.surfaces[i].radius_m);
         }
         for (const std::size_t i : pile) {
             ground.surfaces[i].joined = *joined;
@@ -201,14 +251,15 @@ void GlobeMeshes::prepare()
             surface.radius_m =
                 0.25 * (georeference.pixelWidthMeters() + georeference.pixelHeightMeters());
         }
-        if (problem.isEmpty() && isTiledInPile(ground)) {
+        const Piles piles = problem.isEmpty() ? pilesIn(ground) : Piles();
+        if (piles.is_tiled_apart) {
             ground.why_apart =
-                tr("Maps larger than memory are touched one by one where they lie "
-                   "on top of others");
+                tr("A map larger than memory is joined only with layers in memory "
+                   "that lie below it, and only without nodata");
         }
-        const Piles piles = problem.isEmpty() ? pilesInMemory(ground) : Piles();
         // At another exaggeration the earlier surface is touched until the maps are joined again.
-        const bool is_whole = piles.empty() || (earlier && areSameMaps(earlier->scene, scene));
+        const bool is_whole =
+            piles.joined.empty() || (earlier && areSameMaps(earlier->scene, scene));
         if (is_whole) {
             join(ground, piles, *monitor);
         }

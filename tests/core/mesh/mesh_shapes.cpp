@@ -282,27 +282,29 @@ double windingNumber(const TriangleMesh& mesh, const ScenePoint& point)
     return static_cast<double>(angle / (4 * std::numbers::pi_v<Real>));
 }
 
+double bruteDistance(const std::array<ScenePoint, 3>& triangle, const ScenePoint& point)
+{
+    const Exact p = exact(point);
+    const Exact a = exact(triangle[0]) - p;
+    const Exact b = exact(triangle[1]) - p;
+    const Exact c = exact(triangle[2]) - p;
+    const Exact n = cross(b - a, c - a);
+    const bool is_inside =
+        dot(cross(a, b), n) >= 0 && dot(cross(b, c), n) >= 0 && dot(cross(c, a), n) >= 0;
+    const Real above = dot(a, n);
+    return static_cast<double>(std::sqrt(
+        is_inside
+            ? above * above / dot(n, n)
+            : std::min({squaredToSegment(a, b), squaredToSegment(b, c), squaredToSegment(c, a)})));
+}
+
 double bruteDistance(const TriangleMesh& mesh, const ScenePoint& point)
 {
-    Real least = std::numeric_limits<Real>::infinity();
-    const Exact p = exact(point);
+    double least = std::numeric_limits<double>::infinity();
     for (std::uint32_t f = 0; f < mesh.faceCount(); ++f) {
-        const auto points = mesh.points(f);
-        const Exact a = exact(points[0]) - p;
-        const Exact b = exact(points[1]) - p;
-        const Exact c = exact(points[2]) - p;
-        const Exact n = cross(b - a, c - a);
-        const bool is_inside =
-            dot(cross(a, b), n) >= 0 && dot(cross(b, c), n) >= 0 && dot(cross(c, a), n) >= 0;
-        if (is_inside) {
-            const Real above = dot(a, n);
-            least = std::min(least, above * above / dot(n, n));
-        } else {
-            least = std::min(
-                {least, squaredToSegment(a, b), squaredToSegment(b, c), squaredToSegment(c, a)});
-        }
+        least = std::min(least, bruteDistance(mesh.points(f), point));
     }
-    return static_cast<double>(std::sqrt(least));
+    return least;
 }
 
 double longestEdge(const TriangleMesh& mesh)

@@ -51,6 +51,8 @@ std::vector<NamedMesh> closedMeshes();
 /// angles (A. van Oosterom and J. Strackee, 1983), in long double.
 double windingNumber(const TriangleMesh& mesh, const ScenePoint& point);
 
+/// In long double.
+double bruteDistance(const std::array<ScenePoint, 3>& triangle, const ScenePoint& point);
 /// The distance from `point` to the nearest triangle, in long double.
 double bruteDistance(const TriangleMesh& mesh, const ScenePoint& point);
 

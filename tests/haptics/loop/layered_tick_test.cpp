@@ -11,6 +11,7 @@
 #include "haptics/trace/replay_check.h"
 #include "tests/core/contact/nested_maps.h"
 #include "tests/haptics/loop/tick_fixture.h"
+#include "tests/haptics/terrain/tiled_layers.h"
 #include "tests/support/map_maker.h"
 #include "tests/support/shared_data.h"
 
@@ -23,6 +24,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -81,17 +83,23 @@ private:
 class Stroke {
 public:
     Stroke(const JoinedMaps& maps, const GeographicPoint& site, double scene_per_meter)
-        : limits_{.ellipsoid = maps.body(),
+        : Stroke(maps.body(), maps.servoMap(), site, scene_per_meter)
+    {}
+    Stroke(const Ellipsoid& body,
+           std::shared_ptr<ServoMap> map,
+           const GeographicPoint& site,
+           double scene_per_meter)
+        : limits_{.ellipsoid = body,
                   .area = {.middle = site, .reach = Angle::degrees(60.0)},
                   .lowest_m = -1e4,
                   .highest_m = 1e4,
                   .distance_min_m = 1e2,
                   .distance_max_m = 1e8}
     {
-        settings_.map = maps.servoMap();
+        settings_.map = std::move(map);
         WorkspaceFrame frame = frameOverSite(
-            maps.body(), {.place = site},
-            {.minimum = {-1.0, -1.0, -1.0}, .maximum = {1.0, 1.0, 1.0}}, device_.workspace);
+            body, {.place = site}, {.minimum = {-1.0, -1.0, -1.0}, .maximum = {1.0, 1.0, 1.0}},
+            device_.workspace);
         frame.scene_per_meter = scene_per_meter;
         settings_.stiffness_n_per_m = 400.0;
         camera_ = constrained({.target = site, .distance_m = 0.16 * scene_per_meter}, limits_,
@@ -136,6 +144,7 @@ public:
     double newtons() const { return length(last_.force_n); }
     double stepMaxN() const { return step_max_n_; }
     int mapChanges() const { return map_changes_; }
+    int groundChanges() const { return ground_changes_; }
     // As in a recording.
     struct Goal {
         TracePoint goal;
@@ -166,6 +175,7 @@ private:
             step_max_n_ = std::max(step_max_n_, length(last_.force_n - force_n));
         }
         map_changes_ += last_.has_changed_map ? 1 : 0;
+        ground_changes_ += last_.has_ground_changed ? 1 : 0;
         for (std::size_t i = 0; i < last_.goals.count; ++i) {
             goals_.push_back({last_.goals.goals[i], last_.goals.proxies[i]});
         }
@@ -201,6 +211,7 @@ private:
     std::chrono::steady_clock::time_point now_{std::chrono::seconds(1)};
     double step_max_n_ = 0.0;
     int map_changes_ = 0;
+    int ground_changes_ = 0;
     std::vector<Goal> goals_;
     int ticks_ = 0;
     std::uint64_t allocations_ = 0;
@@ -411,6 +422,125 @@ TEST(LayeredTickOnMars, AStrokeOntoAFinerMapAndBackChangesTheForceNoFasterThanIt
     EXPECT_EQ(stroke.mapChanges(), 1);
     EXPECT_LE(stroke.stepMaxN(), stroke.rateNPerS() * kTickS + 1e-9);
     EXPECT_EQ(stroke.allocations(), 0U);
+}
+
+// The upper map in tiles, about 200 m above the lower one; a millimeter is 100 m.
+class LayeredTickInTiles : public testing::Test {
+protected:
+    enum class Tiles { Coarsest, All };
+
+    std::shared_ptr<Clipmap> window(Tiles tiles) const
+    {
+        const TiledMap& map = layers_.map;
+        auto window = std::make_shared<Clipmap>(map.window({150.0, 140.0}));
+        for (const bool has_coarser : {false, true}) {
+            for (const TileId& id : tilesOf(*window)) {
+                if (tiles == Tiles::All && id.level < map.layout().topLevel()) {
+                    window->put(map.tile(id),
+                                has_coarser ? window->differenceFromCoarser(id) : 0.0);
+                }
+            }
+        }
+        return window;
+    }
+    std::shared_ptr<ServoMap> servoMap(const std::shared_ptr<ClipmapExchange>& exchange) const
+    {
+        const auto& maps = layers_.georeferences;
+        return makeServoMap(maps[0], {maps[1]}, *layers_.joined, *layers_.tiled,
+                            std::make_shared<ServoTerrain>(exchange, layers_.map.heights), {});
+    }
+    Stroke strokeOver(std::shared_ptr<ServoMap> map) const
+    {
+        // In the middle of the eastern border.
+        return {layers_.lower->ellipsoid(), std::move(map),
+                *layers_.georeferences[0]->toGeographic({299.0, 139.5}), 1e5};
+    }
+    static void overTheBorderAndBack(Stroke& stroke)
+    {
+        for (const double x : {0.03, -0.03, 0.03}) {
+            stroke.across(x, 0.0075);
+        }
+    }
+
+    const TiledLayers layers_{
+        {"Fine", kTransverse, 300, 280, {-75000, 500, 0, 70000, 0, -500}, 100.0},
+        {{"Coarse", "+proj=longlat +R=3396190", 81, 81, {224, 0.05, 0, 20, 0, -0.05}, 100.0},
+         -kStepM},
+        1.0};
+};
+
+TEST_F(LayeredTickInTiles, AStrokeOverTheBorderHasTheForcesOfTheMapsInMemory)
+{
+    Stroke tiles = strokeOver(servoMap(std::make_shared<ClipmapExchange>(window(Tiles::All))));
+    Stroke memory =
+        strokeOver(makeServoMap(layers_.georeferences, layers_.inMemory(layers_.map.filled), {}));
+    std::vector<Vec3> forces_n;
+    tiles.each_tick = [&](const Stroke& now) { forces_n.push_back(now.last().force_n); };
+    std::size_t tick = 0;
+    int on_upper = 0;
+    int on_lower = 0;
+    memory.each_tick = [&](const Stroke& now) {
+        ASSERT_LT(tick, forces_n.size());
+        ASSERT_EQ(forces_n[tick], now.last().force_n) << tick;
+        ++tick;
+        const bool is_upper = now.last().hand.x < 0.0;
+        on_upper += now.last().contact.is_in_contact && is_upper ? 1 : 0;
+        on_lower += now.last().contact.is_in_contact && !is_upper ? 1 : 0;
+    };
+    overTheBorderAndBack(tiles);
+    overTheBorderAndBack(memory);
+    EXPECT_EQ(tick, forces_n.size());
+    EXPECT_GT(on_upper, 200);
+    EXPECT_GT(on_lower, 200);
+    EXPECT_EQ(tiles.mapChanges(), 1);
+    EXPECT_EQ(tiles.allocations(), 0U);
+    EXPECT_LE(tiles.stepMaxN(), tiles.rateNPerS() * kTickS + 1e-9);
+}
+
+TEST_F(LayeredTickInTiles, TilesThatArriveDuringAStrokeChangeTheForceNoFasterThanItMay)
+{
+    const auto exchange = std::make_shared<ClipmapExchange>(window(Tiles::Coarsest));
+    Stroke stroke = strokeOver(servoMap(exchange));
+    overTheBorderAndBack(stroke);
+    stroke.across(-0.01, 0.0075);
+    EXPECT_EQ(stroke.groundChanges(), 0);
+    const double before_n = stroke.newtons();
+    EXPECT_GT(before_n, 0.1);
+    exchange->windows.back() = window(Tiles::All);
+    exchange->windows.publish();
+    overTheBorderAndBack(stroke);
+    EXPECT_GT(stroke.groundChanges(), 0);
+    EXPECT_EQ(stroke.mapChanges(), 1);
+    EXPECT_EQ(stroke.last().missed_samples, 0U);
+    EXPECT_EQ(stroke.allocations(), 0U);
+    EXPECT_LE(stroke.stepMaxN(), stroke.rateNPerS() * kTickS + 1e-9);
+}
+
+// A recording states both maps and the tiles of the upper one.
+TEST_F(LayeredTickInTiles, ARecordingHasBothMapsAndTheTiles)
+{
+    const auto map = servoMap(std::make_shared<ClipmapExchange>(window(Tiles::All)));
+    GroundLog log;
+    const auto records = std::make_unique<GroundLog::Queue>();
+    ASSERT_TRUE(log.record(*map, false, *records));
+    std::string ground;
+    GroundRecord record;
+    while (records->take(record)) {
+        ground += (ground.empty() ? "" : " ") + groundText(record);
+    }
+    const auto recording = readGoalRecording(
+        "lon,lat,z,map,part,model,radius_m,exaggeration,ground,contact,proxy_x,proxy_y,proxy_z\n"
+        "0,0,0,1," +
+            std::to_string(map->serial) + ",continuous-walk,1,1," + ground + ",0,0,0,0\n",
+        "tiles.csv", GoalColumns::Geographic);
+    ASSERT_TRUE(recording) << recording.error().message;
+    EXPECT_EQ(mapsOf(recording->parts.front(), layers_.georeferences),
+              (std::vector<std::size_t>{0, 1}));
+    ASSERT_EQ(recording->ground.size(), 1U);
+    const auto levels = std::count_if(
+        recording->ground.front().records.begin(), recording->ground.front().records.end(),
+        [](const GroundRecord& one) { return std::holds_alternative<GroundLevel>(one); });
+    EXPECT_GT(levels, 0);
 }
 
 // The upper map in cells of 10 km around the pole, the lower one in cells of half a degree: the

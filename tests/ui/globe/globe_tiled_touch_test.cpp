@@ -1,4 +1,4 @@
-// A map in tiles on the globe, touched with the mouse and with a device.
+// Maps in tiles on the globe, touched with the mouse and with a device.
 #include "core/globe/body_camera.h"
 #include "tests/support/map_maker.h"
 #include "tests/ui/globe/globe_window.h"
@@ -87,6 +87,160 @@ TEST_F(GlobeTiledTouchTest, ADeviceTouchesTheTerrainOfTheMapInMemory)
     hand_->moveTo({0.0, 0.0, -0.055});
     EXPECT_TRUE(waitFor([&] { return hand_->force_n > 0.5 && isOnTruth(); }));
     device.disconnectDevice();
+}
+
+// Cells of 400 m in tiles, 2 km above all of Mars, which is in memory.
+class GlobeNestedTilesTest : public GlobeTest {
+protected:
+    void SetUp() override
+    {
+        mars_ = test::loadedMap(test::bundledMars());
+        const test::MapMaker::Place place{
+            300,
+            280,
+            {-60000, 400, 0, 56000, 0, -400},
+            "+proj=tmerc +lat_0=-9 +lon_0=-70 +a=3396190 +b=3376200 +units=m"};
+        const Georeference georeference(place.columns, place.rows,
+                                        *GeoTransform::fromTerms(place.transform),
+                                        *Crs::fromText(place.srs));
+        fine_ = maker_.make(place, [&](std::size_t column, std::size_t row) {
+            const GridPoint at{static_cast<double>(column), static_cast<double>(row)};
+            return mars_->height(*georeference.toGeographic(at)) + 2000.0;
+        });
+        WindowOptions options = testWindowOptions();
+        options.opener = large_.opener();
+        options.opener.open = [large = options.opener.open](const RasterSpec& spec,
+                                                            const MapResources& resources,
+                                                            JobMonitor& monitor) {
+            return spec.path == test::bundledMars() ? openMapOrPreview(spec, resources, monitor)
+                                                    : large(spec, resources, monitor);
+        };
+        options.make_drivers = testDrivers(hand_);
+        makeWindow(kSmall, options);
+        large_.finishPreparing();
+        ASSERT_TRUE(openAndWait(*window_, QString::fromStdString(test::bundledMars())));
+        ASSERT_TRUE(openAndWait(*window_, QString::fromStdString(fine_->spec().path)));
+        ASSERT_TRUE(waitFor([this] {
+            const auto& layers = window_->session().layers;
+            return layers.size() == 2 && layers.front().map->heightfield().isTiled() &&
+                   !window_->controller().isBusy();
+        }));
+        ASSERT_TRUE(showGlobe());
+        // The middle of the eastern border.
+        border_ = *georeference.toGeographic({299.0, 139.5});
+        globe().setCamera({.target = border_, .distance_m = 3e5});
+    }
+    void TearDown() override { window_.reset(); }
+
+    bool areJoined()
+    {
+        return waitFor([this] {
+            const auto& ground = globe().meshes().ground();
+            return globe().meshes().isComplete() && ground->surfaces.size() == 2 &&
+                   ground->surfaces[0].tiled && ground->surfaces[0].joined &&
+                   ground->surfaces[1].joined == ground->surfaces[0].joined;
+        });
+    }
+    // The proxy is on the terrain of that map at full resolution.
+    bool isOn(const Map& map)
+    {
+        const auto& pose = globe().shownStylus();
+        if (!pose || !pose->is_in_contact) {
+            return false;
+        }
+        const BodyPlace proxy = placeOf(pose->proxy, body());
+        return std::abs(proxy.height_m / globe().exaggeration() - map.height(proxy.foot)) < 300.0;
+    }
+
+    LargeMaps large_;
+    std::shared_ptr<TestHand> hand_ = std::make_shared<TestHand>();
+    test::MapMaker maker_;
+    std::shared_ptr<const Map> mars_;
+    std::shared_ptr<const Map> fine_;
+    GeographicPoint border_;
+};
+
+TEST_F(GlobeNestedTilesTest, TheMousePressesIntoBothAsOneSurface)
+{
+    window_->actionSet().tools->actions().at(static_cast<int>(Tool::Touch))->trigger();
+    ASSERT_TRUE(waitFor([this] { return globe().isTouchReady(); }));
+    ASSERT_TRUE(areJoined());
+    EXPECT_TRUE(globe().meshes().ground()->why_apart.isEmpty());
+    const auto send = [this](QEvent::Type type, QPointF at, Qt::MouseButtons buttons) {
+        QMouseEvent event(type, at, globe().mapToGlobal(at), Qt::LeftButton, buttons,
+                          Qt::NoModifier);
+        QApplication::sendEvent(&globe(), &event);
+    };
+    const QPointF west = globeMiddle() - QPointF(60, 0);
+    const QPointF east = globeMiddle() + QPointF(60, 0);
+    send(QEvent::MouseButtonPress, west, Qt::LeftButton);
+    EXPECT_TRUE(waitFor([this] { return isOn(*fine_); }));
+    move(east, Qt::LeftButton);
+    EXPECT_TRUE(waitFor([this] { return isOn(*mars_); }));
+    move(west, Qt::LeftButton);
+    EXPECT_TRUE(waitFor([this] { return isOn(*fine_); }));
+    send(QEvent::MouseButtonRelease, west, Qt::NoButton);
+}
+
+TEST_F(GlobeNestedTilesTest, ADeviceStrokesOverTheBorderOnOneSurface)
+{
+    DeviceSession& device = window_->haptics().device();
+    device.connectTo(QStringLiteral("hand:"));
+    ASSERT_TRUE(waitFor([&] { return device.isRunning() && globe().shownStylus(); }));
+    const auto is_one = [&] {
+        const auto& map = device.settings().map;
+        return map && map->below.size() == 1 && map->terrain &&
+               map->frame.georeference().columns() == 300 &&
+               map->frame.exaggeration() == globe().exaggeration();
+    };
+    ASSERT_TRUE(waitFor(is_one));
+    EXPECT_TRUE(window_->haptics().whyApart().isEmpty());
+    const std::uint64_t id = device.settings().map->map_id;
+    const auto move_to = [&](double x) { // slower than a jump
+        const WorkspacePoint begin = device.loop()->state().hand;
+        const int steps = 1 + static_cast<int>(std::abs(x - begin.x) / 0.005);
+        for (int i = 1; i <= steps; ++i) {
+            const WorkspacePoint next{begin.x + (x - begin.x) * i / steps, 0.0, -0.055};
+            hand_->moveTo(next);
+            if (!waitFor([&] { return length(device.loop()->state().hand - next) < 1e-9; })) {
+                return false;
+            }
+        }
+        return true;
+    };
+    hand_->moveTo({0.0, 0.0, 0.0});
+    ASSERT_TRUE(move_to(-0.02));
+    EXPECT_TRUE(waitFor([&] { return hand_->force_n > 0.1 && isOn(*fine_); }));
+    ASSERT_TRUE(move_to(0.03));
+    EXPECT_TRUE(waitFor([&] { return hand_->force_n > 0.1 && isOn(*mars_); }));
+    EXPECT_EQ(device.settings().map->map_id, id) << "the same surface";
+
+    view().setExaggeration(2.0 * view().exaggeration());
+    EXPECT_TRUE(waitFor(is_one));
+    EXPECT_EQ(device.settings().map->map_id, id) << "the same surface, raised";
+    window_->controller().setVisible(window_->session().layers.front().id, false);
+    EXPECT_TRUE(waitFor([&] {
+        const auto& map = device.settings().map;
+        return map->below.empty() && !map->terrain && map->map_id != id;
+    }));
+    device.disconnectDevice();
+}
+
+// The reason is stated.
+TEST_F(GlobeNestedTilesTest, AMapInTilesBelowAnotherOneIsTouchedByItself)
+{
+    const auto& layers = window_->session().layers;
+    window_->controller().move(layers.back().id, 0);
+    window_->actionSet().tools->actions().at(static_cast<int>(Tool::Touch))->trigger();
+    ASSERT_TRUE(waitFor([this] {
+        const auto& ground = globe().meshes().ground();
+        return globe().meshes().isComplete() && ground->surfaces.size() == 2 &&
+               ground->surfaces[1].tiled;
+    }));
+    const auto& ground = globe().meshes().ground();
+    EXPECT_FALSE(ground->why_apart.isEmpty());
+    EXPECT_FALSE(ground->surfaces[0].joined);
+    EXPECT_FALSE(ground->surfaces[1].joined);
 }
 
 } // namespace
