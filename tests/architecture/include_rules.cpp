@@ -24,15 +24,16 @@ const std::vector<Layer>& layers()
         {"core/formats/", {"core/base/", "core/geo/", "core/files/", "core/formats/"}},
         {"core/raster/",
          {"core/base/", "core/geo/", "core/files/", "core/formats/", "core/raster/"}},
+        {"core/sources/", {"core/base/", "core/files/", "core/raster/", "core/sources/"}},
         {"core/tiles/", {"core/base/", "core/geo/", "core/files/", "core/raster/", "core/tiles/"}},
         {"core/terrain/",
          {"core/base/", "core/geo/", "core/raster/", "core/tiles/", "core/terrain/"}},
         {"core/levels/",
-         {"core/base/", "core/geo/", "core/files/", "core/raster/", "core/tiles/", "core/terrain/",
-          "core/levels/"}},
+         {"core/base/", "core/geo/", "core/files/", "core/raster/", "core/sources/", "core/tiles/",
+          "core/terrain/", "core/levels/"}},
         {"core/prepare/",
-         {"core/base/", "core/geo/", "core/files/", "core/raster/", "core/tiles/", "core/terrain/",
-          "core/levels/", "core/prepare/"}},
+         {"core/base/", "core/geo/", "core/files/", "core/raster/", "core/sources/", "core/tiles/",
+          "core/terrain/", "core/levels/", "core/prepare/"}},
         {"core/mesh/", {"core/base/", "core/geo/frames.h", "core/mesh/"}},
         {"core/body/",
          {"core/base/", "core/geo/", "core/raster/", "core/terrain/", "core/levels/", "core/mesh/",
@@ -160,15 +161,16 @@ bool mayUseQt(std::string_view path)
 
 bool mayUseGdal(std::string_view path)
 {
-    constexpr std::array<std::string_view, 9> kFolders{"core/geo/",
-                                                       "core/files/",
-                                                       "core/formats/",
-                                                       "core/raster/",
-                                                       "core/prepare/",
-                                                       "core/vector/",
-                                                       "core/contours/",
-                                                       "app/bench/reference/computed_raster.",
-                                                       "tests/support/faulty_driver/"};
+    constexpr std::array<std::string_view, 10> kFolders{"core/geo/",
+                                                        "core/files/",
+                                                        "core/formats/",
+                                                        "core/raster/",
+                                                        "core/sources/",
+                                                        "core/prepare/",
+                                                        "core/vector/",
+                                                        "core/contours/",
+                                                        "app/bench/reference/computed_raster.",
+                                                        "tests/support/faulty_driver/"};
     return startsWithAny(path, kFolders);
 }
 
@@ -225,7 +227,8 @@ std::optional<std::string> violation(std::string_view path, std::string_view inc
         return refused("Qt belongs to ui (without ui/render) and app/gui");
     }
     if (isGdal(header) && !mayUseGdal(path)) {
-        return refused("GDAL belongs to core/geo, core/files, core/raster and core/prepare");
+        return refused(
+            "GDAL belongs to core/geo, core/files, core/raster, core/sources and core/prepare");
     }
     if (header.starts_with("hidapi") && !path.starts_with("haptics/drivers/") &&
         !path.starts_with("tests/haptics/drivers/")) {

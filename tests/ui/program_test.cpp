@@ -1,5 +1,6 @@
 // The program as a separate process.
 
+#include "tests/support/shared_data.h"
 #include "tests/ui/test_map.h"
 #include "tests/ui/timeout.h"
 
@@ -60,6 +61,25 @@ TEST(Program, WritesAPictureOfTheWholeMapAndExits)
     const QColor middle = image.pixelColor(600, 330);
     const QColor corner = image.pixelColor(896, 150);
     EXPECT_GT(middle.lightness(), corner.lightness() + 20);
+}
+
+// 2026-11: the globe is shown until the scene of the project is known, and the flat map stayed
+// empty.
+TEST(Program, DrawsTheFlatMapOfAProjectWithoutACamera)
+{
+    const TestMaps maps;
+    const QString project = maps.path(QStringLiteral("flat.mvproj"));
+    QFile file(project);
+    ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+    file.write(R"({"format": "MarsView project", "version": 1, "scene": "flat map", "active": 0,
+                   "layers": [{"name": "mars", "band": 1, "visible": true, "file": ")" +
+               QByteArray::fromStdString(test::bundledMars()) + R"("}]})");
+    file.close();
+    const QString picture = maps.path(QStringLiteral("picture.png"));
+    const Outcome outcome = run({project, QStringLiteral("--screenshot"), picture});
+    EXPECT_FALSE(outcome.has_crashed) << "or it did not end";
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.errors.toStdString();
+    EXPECT_FALSE(QImage(picture).isNull());
 }
 
 TEST(Program, AppliesTheStyleThatIsAskedForAndRefusesUnknownOnes)

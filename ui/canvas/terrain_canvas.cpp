@@ -3,6 +3,7 @@
 #include "ui/canvas/view_projection.h"
 #include "ui/render/offscreen_picture.h"
 
+#include <QEvent>
 #include <QOpenGLWidget>
 #include <QRect>
 
@@ -25,6 +26,18 @@ TerrainCanvas::TerrainCanvas(QOpenGLWidget& view, const CanvasScene& scene)
 {
     still_timer_.setSingleShot(true);
     connect(&still_timer_, &QTimer::timeout, this, &TerrainCanvas::refineWhenStill);
+    view_.installEventFilter(this);
+}
+
+// Qt 6.4 does not paint a view that was hidden before its window was first painted, until it is
+// updated again.
+bool TerrainCanvas::eventFilter(QObject* watched, QEvent* event)
+{
+    if (event->type() == QEvent::Show) {
+        QMetaObject::invokeMethod(
+            this, [this] { view_.update(); }, Qt::QueuedConnection);
+    }
+    return QObject::eventFilter(watched, event);
 }
 
 std::optional<Error> TerrainCanvas::initialize()

@@ -110,6 +110,9 @@ Q_SIGNALS:
     void loadingChanged(bool is_loading);
     void problemChanged(const QString& problem);
 
+protected:
+    bool eventFilter(QObject* watched, QEvent* event) override;
+
 private:
     void sendLayers();
     void paintTerrain();
