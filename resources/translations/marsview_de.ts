@@ -427,6 +427,42 @@
         <source>opened %1 in place of %2</source>
         <translation>%1 anstelle von %2 geöffnet</translation>
     </message>
+    <message>
+        <source>the points coincide, so they have no plane; choose points apart from each other</source>
+        <translation>die Punkte fallen zusammen und haben darum keine Ebene; wählen Sie Punkte mit Abstand</translation>
+    </message>
+    <message>
+        <source>the points are nearly on a line (%1 m long, %2 m wide), so their plane is not determined; add points away from that line</source>
+        <translation>die Punkte liegen fast auf einer Linie (%1 m lang, %2 m breit), sodass ihre Ebene nicht bestimmt ist; fügen Sie Punkte abseits dieser Linie hinzu</translation>
+    </message>
+    <message>
+        <source>the points are nearly on a line in plan (%1 m long, %2 m wide), so that any elevations give a vertical plane; add points away from that line</source>
+        <translation>die Punkte liegen im Grundriss fast auf einer Linie (%1 m lang, %2 m breit), sodass beliebige Höhen eine senkrechte Ebene ergeben; fügen Sie Punkte abseits dieser Linie hinzu</translation>
+    </message>
+    <message>
+        <source>the plane is uncertain by %1 degrees, more than %2; choose points that are farther apart along azimuth %3°, or closer to one plane</source>
+        <translation>die Ebene ist auf %1 Grad unsicher, mehr als %2; wählen Sie Punkte, die im Azimut %3° weiter auseinander oder näher an einer Ebene liegen</translation>
+    </message>
+    <message>
+        <source>position %1 (%2, %3) is outside the map or on nodata; choose another position</source>
+        <translation>Position %1 (%2, %3) liegt außerhalb der Karte oder auf Nodata; wählen Sie eine andere Position</translation>
+    </message>
+    <message>
+        <source>the rim points are nearly on a line, so their circle is not determined; add points on other sides of the rim</source>
+        <translation>die Punkte des Randes liegen fast auf einer Linie, sodass ihr Kreis nicht bestimmt ist; fügen Sie Punkte auf anderen Seiten des Randes hinzu</translation>
+    </message>
+    <message>
+        <source>an edge of the polygon leaves the map&apos;s projection; choose positions on the map</source>
+        <translation>eine Kante des Polygons verlässt die Projektion der Karte; wählen Sie Positionen auf der Karte</translation>
+    </message>
+    <message>
+        <source>was measured while the map had no CRS; measure it again</source>
+        <translation>wurde gemessen, als die Karte kein KBS hatte; messen Sie erneut</translation>
+    </message>
+    <message>
+        <source>was measured on a body, but the map has no CRS now; set its CRS again</source>
+        <translation>wurde auf einem Körper gemessen, aber die Karte hat jetzt kein KBS; legen Sie ihr KBS wieder fest</translation>
+    </message>
 </context>
 <context>
     <name>Drawing</name>
@@ -4158,6 +4194,11 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
         <extracomment>The layer on which a measurement was made</extracomment>
         <translation>entfernt</translation>
     </message>
+    <message>
+        <source>no result</source>
+        <extracomment>In place of the figure of a measurement that failed, in a list</extracomment>
+        <translation>kein Ergebnis</translation>
+    </message>
 </context>
 <context>
     <name>marsview::MeasureMarks</name>
@@ -4372,6 +4413,10 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
     <message>
         <source>Drag a point to move it.</source>
         <translation>Ziehen Sie einen Punkt, um ihn zu verschieben.</translation>
+    </message>
+    <message>
+        <source>Drag a point to move it; drag the line to insert one. Select several profiles in the list to draw them over each other.</source>
+        <translation>Ziehen Sie einen Punkt, um ihn zu verschieben, oder die Linie, um einen einzufügen. Wählen Sie mehrere Profile in der Liste, um sie übereinander zu zeichnen.</translation>
     </message>
 </context>
 <context>

@@ -378,6 +378,58 @@ TEST_F(MeasureTest, ThreePointsHaveNoErrors)
     }
 }
 
+TEST_F(MeasureTest, ProfilesThatAreSelectedTogetherAreDrawnOverEachOther)
+{
+    ASSERT_NO_FATAL_FAILURE(choose(MeasurementKind::Profile));
+    for (const double row : {10.0, 20.0}) {
+        measuring().begin(MeasurementKind::Profile);
+        measuring().addPointAt({10.0, row});
+        measuring().addPointAt({10.0 + row, row});
+        measuring().finish();
+        ASSERT_TRUE(isMeasured());
+    }
+    const std::uint32_t first = measuring().state().items.front().id;
+    const std::uint32_t second = measuring().state().items.back().id;
+    const auto lengths = [&](std::uint32_t id) {
+        return measuring().outcome(id).as<Profile>()->points.back().distance_m;
+    };
+    const auto& curves = panel().plot()->curves();
+    ASSERT_EQ(curves.size(), 1U);
+    panel().list()->selectAll();
+    ASSERT_TRUE(QTest::qWaitFor([&] { return curves.size() == 2; }, kTimeout));
+    EXPECT_EQ(curves[0].name, measuring().itemOf(second)->name) << "the current one comes first";
+    EXPECT_EQ(curves[1].name, measuring().itemOf(first)->name);
+    EXPECT_EQ(curves[0].distance_m.back(), lengths(second));
+    EXPECT_EQ(curves[1].distance_m.back(), lengths(first));
+    EXPECT_NE(curves[0].color, curves[1].color);
+    measuring().setColors({first}, Rgb8{10, 20, 30});
+    EXPECT_TRUE(QTest::qWaitFor([&] { return curves[1].color == QColor(10, 20, 30); }, kTimeout));
+    measuring().select(first);
+    EXPECT_TRUE(QTest::qWaitFor(
+        [&] { return !curves.empty() && curves[0].name == measuring().itemOf(first)->name; },
+        kTimeout));
+    panel().list()->selectRow(0);
+    EXPECT_TRUE(QTest::qWaitFor([&] { return curves.size() == 1; }, kTimeout));
+}
+
+TEST_F(MeasureTest, AFailureIsNamedInTheListWithItsReason)
+{
+    measuring().begin(MeasurementKind::Attitude);
+    for (const GridPoint& place : {GridPoint{10.0, 10.0}, {14.0, 10.0}, {18.0, 10.0}}) {
+        measuring().addPointAt(place);
+    }
+    measuring().finish();
+    ASSERT_TRUE(isMeasured());
+    ASSERT_FALSE(measuring().outcome(measuring().current()->id).result->values);
+    const QAbstractItemModel& list = *panel().list()->model();
+    const QModelIndex cell = list.index(0, MeasureList::ResultColumn);
+    EXPECT_EQ(cell.data().toString(), QStringLiteral("no result"));
+    const QString reason = cell.data(Qt::ToolTipRole).toString();
+    EXPECT_TRUE(reason.contains(QStringLiteral("nearly on a line"))) << qPrintable(reason);
+    const auto* note = panel().findChild<QLabel*>(QStringLiteral("measureNote"));
+    EXPECT_EQ(note->text(), reason);
+}
+
 TEST_F(MeasureTest, AttitudesAreShownTogetherAndSaved)
 {
     ASSERT_NO_FATAL_FAILURE(choose(MeasurementKind::Attitude));

@@ -15,6 +15,7 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
+#include <QScreen>
 #include <QTest>
 
 #include <gtest/gtest.h>
@@ -152,6 +153,24 @@ TEST_F(NameSearchTest, TheListIsChosenWithKeysAndMouse)
                       popup->visualRect(popup->model()->index(0, 0)).center());
     EXPECT_TRUE(waitFor([this] { return isThere(); }));
     EXPECT_NEAR(target().latitude.degrees(), -5.37, 0.1);
+}
+
+// The field is at the right end of the tool bar, and narrower than the list.
+TEST_F(NameSearchTest, TheListOfAWindowAtTheEdgeOfTheScreenIsOnTheScreen)
+{
+    openMars();
+    const QRect screen = window_->screen()->availableGeometry();
+    window_->resize(1280, 700);
+    window_->move(screen.right() - window_->width(), screen.top());
+    ASSERT_TRUE(waitFor(
+        [&] { return field().mapToGlobal(QPoint(field().width(), 0)).x() > screen.right() - 60; }));
+    QTest::keyClicks(&field(), QStringLiteral("a"));
+    ASSERT_TRUE(waitFor([this] { return completer().popup()->isVisible(); }));
+    QTest::keyClicks(&field(), QStringLiteral("s"));
+    const QRect list = completer().popup()->geometry();
+    ASSERT_GT(list.width(), field().width());
+    EXPECT_LE(list.right(), screen.right());
+    EXPECT_GE(list.left(), screen.left());
 }
 
 TEST_F(NameSearchTest, AMisspelledNameGetsASuggestion)

@@ -2,6 +2,7 @@
 
 #include "ui/controllers/measure_controller.h"
 #include "ui/text/measure_text.h"
+#include "ui/text/sentence.h"
 
 #include <QHeaderView>
 
@@ -63,9 +64,14 @@ QVariant MeasureList::cell(const DrawnItem& drawn, int column, int role) const
         return QString(measurementName(item.kind) + QLatin1Char('\n') +
                        locale().toString(localTime(item.time), QLocale::ShortFormat));
     }
-    if (column == ResultColumn && role == Qt::DisplayRole) {
-        const MeasureOutcome& outcome = controller_.outcome(item.id);
-        return outcome.result ? measureSummary(*outcome.result, unit_) : QString();
+    if (column == ResultColumn && (role == Qt::DisplayRole || role == Qt::ToolTipRole)) {
+        const auto& result = controller_.outcome(item.id).result;
+        if (result && !result->values) {
+            //: In place of the figure of a measurement that failed, in a list
+            return role == Qt::DisplayRole ? tr("no result")
+                                           : asSentence(result->values.error().message);
+        }
+        return result && role == Qt::DisplayRole ? measureSummary(*result, unit_) : QVariant();
     }
     if (column == LayerColumn && (role == Qt::DisplayRole || role == Qt::ToolTipRole)) {
         const Layer* layer = controller_.layerOf(item);

@@ -12,6 +12,7 @@
 #include "ui/plots/profile_plot.h"
 #include "ui/text/sentence.h"
 #include "ui/widgets/caption.h"
+#include "ui/widgets/elided_label.h"
 
 #include <QAbstractButton>
 #include <QClipboard>
@@ -22,6 +23,7 @@
 #include <QGuiApplication>
 #include <QHBoxLayout>
 #include <QHeaderView>
+#include <QItemSelectionModel>
 #include <QLabel>
 #include <QPushButton>
 #include <QSaveFile>
@@ -41,6 +43,9 @@ namespace {
 
 constexpr int kLines = 15;            // of text, that the panel is high to begin with
 constexpr int kResultsWidthMax = 360; // a value stays near its label
+// Of profiles besides the current one; readable on light and on dark.
+constexpr std::array<QRgb, 5> kOtherCurves{0xFF3A86C8, 0xFF3F9E5A, 0xFF9B6BC9, 0xFFB8862B,
+                                           0xFF7A8288};
 constexpr std::array kScales{0.0, 1.0, 2.0, 5.0, 10.0, 20.0}; // 0: fills the plot
 
 QString field(const QString& text)
@@ -90,6 +95,52 @@ bool writeText(const QString& path, const std::string& text)
 
 } // namespace
 
+// Labels and values. A label has several lines before it hides its value; a value that is longer
+// than half of the table has lines too.
+class MeasurePanel::ResultsTable final : public QTableWidget {
+public:
+    explicit ResultsTable(QWidget* parent)
+        : QTableWidget(0, 2, parent)
+    {
+        horizontalHeader()->hide();
+        verticalHeader()->hide();
+        horizontalHeader()->setSectionResizeMode(0, QHeaderView::Fixed);
+        horizontalHeader()->setSectionResizeMode(1, QHeaderView::Stretch);
+        setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+        setEditTriggers(QAbstractItemView::NoEditTriggers);
+        setSelectionBehavior(QAbstractItemView::SelectRows);
+        setShowGrid(false);
+    }
+
+    void setRows(const std::vector<MeasureRow>& rows)
+    {
+        setRowCount(static_cast<int>(rows.size()));
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            setItem(static_cast<int>(i), 0, new QTableWidgetItem(rows[i].label));
+            auto* value = new QTableWidgetItem(rows[i].value);
+            value->setTextAlignment(Qt::AlignTrailing | Qt::AlignVCenter);
+            setItem(static_cast<int>(i), 1, value);
+        }
+        fit();
+    }
+
+protected:
+    void resizeEvent(QResizeEvent* event) override
+    {
+        QTableWidget::resizeEvent(event);
+        fit();
+    }
+
+private:
+    void fit()
+    {
+        const int room = viewport()->width();
+        const int left = std::max(room - sizeHintForColumn(1), room / 2);
+        setColumnWidth(0, std::min(sizeHintForColumn(0), left));
+        resizeRowsToContents();
+    }
+};
+
 MeasurePanel::MeasurePanel(MeasureController& controller, QWidget* parent)
     : QWidget(parent)
     , controller_(controller)
@@ -125,6 +176,9 @@ MeasurePanel::MeasurePanel(MeasureController& controller, QWidget* parent)
     // On a small screen it is cut rather than the window widened.
     hint_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
     layout->addWidget(hint_);
+    // Later: rows may be on their way.
+    connect(list_->selectionModel(), &QItemSelectionModel::selectionChanged, this,
+            &MeasurePanel::showProfile, Qt::QueuedConnection);
     connect(&controller_, &MeasureController::changed, this, &MeasurePanel::showItems);
     connect(&controller_, &MeasureController::kindChanged, this, &MeasurePanel::showResult);
     connect(&controller_, &MeasureController::toolChanged, this, &MeasurePanel::showResult);
@@ -157,19 +211,10 @@ void MeasurePanel::makeResults()
     title_->setWordWrap(true);
     title_->setTextFormat(Qt::PlainText); // names are the user's
     title_->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Maximum);
-    results_ = new QTableWidget(results_side_);
+    results_ = new ResultsTable(results_side_);
     results_->setObjectName(QStringLiteral("measureResults"));
     results_->setAccessibleName(tr("Results"));
-    results_->setColumnCount(2);
-    results_->horizontalHeader()->hide();
-    results_->verticalHeader()->hide();
     results_->findChild<QAbstractButton*>()->setAccessibleName(tr("Select all results"));
-    // Labels are in one piece; a long value, such as a position, has lines.
-    results_->horizontalHeader()->setSectionResizeMode(0, QHeaderView::ResizeToContents);
-    results_->horizontalHeader()->setSectionResizeMode(1, QHeaderView::Stretch);
-    results_->setEditTriggers(QAbstractItemView::NoEditTriggers);
-    results_->setSelectionBehavior(QAbstractItemView::SelectRows);
-    results_->setShowGrid(false);
     results_->setMinimumWidth(220);
     note_ = new QLabel(results_side_);
     note_->setWordWrap(true);
@@ -245,12 +290,11 @@ void MeasurePanel::makeHypsometry()
     save->setToolTip(tr("Save the area by classes of elevation as CSV, PNG, SVG or PDF"));
     save->setObjectName(QStringLiteral("saveHypsometry"));
     connect(save, &QPushButton::clicked, this, &MeasurePanel::saveHypsometry);
-    auto* note = new QLabel(
+    auto* note = new ElidedLabel(
         tr("Bars: area of each class, below. Line: share of the area above, at the top."),
         hypsometry_side_);
+    note->setObjectName(QStringLiteral("hypsometryNote"));
     note->setForegroundRole(QPalette::PlaceholderText);
-    // On a small screen it is cut rather than the window widened.
-    note->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     auto* line = new QHBoxLayout;
     line->addWidget(note, 1);
     line->addWidget(save);
@@ -316,10 +360,7 @@ void MeasurePanel::showResult()
                        : tr("Click to place %1 more points; Backspace removes the last one.")
                              .arg(missing);
         } else if (outcome.result && !outcome.result->values) {
-            note = QString::fromStdString(outcome.result->values.error().message);
-            if (!note.isEmpty()) {
-                note[0] = note[0].toUpper();
-            }
+            note = asSentence(outcome.result->values.error().message);
         } else if (outcome.result) {
             const auto* profile = outcome.as<Profile>();
             if (profile != nullptr && plot_->stretch()) {
@@ -356,19 +397,15 @@ void MeasurePanel::showResult()
             note = tr("Measuring…");
         }
         if (item->vertices.size() >= needed) {
-            hint = nextStepText(*item);
+            hint = isOneOfSeveralProfiles(*item)
+                       ? tr("Drag a point to move it; drag the line to insert one. Select several "
+                            "profiles in the list to draw them over each other.")
+                       : nextStepText(*item);
         }
     }
     hint_->setText(hint);
     hint_->setToolTip(hint);
-    results_->setRowCount(static_cast<int>(rows.size()));
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        results_->setItem(static_cast<int>(i), 0, new QTableWidgetItem(rows[i].label));
-        auto* value = new QTableWidgetItem(rows[i].value);
-        value->setTextAlignment(Qt::AlignTrailing | Qt::AlignVCenter);
-        results_->setItem(static_cast<int>(i), 1, value);
-    }
-    results_->resizeRowsToContents();
+    results_->setRows(rows);
     results_->setVisible(!rows.empty()); // otherwise the note has its room
     note_->setText(note);
     note_->setVisible(!note.isEmpty());
@@ -406,6 +443,15 @@ QString MeasurePanel::nextStepText(const MeasureItem& item)
                : tr("Drag a point to move it.");
 }
 
+bool MeasurePanel::isOneOfSeveralProfiles(const MeasureItem& item) const
+{
+    const auto& items = controller_.state().items;
+    return item.kind == MeasurementKind::Profile && item.is_finished &&
+           std::any_of(items.begin(), items.end(), [&](const MeasureItem& other) {
+               return other.kind == item.kind && other.id != item.id;
+           });
+}
+
 void MeasurePanel::addPoints(std::vector<MeasureRow>& rows,
                              const MeasureItem& item,
                              const MeasurementResult& result) const
@@ -433,16 +479,32 @@ void MeasurePanel::showProfile()
         plot_->setCurves({});
         return;
     }
-    ProfileCurve curve;
-    curve.name = item->name;
-    curve.color = palette().color(QPalette::Highlight);
-    curve.is_approximate = profile->is_approximate;
-    curve.vertices_m = profile->vertices_m;
-    for (const ProfilePoint& point : profile->points) {
-        curve.distance_m.push_back(point.distance_m);
-        curve.elevation_m.push_back(point.elevation_m);
+    const auto curve = [](const MeasureItem& of, const Profile& line, const QColor& color) {
+        ProfileCurve shown{.name = of.name,
+                           .color = color,
+                           .distance_m = {},
+                           .elevation_m = {},
+                           .vertices_m = line.vertices_m,
+                           .is_approximate = line.is_approximate};
+        for (const ProfilePoint& point : line.points) {
+            shown.distance_m.push_back(point.distance_m);
+            shown.elevation_m.push_back(point.elevation_m);
+        }
+        return shown;
+    };
+    std::vector<ProfileCurve> curves{curve(*item, *profile, palette().color(QPalette::Highlight))};
+    for (const std::uint32_t id : list_->selectedIds()) {
+        const MeasureItem* other = id != item->id ? controller_.itemOf(id) : nullptr;
+        const auto* line = other != nullptr ? controller_.outcome(id).as<Profile>() : nullptr;
+        if (line != nullptr && curves.size() <= kOtherCurves.size()) {
+            const QColor usual(kOtherCurves.at(curves.size() - 1));
+            curves.push_back(curve(
+                *other, *line,
+                other->color ? QColor(other->color->red, other->color->green, other->color->blue)
+                             : usual));
+        }
     }
-    plot_->setCurves({std::move(curve)});
+    plot_->setCurves(std::move(curves));
 }
 
 void MeasurePanel::showHypsometry()

@@ -11,7 +11,6 @@
 class QComboBox;
 class QLabel;
 class QPushButton;
-class QTableWidget;
 class QToolButton;
 
 namespace marsview {
@@ -59,6 +58,8 @@ Q_SIGNALS:
     void failed(const QString& title, const QString& problem);
 
 private:
+    class ResultsTable;
+
     void makeList();
     void makeResults();
     void makeProfile();
@@ -67,9 +68,11 @@ private:
     void showResult();
     static QString firstStepText(MeasurementKind kind);
     static QString nextStepText(const MeasureItem& item);
+    bool isOneOfSeveralProfiles(const MeasureItem& item) const;
     void addPoints(std::vector<MeasureRow>& rows,
                    const MeasureItem& item,
                    const MeasurementResult& result) const;
+    // With the other profiles that are selected in the list.
     void showProfile();
     void showHypsometry();
     // An empty problem: the file is written.
@@ -84,7 +87,7 @@ private:
     MeasureList* list_ = nullptr;
     QWidget* results_side_ = nullptr;
     QLabel* title_ = nullptr;
-    QTableWidget* results_ = nullptr;
+    ResultsTable* results_ = nullptr;
     QLabel* note_ = nullptr;
     QLabel* hint_ = nullptr; // below everything: what can be done next
     QPushButton* copy_ = nullptr;

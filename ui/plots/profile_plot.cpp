@@ -185,7 +185,9 @@ void ProfilePlot::fillGraphs()
         }
         parts_->slope->data()->set(slopes, true);
         parts_->slope->rescaleValueAxis();
+        parts_->slope->removeFromLegend();
     }
+    plot.legend->setVisible(curves_.size() > 1);
     const bool is_kilometers = parts_->distance_unit_m > 1.0;
     plot.xAxis->setLabel(is_kilometers ? tr("Distance (km)") : tr("Distance (m)"));
     const bool is_approximate =
@@ -222,6 +224,14 @@ void ProfilePlot::applyColors()
     parts_->cursor_dot->setPen(QPen(ink.text, 1.5));
     parts_->cursor_dot->setBrush(colors.color(QPalette::Base));
     paintCursorText(*parts_->cursor_text, colors, font());
+    QColor behind_names = colors.color(QPalette::Base);
+    behind_names.setAlpha(200);
+    plot.legend->setBrush(behind_names);
+    plot.legend->setBorderPen(Qt::NoPen);
+    plot.legend->setTextColor(ink.text);
+    plot.legend->setFont(font());
+    plot.legend->setMargins(QMargins(4, 2, 4, 2));
+    plot.legend->setRowSpacing(0);
     QColor picked = colors.color(QPalette::Highlight);
     picked.setAlpha(60);
     parts_->stretch->setBrush(picked);

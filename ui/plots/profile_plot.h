@@ -39,8 +39,8 @@ public:
     explicit ProfilePlot(QWidget* parent = nullptr);
     ~ProfilePlot() override;
 
-    /// The first curve is the one that cursor and slope refer to. Keeps the part that is shown
-    /// where the extent of the profiles stays the same.
+    /// The first curve is the one that cursor and slope refer to. Several are listed with their
+    /// names. Keeps the part that is shown where the extent of the profiles stays the same.
     void setCurves(std::vector<ProfileCurve> curves);
     const std::vector<ProfileCurve>& curves() const noexcept { return curves_; }
     void setHeightUnit(HeightUnit unit);

@@ -11,6 +11,7 @@
 #include "ui/text/coordinate_text.h"
 #include "ui/text/measure_text.h"
 #include "ui/text/overlay_text.h"
+#include "ui/text/sentence.h"
 
 #include <QCoreApplication>
 #include <QDateTime>
@@ -261,7 +262,7 @@ ReportSection overviewSection(const ReportSource& source)
             table.rows.append({item.name, measurementName(item.kind),
                                outcome.result->values
                                    ? measureTableText(*outcome.result, source.unit)
-                                   : QString::fromStdString(outcome.result->values.error().message),
+                                   : asSentence(outcome.result->values.error().message),
                                layerName(source, item), item.note});
         }
     }

@@ -69,6 +69,31 @@ constexpr std::array kMessages{
     QT_TRANSLATE_NOOP("CoreMessage", "latitude %1 is beyond 90 degrees"),
     QT_TRANSLATE_NOOP("CoreMessage", "longitude %1 is beyond 360 degrees"),
     QT_TRANSLATE_NOOP("CoreMessage", "enter two numbers, x and then y"),
+    // A measurement has no result.
+    QT_TRANSLATE_NOOP(
+        "CoreMessage",
+        "the points coincide, so they have no plane; choose points apart from each other"),
+    QT_TRANSLATE_NOOP("CoreMessage",
+                      "the points are nearly on a line (%1 m long, %2 m wide), so their plane is "
+                      "not determined; add points away from that line"),
+    QT_TRANSLATE_NOOP("CoreMessage",
+                      "the points are nearly on a line in plan (%1 m long, %2 m wide), so that any "
+                      "elevations give a vertical plane; add points away from that line"),
+    QT_TRANSLATE_NOOP("CoreMessage",
+                      "the plane is uncertain by %1 degrees, more than %2; choose points that are "
+                      "farther apart along azimuth %3°, or closer to one plane"),
+    QT_TRANSLATE_NOOP(
+        "CoreMessage",
+        "position %1 (%2, %3) is outside the map or on nodata; choose another position"),
+    QT_TRANSLATE_NOOP("CoreMessage",
+                      "the rim points are nearly on a line, so their circle is not determined; add "
+                      "points on other sides of the rim"),
+    QT_TRANSLATE_NOOP(
+        "CoreMessage",
+        "an edge of the polygon leaves the map's projection; choose positions on the map"),
+    QT_TRANSLATE_NOOP("CoreMessage", "was measured while the map had no CRS; measure it again"),
+    QT_TRANSLATE_NOOP("CoreMessage",
+                      "was measured on a body, but the map has no CRS now; set its CRS again"),
     // Notices of a map.
     QT_TRANSLATE_NOOP("CoreMessage",
                       "no CRS: map units are read as meters; set its CRS or body to get longitude "

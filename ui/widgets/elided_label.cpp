@@ -42,7 +42,7 @@ void ElidedLabel::paintEvent(QPaintEvent*)
     QPainter painter(this);
     QString line = text();
     line.replace(QLatin1Char('\n'), QLatin1Char(' '));
-    painter.setPen(palette().color(QPalette::WindowText));
+    painter.setPen(palette().color(foregroundRole()));
     painter.drawText(rect(),
                      static_cast<int>(QStyle::visualAlignment(layoutDirection(), alignment())),
                      isolated(fontMetrics().elidedText(line, Qt::ElideMiddle, width())));

@@ -4,9 +4,12 @@
 #include "ui/text/place_name_text.h"
 
 #include <QAbstractItemView>
+#include <QEvent>
 #include <QLineEdit>
+#include <QScreen>
 #include <QStandardItemModel>
 
+#include <algorithm>
 #include <utility>
 
 namespace marsview {
@@ -60,6 +63,8 @@ NameCompleter::NameCompleter(QLineEdit& field)
     setMaxVisibleItems(static_cast<int>(kListedMax));
     popup()->setMinimumWidth(kPopupWidthMin);
     popup()->setAccessibleName(tr("Matching names"));
+    list_ = popup();
+    list_->installEventFilter(this);
     // Before the field shows the list.
     connect(&field, &QLineEdit::textEdited, this, &NameCompleter::fill);
     // Later: the list is still open, and the field is about to take the text.
@@ -102,6 +107,22 @@ void NameCompleter::fill(const QString& text)
             add(line, {});
         }
     }
+}
+
+// Qt keeps a list of the field's width on the screen, but this one may be wider. Without popup(),
+// which makes the list and comes here while it does.
+bool NameCompleter::eventFilter(QObject* watched, QEvent* event)
+{
+    const bool is_placed = event->type() == QEvent::Show || event->type() == QEvent::Move ||
+                           event->type() == QEvent::Resize;
+    if (watched == list_ && is_placed) {
+        const QRect screen = list_->screen()->availableGeometry();
+        const int beyond = list_->geometry().right() - screen.right();
+        if (beyond > 0 && list_->x() > screen.left()) {
+            list_->move(std::max(screen.left(), list_->x() - beyond), list_->y());
+        }
+    }
+    return QCompleter::eventFilter(watched, event);
 }
 
 void NameCompleter::explainNothing(std::function<QString(const QString&)> explain)

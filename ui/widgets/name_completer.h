@@ -9,6 +9,7 @@
 #include <memory>
 #include <vector>
 
+class QAbstractItemView;
 class QLineEdit;
 class QStandardItemModel;
 
@@ -38,6 +39,7 @@ public:
     /// What to list, a line a row, where nothing matches the text. Empty by default: nothing.
     void explainNothing(std::function<QString(const QString&)> explain);
     const NamesOnMap& names() const noexcept { return names_; }
+    bool eventFilter(QObject* watched, QEvent* event) override;
 
 Q_SIGNALS:
     /// One of the list, with the mouse or the keyboard.
@@ -50,6 +52,7 @@ private:
     std::function<QString(const QString&)> explain_;
     std::vector<PlaceName> listed_;
     QStandardItemModel* model_ = nullptr;
+    QAbstractItemView* list_ = nullptr; // popup(), once it exists
 };
 
 } // namespace marsview

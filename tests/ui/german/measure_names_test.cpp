@@ -6,7 +6,11 @@
 #include "ui/panels/measure_panel.h"
 #include "ui/text/language.h"
 #include "ui/text/measure_text.h"
+#include "ui/window/window_actions.h"
 
+#include <QActionGroup>
+#include <QLabel>
+#include <QTableWidget>
 #include <QTranslator>
 
 #include <gtest/gtest.h>
@@ -65,6 +69,55 @@ TEST_F(GermanNamesTest, MeasurementsAndAnnotationsAreNamedInGerman)
     annotating.begin(FeatureShape::Point);
     annotating.addPointAt({12.0, 12.0});
     EXPECT_EQ(annotating.state().items.back().name, QStringLiteral("Punkt 1"));
+}
+
+// German labels are long; what was measured is to the right of them.
+TEST_F(GermanNamesTest, ValuesAreInViewWhereLabelsAreLong)
+{
+    window_->resize(1060, 640); // 1590 × 960 pixels at 150 %
+    MeasureController& measuring = *window_->measuring();
+    window_->actionSet().measure_kinds->actions().constFirst()->trigger(); // shows the panel
+    MeasurePanel& panel = *window_->measurePanel();
+    ASSERT_TRUE(waitFor([&] { return panel.isVisible(); }));
+    measuring.begin(MeasurementKind::Attitude);
+    for (const GridPoint& place :
+         {GridPoint{10.0, 10.0}, {20.0, 10.0}, {15.0, 18.0}, {14.0, 8.0}}) {
+        measuring.addPointAt(place);
+    }
+    measuring.finish();
+    const std::uint32_t id = measuring.current()->id;
+    ASSERT_TRUE(
+        waitFor([&] { return measuring.outcome(id).result && !measuring.outcome(id).is_running; }));
+    const auto* results = panel.findChild<QTableWidget*>(QStringLiteral("measureResults"));
+    ASSERT_TRUE(waitFor([&] { return results->isVisible() && results->rowCount() > 5; }));
+    QCoreApplication::processEvents();
+    for (int row = 0; row < results->rowCount(); ++row) {
+        const QRect cell = results->visualItemRect(results->item(row, 1));
+        const QString text = results->item(row, 1)->text();
+        EXPECT_LE(cell.right(), results->viewport()->width()) << qPrintable(text);
+        EXPECT_GE(cell.left(), 0) << qPrintable(text);
+        const QRect needed = results->fontMetrics().boundingRect(
+            QRect(0, 0, cell.width(), 1000), Qt::AlignTrailing | Qt::TextWordWrap, text);
+        EXPECT_LE(needed.width(), cell.width()) << qPrintable(text);
+        EXPECT_LE(needed.height(), cell.height()) << qPrintable(text);
+    }
+}
+
+TEST_F(GermanNamesTest, AFailureIsExplainedInGerman)
+{
+    MeasureController& measuring = *window_->measuring();
+    measuring.begin(MeasurementKind::Attitude);
+    for (const GridPoint& place : {GridPoint{10.0, 10.0}, {14.0, 10.0}, {18.0, 10.0}}) {
+        measuring.addPointAt(place);
+    }
+    measuring.finish();
+    const std::uint32_t id = measuring.current()->id;
+    ASSERT_TRUE(
+        waitFor([&] { return measuring.outcome(id).result && !measuring.outcome(id).is_running; }));
+    ASSERT_FALSE(measuring.outcome(id).result->values);
+    const auto* note = window_->measurePanel()->findChild<QLabel*>(QStringLiteral("measureNote"));
+    EXPECT_TRUE(note->text().contains(QStringLiteral("Die Punkte liegen fast auf einer Linie")))
+        << qPrintable(note->text());
 }
 
 TEST_F(GermanNamesTest, ResultsAreInGerman)

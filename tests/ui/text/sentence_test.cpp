@@ -1,5 +1,6 @@
 // Messages of the core in the language of the window: real ones, so that a sentence that the core
 // changes is noticed here.
+#include "core/measure/attitude.h"
 #include "core/raster/open_raster.h"
 #include "core/raster/sample_suggestions.h"
 #include "tests/support/temp_folder.h"
@@ -82,6 +83,24 @@ TEST_F(GermanMessagesTest, SayWhyAnOverrideIsRefused)
     EXPECT_EQ(refusal({.scale = 0.0}),
               "scale: " +
                   german("%1 cannot scale elevations; use a finite number other than 0", "0"));
+}
+
+TEST_F(GermanMessagesTest, SayWhyAMeasurementHasNoResult)
+{
+    const auto plane = [](std::vector<TerrainPoint> points) {
+        const auto attitude = fitAttitude(Ground::onPlane(), points, {});
+        EXPECT_FALSE(attitude);
+        return attitude ? std::string() : attitude.error().message;
+    };
+    const std::vector<std::string> messages{
+        plane({{{0.0, 0.0}, 0.0}, {{0.0, 0.0}, 0.0}, {{0.0, 0.0}, 0.0}}),
+        plane({{{0.0, 0.0}, 0.0}, {{100.0, 0.0}, 5.0}, {{200.0, 0.1}, 10.0}}),
+        plane({{{0.0, 0.0}, 0.0}, {{100.0, 0.0}, 80.0}, {{200.0, 0.1}, 10.0}}),
+        plane(
+            {{{0.0, 0.0}, 90.0}, {{100.0, 0.0}, 0.0}, {{0.0, 100.0}, 0.0}, {{99.0, 99.0}, 90.0}})};
+    for (const std::string& message : messages) {
+        EXPECT_NE(translatedMessage(QString::fromStdString(message)).toStdString(), message);
+    }
 }
 
 TEST_F(GermanMessagesTest, DescribeAMap)
