@@ -173,6 +173,29 @@ TEST_F(MeasureTest, DraggingPansAndDraggingAPointMovesIt)
     EXPECT_TRUE(measuring().current()->vertices[1] == old);
 }
 
+TEST_F(MeasureTest, BackspaceAfterADragRemovesThePointThatWasDragged)
+{
+    ASSERT_NO_FATAL_FAILURE(choose(MeasurementKind::Distance));
+    for (const double right : {-0.2, 0.0, 0.2}) {
+        click(at(right, 0.0));
+    }
+    const auto vertices = measuring().current()->vertices;
+    ASSERT_EQ(vertices.size(), 3U);
+    QTest::mouseMove(&view(), at(0.0, 0.0));
+    QTest::mousePress(&view(), Qt::LeftButton, {}, at(0.0, 0.0));
+    for (const double down : {0.05, 0.1}) {
+        QMouseEvent move(QEvent::MouseMove, at(0.0, down), view().mapToGlobal(at(0.0, down)),
+                         Qt::NoButton, Qt::LeftButton, Qt::NoModifier);
+        QApplication::sendEvent(&view(), &move);
+    }
+    QTest::mouseRelease(&view(), Qt::LeftButton, {}, at(0.0, 0.1));
+    ASSERT_FALSE(measuring().current()->vertices[1] == vertices[1]);
+    QTest::keyClick(&view(), Qt::Key_Backspace);
+    ASSERT_EQ(measuring().current()->vertices.size(), 2U);
+    EXPECT_TRUE(measuring().current()->vertices[0] == vertices[0]);
+    EXPECT_TRUE(measuring().current()->vertices[1] == vertices[2]);
+}
+
 TEST_F(MeasureTest, ADragOfALineInsertsAPoint)
 {
     ASSERT_NO_FATAL_FAILURE(choose(MeasurementKind::Profile));

@@ -870,7 +870,11 @@ private:
         }
         return false;
     }
-    void drag(QPointF position) override { dragTo(placeAt(position)); }
+    void drag(QPointF position) override
+    {
+        pointer_ = position;
+        dragTo(placeAt(position));
+    }
     void dragTo(const std::optional<Place>& place)
     {
         State state = state_;
@@ -1008,7 +1012,7 @@ private:
     std::optional<Place> placePointed() const
     {
         const Item* item = current();
-        if (view_.tool() != tool_ || item == nullptr || item->is_finished) {
+        if (view_.tool() != tool_ || item == nullptr || item->is_finished || grabbed_) {
             return std::nullopt;
         }
         return scene_->isReadByStylus() ? placeRead()
