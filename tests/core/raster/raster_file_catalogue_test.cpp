@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <filesystem>
 #include <fmt/format.h>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -360,7 +361,9 @@ TEST(Catalogue, DataAndHeadersOpenThroughTheirCompanions)
         ASSERT_TRUE(file) << asked << ": " << file.error().message;
         EXPECT_EQ(file->info().path, (test::sharedData() / opened).string());
         ASSERT_FALSE(file->info().notices.empty()) << asked;
-        const auto name = [](const char* path) { return fs::path(path).filename().string(); };
+        const auto name = [](const char* path) {
+            return std::filesystem::path(path).filename().string();
+        };
         EXPECT_EQ(file->info().notices.front(),
                   "opened " + name(opened) + " in place of " + name(asked));
     }
