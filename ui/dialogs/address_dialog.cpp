@@ -42,8 +42,7 @@ QString problemOfAddress(const QString& address)
     if (!remoteNameFor(address.toStdString()) || !address.contains(QStringLiteral("://"))) {
         return AddressDialog::tr(
             "An address begins with https://, http://, s3://, gs:// or file://. Names of GDAL, "
-            "such "
-            "as /vsizip/maps.zip/dem.tif, can be opened, too.");
+            "such as /vsizip/maps.zip/dem.tif, can be opened, too.");
     }
     if (!url.isValid() || url.host().isEmpty()) {
         return AddressDialog::tr(

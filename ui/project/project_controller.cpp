@@ -70,8 +70,8 @@ bool ProjectController::isModified() const
     return is_recovered_ || isSaving() || (!session_.undoStack().isClean() && !isNothingToKeep());
 }
 
-// Everything was undone or removed, or was done to the sample map alone, and there is no file that
-// still has it.
+// Everything was undone or removed, or only the sample map was changed, and no project file was
+// opened or saved.
 bool ProjectController::isNothingToKeep() const
 {
     const Session& session = session_.session();

@@ -1,8 +1,8 @@
 // Each segment is a rectangle on the screen, in which the fragment shader draws what lies within
 // half a width of the segment. Ends are round, so that segments join without gaps. Where a segment
 // begins at the end of another one, its rectangle begins square there: the round end of the other
-// covers the rest. Software renderers spend most of the time on the pixels of the rectangles, so
-// these are no larger than a pass needs.
+// covers the rest. Software renderers spend most of the time on the pixels of the rectangles, which
+// are therefore only as large as each pass needs.
 
 #include "ui/render/line_renderer.h"
 

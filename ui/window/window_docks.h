@@ -62,8 +62,8 @@ public:
     void showRestored(QDockWidget& dock);
     /// Shows a panel below the map because its tool was chosen.
     void showForTool(QDockWidget& dock);
-    /// To be called when the tool of a panel with nothing to show is no longer chosen: hides it if
-    /// only the tool showed it.
+    /// Hides a panel that showForTool() has shown. To be called when another tool is chosen and the
+    /// panel has nothing to show.
     void hideForTool(QDockWidget& dock);
 
     /// Takes the tabs of panels, which show no focus, out of the way of the Tab key.

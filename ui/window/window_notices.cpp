@@ -175,7 +175,7 @@ void WindowNotices::addNotices(const Layer& layer,
     const std::string of_unit = unit ? noticeOf(*unit) : std::string();
     const std::string of_archive = archiveNotice(map.info().in_archive, map.info().path);
     const std::string of_replacement = map.info().replacementNotice();
-    QList<Notice> least; // for those who wonder
+    QList<Notice> last; // the least important
     const auto& texts = map.info().notices;
     for (std::size_t i = first; i < texts.size(); ++i) {
         const QString text = QString::fromStdString(texts[i]);
@@ -195,12 +195,12 @@ void WindowNotices::addNotices(const Layer& layer,
             addRasters(notice, map.info());
             others.prepend(notice);
         } else if (texts[i] == of_replacement) {
-            least.append(notice);
+            last.append(notice);
         } else {
             others.append(notice);
         }
     }
-    others.append(least);
+    others.append(last);
 }
 
 // One click for every other raster of the archive.

@@ -250,7 +250,7 @@ TEST(TiledLayersRefused, ABorderThatCannotBeRead)
     const auto canceled = TiledRim::read(positions, whole, monitor);
     ASSERT_FALSE(canceled);
     EXPECT_EQ(canceled.error().code, ErrorCode::Canceled);
-    // With voids, there is no border.
+    // A map with voids has no rim.
     EXPECT_TRUE(TiledRim::canRead(*on.map.heights));
     SampleGrid samples = SampleGrid::create(SampleType::Float32, 4, 4).value();
     const float nan = std::numeric_limits<float>::quiet_NaN();

@@ -175,7 +175,7 @@ TEST_F(NoticesTest, StayClosedAfterUndoAndWhenLayersChange)
     EXPECT_NE(shown(), QString());
 }
 
-// Names of GDAL are no names for people: one click opens each of the others.
+// GDAL's names of files in archives are long: a button opens each of the others.
 TEST_F(NoticesTest, RastersOfAnArchiveOpenFromItsNotice)
 {
     for (const char* name : {"small.asc", "large.asc", "other & more.asc"}) {
