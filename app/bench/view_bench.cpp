@@ -5,9 +5,9 @@
 #include "core/base/check.h"
 #include "core/globe/body_navigation.h"
 #include "core/session/body_terrain.h"
-#include "ui/render/frame_buffer.h"
 #include "ui/render/governed_picture.h"
 #include "ui/render/offscreen_picture.h"
+#include "ui/render/opengl/frame_buffer.h"
 
 #include <algorithm>
 #include <array>

@@ -5,7 +5,7 @@
 #include "app/console/scene_option.h"
 #include "core/session/map.h"
 #include "core/view/navigation.h"
-#include "ui/render/egl_context.h"
+#include "ui/render/opengl/egl_context.h"
 #include "ui/render/terrain_renderer.h"
 
 #include <functional>

@@ -61,6 +61,7 @@ const std::vector<Layer>& layers()
          {"core/base/", "core/geo/", "core/view/", "core/globe/", "core/session/",
           "core/graticule/"}},
         {"haptics/", {"core/", "haptics/"}},
+        {"ui/render/opengl/", {"core/", "ui/render/opengl/"}},
         {"ui/render/", {"core/", "ui/render/"}},
         {"ui/text/", {"core/", "haptics/", "ui/text/"}},
         {"ui/widgets/", {"core/", "ui/text/", "ui/widgets/"}},

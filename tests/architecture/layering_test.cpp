@@ -167,7 +167,7 @@ TEST(IncludeRules, FindPlantedViolations)
         {"app/console/scene.cpp", "app/cli/commands.h"},
         {"app/bench/view_bench.cpp", "app/cli/commands.h"},
         {"app/documents/manual_page.cpp", "app/cli/commands.h"},
-        {"app/bench/reference/flight.cpp", "ui/render/frame_buffer.h"},
+        {"app/bench/reference/flight.cpp", "ui/render/opengl/frame_buffer.h"},
         {"app/bench/view_bench.cpp", "<gdal_priv.h>"},
         {"app/probe/main.cpp", "core/session/session.h"},
         {"tests/core/raster/x_test.cpp", "app/gui/main_window.h"},

@@ -2,7 +2,7 @@
 
 #include "tests/render/render_fixture.h"
 #include "ui/render/dot_renderer.h"
-#include "ui/render/frame_buffer.h"
+#include "ui/render/opengl/frame_buffer.h"
 
 #include <gtest/gtest.h>
 

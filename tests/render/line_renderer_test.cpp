@@ -3,9 +3,9 @@
 #include "app/bench/reference/fractal_heights.h"
 #include "core/terrain/ray_cast.h"
 #include "tests/render/render_fixture.h"
-#include "ui/render/frame_buffer.h"
 #include "ui/render/line_renderer.h"
 #include "ui/render/offscreen_picture.h"
+#include "ui/render/opengl/frame_buffer.h"
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,8 @@
 
 #include "core/terrain/drawn_surface.h"
 #include "tests/render/render_fixture.h"
-#include "ui/render/gl_objects.h"
 #include "ui/render/node_instance.h"
+#include "ui/render/opengl/gl_objects.h"
 #include "ui/render/terrain_shaders.h"
 
 #include <gtest/gtest.h>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "tests/support/make_terrain.h"
-#include "ui/render/egl_context.h"
 #include "ui/render/offscreen_picture.h"
+#include "ui/render/opengl/egl_context.h"
 #include "ui/render/terrain_renderer.h"
 
 #include <gtest/gtest.h>

@@ -4,8 +4,8 @@
 #include "core/base/result.h"
 #include "ui/canvas/line_sets.h"
 #include "ui/render/dot_renderer.h"
-#include "ui/render/frame_buffer.h"
 #include "ui/render/line_renderer.h"
+#include "ui/render/opengl/frame_buffer.h"
 #include "ui/render/terrain_renderer.h"
 
 #include <cstdint>

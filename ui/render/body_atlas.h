@@ -6,9 +6,9 @@
 #include "core/geo/scene_frame.h"
 #include "core/terrain/drawn_surface.h"
 #include "core/view/camera.h"
-#include "ui/render/gl_objects.h"
-#include "ui/render/gl_program.h"
 #include "ui/render/lru_slots.h"
+#include "ui/render/opengl/gl_objects.h"
+#include "ui/render/opengl/gl_program.h"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/terrain/block_means.h"
-#include "ui/render/gl_objects.h"
+#include "ui/render/opengl/gl_objects.h"
 
 #include <cstdint>
 

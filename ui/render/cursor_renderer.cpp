@@ -2,8 +2,8 @@
 
 #include "ui/render/cursor_renderer.h"
 
-#include "ui/render/gl_objects.h"
-#include "ui/render/gl_program.h"
+#include "ui/render/opengl/gl_objects.h"
+#include "ui/render/opengl/gl_program.h"
 
 #include <algorithm>
 #include <array>

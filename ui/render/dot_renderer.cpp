@@ -5,8 +5,8 @@
 
 #include "core/base/check.h"
 #include "core/view/matrix.h"
-#include "ui/render/gl_objects.h"
-#include "ui/render/gl_program.h"
+#include "ui/render/opengl/gl_objects.h"
+#include "ui/render/opengl/gl_program.h"
 
 #include <algorithm>
 #include <cmath>

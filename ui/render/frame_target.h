@@ -2,7 +2,7 @@
 // pixel.
 #pragma once
 
-#include "ui/render/frame_buffer.h"
+#include "ui/render/opengl/frame_buffer.h"
 
 #include <optional>
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/terrain/node_heights.h"
-#include "ui/render/gl_objects.h"
 #include "ui/render/lru_slots.h"
+#include "ui/render/opengl/gl_objects.h"
 
 #include <array>
 #include <cstddef>

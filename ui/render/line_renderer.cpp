@@ -7,8 +7,8 @@
 #include "ui/render/line_renderer.h"
 
 #include "core/view/matrix.h"
-#include "ui/render/gl_objects.h"
-#include "ui/render/gl_program.h"
+#include "ui/render/opengl/gl_objects.h"
+#include "ui/render/opengl/gl_program.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include "ui/render/offscreen_picture.h"
 
-#include "ui/render/frame_buffer.h"
+#include "ui/render/opengl/frame_buffer.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,8 +1,8 @@
 // The relief of the nodes that are drawn, at the driver's.
 #pragma once
 
-#include "ui/render/gl_objects.h"
 #include "ui/render/lru_slots.h"
+#include "ui/render/opengl/gl_objects.h"
 #include "ui/render/relief_loader.h"
 
 #include <cstddef>

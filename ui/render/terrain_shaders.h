@@ -3,7 +3,7 @@
 
 #include "core/base/result.h"
 #include "core/view/terrain_look.h"
-#include "ui/render/gl_program.h"
+#include "ui/render/opengl/gl_program.h"
 
 #include <map>
 #include <string>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/globe/map_walls.h"
-#include "ui/render/gl_objects.h"
 #include "ui/render/node_instance.h"
+#include "ui/render/opengl/gl_objects.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -2,7 +2,7 @@
 
 #include "core/base/check.h"
 #include "core/view/navigation.h"
-#include "ui/render/frame_buffer.h"
+#include "ui/render/opengl/frame_buffer.h"
 #include "ui/render/terrain_renderer.h"
 
 #include <cstring>

@@ -4,8 +4,8 @@
 #include "app/bench/reference/flight.h"
 #include "app/console/scene.h"
 #include "core/base/job_monitor.h"
-#include "ui/render/frame_buffer.h"
 #include "ui/render/governed_picture.h"
+#include "ui/render/opengl/frame_buffer.h"
 
 #include <condition_variable>
 #include <memory>

@@ -1,4 +1,4 @@
-#include "ui/render/unfinished_draws.h"
+#include "ui/render/opengl/unfinished_draws.h"
 
 namespace marsview {
 namespace {

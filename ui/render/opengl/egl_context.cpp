@@ -1,4 +1,4 @@
-#include "ui/render/egl_context.h"
+#include "ui/render/opengl/egl_context.h"
 
 #include <array>
 #include <epoxy/egl.h>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/view/camera.h"
-#include "ui/render/gl_objects.h"
+#include "ui/render/opengl/gl_objects.h"
 
 namespace marsview {
 

@@ -1,4 +1,4 @@
-#include "ui/render/gl_program.h"
+#include "ui/render/opengl/gl_program.h"
 
 #include <array>
 #include <epoxy/gl.h>

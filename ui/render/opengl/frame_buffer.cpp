@@ -1,4 +1,4 @@
-#include "ui/render/frame_buffer.h"
+#include "ui/render/opengl/frame_buffer.h"
 
 #include <algorithm>
 
