@@ -34,7 +34,6 @@ constexpr std::size_t kCenterStride = 3;
 constexpr std::size_t kMeanStride = 8;
 
 // A pixel of the smooth picture, as in the window.
-constexpr int kSmoothSamples = 4;
 
 // Notified on the renderer's threads when shading is ready. It may outlive the bench.
 class News {

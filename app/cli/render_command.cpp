@@ -30,7 +30,7 @@ struct RenderOptions {
     std::optional<double> exaggeration;
     double error_px = 1.0;
     bool is_full = false;
-    int samples = 4;
+    std::optional<int> samples;
     std::string shading = "tint";
     std::string ramp;
     std::vector<double> light_deg{315.0, 45.0};
@@ -124,8 +124,10 @@ void addRenderCommand(CLI::App& app, CommandAction& run)
             ->capture_default_str()
             ->check(positiveNumber());
     command->add_flag("--full", options->is_full, "draw every sample")->excludes(error);
-    command->add_option("--samples", options->samples, "per pixel, for anti-aliasing")
-        ->capture_default_str()
+    command
+        ->add_option("--samples", options->samples,
+                     "per pixel, for anti-aliasing; by default 4, or 9 where neighboring pixels "
+                     "differ much")
         ->check(wholeNumberFrom(1, 16));
     command->add_option("--shading", options->shading, "tint, hillshade or slope")
         ->capture_default_str()

@@ -2,6 +2,7 @@
 
 #include "core/globe/body_navigation.h"
 #include "core/session/body_terrain.h"
+#include "ui/render/supersampled_picture.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -102,7 +103,7 @@ Result<OffscreenPicture> drawPicture(const Scene& scene, const PictureOptions& o
     DrawRequest request{
         .viewport = options.viewport,
         .detail = {.error_px = options.error_px, .has_every_sample = options.has_every_sample},
-        .samples = options.samples};
+        .samples = options.samples.value_or(kSmoothSamples)};
     if (scene.body_grid) {
         const Result<CameraPose> pose = bodyPoseFrom(options, scene, exaggeration);
         if (!pose) {
@@ -123,6 +124,14 @@ Result<OffscreenPicture> drawPicture(const Scene& scene, const PictureOptions& o
     style.look.light_azimuth = Angle::degrees(options.light_deg.front());
     style.look.light_altitude = Angle::degrees(options.light_deg.back());
     Result<OffscreenPicture> picture = drawOffscreen(*scene.renderer, request, style, DepthUse::No);
+    if (picture && !options.samples && contrastOf(picture->colors) > kSmoothContrastMax) {
+        SupersampledPicture finer(*scene.renderer, request, style);
+        if (const Status finished = finer.finish(); !finished) {
+            return finished.error();
+        }
+        picture->colors = finer.colors();
+        picture->report = finer.report();
+    }
     if (picture && picture->report.problem) {
         return *picture->report.problem; // a part of the terrain would be coarser than requested
     }

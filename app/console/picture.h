@@ -19,7 +19,9 @@ struct PictureOptions {
     std::optional<double> exaggeration{}; // > 0; by default one that suits the map
     double error_px = 1.0;                // > 0, of the surface
     bool has_every_sample = false;
-    int samples = 4; // 1 to 16 per pixel, for anti-aliasing
+    /// 1 to 16 per pixel, for anti-aliasing; by default 4, or 9 where neighboring pixels differ
+    /// much.
+    std::optional<int> samples{};
     ShadingMode shading = ShadingMode::Tint;
     std::array<double, 2> light_deg{315.0, 45.0}; // azimuth and altitude
     bool has_contours = false;

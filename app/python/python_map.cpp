@@ -209,7 +209,7 @@ struct RenderArguments {
     std::optional<double> tilt_deg{};
     std::optional<double> exaggeration{};
     double error_px = 1.0;
-    int samples = 4;
+    std::optional<int> samples;
     std::string shading = "tint";
     std::string ramp;
     std::pair<double, double> light_deg{315.0, 45.0};
@@ -238,7 +238,8 @@ py::array_t<std::uint8_t> render(const PythonMap& self, const RenderArguments& w
     refuseUnless(std::isfinite(wanted.azimuth_deg), "azimuth_deg must be finite");
     refuseUnless(!wanted.tilt_deg || (*wanted.tilt_deg >= 0.0 && *wanted.tilt_deg <= 85.0),
                  "tilt_deg must be 0 to 85");
-    refuseUnless(wanted.samples >= 1 && wanted.samples <= 16, "samples must be 1 to 16");
+    refuseUnless(!wanted.samples || (*wanted.samples >= 1 && *wanted.samples <= 16),
+                 "samples must be 1 to 16");
     refuseUnless(wanted.shading == "tint" || wanted.shading == "hillshade" ||
                      wanted.shading == "slope",
                  "shading must be tint, hillshade or slope");
@@ -409,7 +410,7 @@ void addMap(py::module_& module)
             [](const PythonMap& self, std::pair<int, int> size,
                std::optional<std::pair<double, double>> look_at, std::optional<double> distance_m,
                double azimuth_deg, std::optional<double> tilt_deg,
-               std::optional<double> exaggeration, double error_px, int samples,
+               std::optional<double> exaggeration, double error_px, std::optional<int> samples,
                const std::string& shading, const std::optional<std::string>& ramp,
                std::pair<double, double> light_deg, bool contours) {
                 return render(self,
@@ -419,7 +420,7 @@ void addMap(py::module_& module)
             py::kw_only(), py::arg("size") = std::pair(1280, 800), py::arg("look_at") = py::none(),
             py::arg("distance_m") = py::none(), py::arg("azimuth_deg") = 0.0,
             py::arg("tilt_deg") = py::none(), py::arg("exaggeration") = py::none(),
-            py::arg("error_px") = 1.0, py::arg("samples") = 4, py::arg("shading") = "tint",
+            py::arg("error_px") = 1.0, py::arg("samples") = py::none(), py::arg("shading") = "tint",
             py::arg("ramp") = py::none(), py::arg("light_deg") = std::pair(315.0, 45.0),
             py::arg("contours") = false)
         .def("__repr__", [](const PythonMap& self) {

@@ -2,7 +2,8 @@
 // between x0 - 1/2 and x1 - 1/2 sum up to the difference of the heights there, each the mean of its
 // two neighbors. So only the samples on either side of texel borders count along a row, and
 // likewise along a column; beyond the map and in voids the next valid sample replaces them. For the
-// mean elevation all samples count.
+// mean elevation all samples count. Where the sides of a map meet, its rows go on with the samples
+// of the other side, for as many texels as a tile's border has.
 
 #include "core/terrain/relief_tile.h"
 
@@ -58,15 +59,22 @@ struct TexelSpan {
     std::size_t end = 0;
 };
 
-TexelSpan texelsOnMap(std::size_t tile, std::size_t level, std::size_t samples)
+TexelSpan texelsOnMap(std::size_t tile, std::size_t level, std::size_t samples, MapSides sides)
 {
     const std::size_t step = std::size_t{1} << level;
     const std::size_t count = (samples + step - 1) / step; // texels of the whole map
     const std::size_t first = tile * ReliefTile::kTexels;  // of them, without the border
     const std::size_t border = ReliefTile::kBorder;
     MARSVIEW_CHECK(first < count);
-    return {.begin = first >= border ? 0 : border,
-            .end = std::min(ReliefTile::kSide, count - first + border)};
+    const bool meet = sides == MapSides::Meet;
+    return {.begin = first >= border || meet ? 0 : border,
+            .end = std::min(ReliefTile::kSide, count - first + border + (meet ? border : 0))};
+}
+
+// The end of the samples that tiles of that level cover along a row.
+std::size_t rowEnd(std::size_t columns, std::size_t level, MapSides sides)
+{
+    return sides == MapSides::Meet ? columns + (ReliefTile::kBorder << level) : columns;
 }
 
 // Texels outside the map copy the nearest one on it, so that filters do not fade out there.
@@ -124,12 +132,12 @@ private:
 // A window of one level of a tiled map, assembled from its tiles.
 class WindowRows {
 public:
-    // The level's samples [first_column, first_column + columns) × likewise.
+    // The level's samples [first_column, first_column + columns) × likewise. A window that reaches
+    // beyond the last column goes on with the first one.
     static Result<WindowRows>
     load(const Heightfield& heightfield, TileKind kind, std::size_t level, const GridWindow& window)
     {
-        const TiledRaster& raster = heightfield.tiles()->raster();
-        const TileLayout& layout = raster.layout();
+        const TileLayout& layout = heightfield.tiles()->layout();
         WindowRows rows;
         rows.columns_ = layout.columnsAt(kind, level);
         rows.rows_ = layout.rowsAt(kind, level);
@@ -138,19 +146,10 @@ public:
         rows.has_voids_ = layout.has_voids;
         rows.heights_.resize(window.columns * window.rows);
         rows.base_m_ = middleOf(heightfield);
-        const ElevationScale scale = heightfield.scale();
-        for (std::size_t tile_row = window.row / kTileSide;
-             tile_row <= (window.row + window.rows - 1) / kTileSide; ++tile_row) {
-            for (std::size_t tile_column = window.column / kTileSide;
-                 tile_column <= (window.column + window.columns - 1) / kTileSide; ++tile_column) {
-                const auto tile = raster.get({.kind = kind,
-                                              .level = static_cast<std::uint8_t>(level),
-                                              .column = static_cast<std::uint32_t>(tile_column),
-                                              .row = static_cast<std::uint32_t>(tile_row)});
-                if (!tile) {
-                    return tile.error();
-                }
-                rows.copy((*tile)->samples, tile_column * kTileSide, tile_row * kTileSide, scale);
+        const std::size_t end = window.column + window.columns;
+        for (std::size_t first = 0; first < end; first += rows.columns_) {
+            if (const Status loaded = rows.loadTurn(heightfield, kind, level, first); !loaded) {
+                return loaded.error();
             }
         }
         return rows;
@@ -162,12 +161,42 @@ public:
     double baseMeters() const { return base_m_; }
     void read(std::size_t first_column, std::size_t row, std::span<float> heights) const
     {
+        const std::size_t turn = first_column < window_.column ? columns_ : 0;
         const float* from = heights_.data() + (row - window_.row) * window_.columns +
-                            (first_column - window_.column);
+                            (first_column + turn - window_.column);
         std::copy_n(from, heights.size(), heights.begin());
     }
 
 private:
+    // The part of the window on the map whose first column is `first` in columns of the window.
+    Status
+    loadTurn(const Heightfield& heightfield, TileKind kind, std::size_t level, std::size_t first)
+    {
+        const TiledRaster& raster = heightfield.tiles()->raster();
+        const ElevationScale scale = heightfield.scale();
+        const std::size_t left = std::max(window_.column, first) - first;
+        const std::size_t right = std::min(window_.column + window_.columns - first, columns_);
+        if (left >= right) {
+            return Done{};
+        }
+        for (std::size_t tile_row = window_.row / kTileSide;
+             tile_row <= (window_.row + window_.rows - 1) / kTileSide; ++tile_row) {
+            for (std::size_t tile_column = left / kTileSide; tile_column <= (right - 1) / kTileSide;
+                 ++tile_column) {
+                const auto tile = raster.get({.kind = kind,
+                                              .level = static_cast<std::uint8_t>(level),
+                                              .column = static_cast<std::uint32_t>(tile_column),
+                                              .row = static_cast<std::uint32_t>(tile_row)});
+                if (!tile) {
+                    return tile.error();
+                }
+                copy((*tile)->samples, first + tile_column * kTileSide, tile_row * kTileSide,
+                     scale);
+            }
+        }
+        return Done{};
+    }
+
     // The part of the window that a tile covers, whose first sample is (tile_column, tile_row).
     void copy(const SampleGrid& samples,
               std::size_t tile_column,
@@ -206,12 +235,14 @@ private:
 template <typename Rows>
 class TileMaker {
 public:
-    TileMaker(const Rows& source, const ReliefTileId& id)
+    TileMaker(const Rows& source, const ReliefTileId& id, MapSides sides)
         : source_(source)
+        , sides_(sides)
         , step_(static_cast<std::ptrdiff_t>(std::size_t{1} << id.level))
         , first_column_(firstSample(id.column))
         , first_row_(firstSample(id.row))
         , columns_(static_cast<std::ptrdiff_t>(source.columns()))
+        , row_end_(static_cast<std::ptrdiff_t>(rowEnd(source.columns(), id.level, sides)))
         , rows_(static_cast<std::ptrdiff_t>(source.rows()))
         , row_(static_cast<std::size_t>(kSideSamples * step_ + 2), kNan)
         , row_before_(row_)
@@ -251,16 +282,24 @@ private:
     // The samples of a row from the one before the tile to the one after it; NaN outside the map.
     void readRow(std::ptrdiff_t row, std::vector<float>& heights) const
     {
-        const std::ptrdiff_t begin = std::max<std::ptrdiff_t>(first_column_ - 1, 0);
-        const std::ptrdiff_t end = std::min(first_column_ + kSideSamples * step_ + 1, columns_);
+        const bool meet = sides_ == MapSides::Meet;
+        std::ptrdiff_t begin =
+            meet ? first_column_ - 1 : std::max<std::ptrdiff_t>(first_column_ - 1, 0);
+        const std::ptrdiff_t end =
+            std::min(first_column_ + kSideSamples * step_, row_end_ - (meet ? 0 : 1)) + 1;
         if (row < 0 || row >= rows_ || begin >= end) {
             std::fill(heights.begin(), heights.end(), kNan);
             return;
         }
-        source_.read(
-            static_cast<std::size_t>(begin), static_cast<std::size_t>(row),
-            std::span(heights).subspan(static_cast<std::size_t>(begin - (first_column_ - 1)),
-                                       static_cast<std::size_t>(end - begin)));
+        while (begin < end) {
+            const std::ptrdiff_t column = (begin % columns_ + columns_) % columns_;
+            const std::ptrdiff_t count = std::min(end - begin, columns_ - column);
+            source_.read(
+                static_cast<std::size_t>(column), static_cast<std::size_t>(row),
+                std::span(heights).subspan(static_cast<std::size_t>(begin - (first_column_ - 1)),
+                                           static_cast<std::size_t>(count)));
+            begin += count;
+        }
     }
 
     void sumAlongRows(std::ptrdiff_t y0, std::vector<Sums>& sums)
@@ -279,7 +318,7 @@ private:
             for (std::size_t i = 0; i < sums.size(); ++i) {
                 const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(i) * step_;
                 // The map's last texel may be narrower.
-                const std::ptrdiff_t width = std::min(step_, columns_ - first_column_ - first);
+                const std::ptrdiff_t width = std::min(step_, row_end_ - first_column_ - first);
                 if (width > 0) {
                     addRow(row_.data() + first + 1, width, sums[i]);
                 }
@@ -345,10 +384,12 @@ private:
     }
 
     const Rows& source_;
+    MapSides sides_;
     std::ptrdiff_t step_;
     std::ptrdiff_t first_column_;
     std::ptrdiff_t first_row_;
     std::ptrdiff_t columns_;
+    std::ptrdiff_t row_end_; // beyond the last column where sides meet
     std::ptrdiff_t rows_;
     std::vector<float> row_; // entry 0 is the sample before the tile's first
     std::vector<float> row_before_;
@@ -426,8 +467,11 @@ private:
 };
 
 template <typename Rows>
-ReliefTile
-tileFrom(const Rows& source, const SceneFrame& frame, const ReliefTileId& id, double slope_max)
+ReliefTile tileFrom(const Rows& source,
+                    const SceneFrame& frame,
+                    const ReliefTileId& id,
+                    double slope_max,
+                    MapSides sides)
 {
     MARSVIEW_CHECK(slope_max > 0.0);
     // Gradients transform by the inverse transpose of the frame's linear part.
@@ -439,8 +483,9 @@ tileFrom(const Rows& source, const SceneFrame& frame, const ReliefTileId& id, do
     const auto north_of_row = static_cast<float>(frame.east_per_column / determinant / slope_max);
 
     const bool has_voids = source.hasVoids();
-    const TexelSpan columns = texelsOnMap(id.column, id.level, source.columns());
-    const TexelSpan rows = texelsOnMap(id.row, id.level, source.rows());
+    const TexelSpan columns = texelsOnMap(id.column, id.level, source.columns(), sides);
+    const TexelSpan rows = texelsOnMap(id.row, id.level, source.rows(), MapSides::End);
+    const std::size_t row_end = rowEnd(source.columns(), id.level, sides);
     // The number of a texel's samples on the map: fewer at its last column and row.
     const auto samples_of = [&](std::size_t texel, std::size_t tile, std::size_t samples) {
         const std::size_t step = std::size_t{1} << id.level;
@@ -452,15 +497,15 @@ tileFrom(const Rows& source, const SceneFrame& frame, const ReliefTileId& id, do
     finest.side = ReliefTile::kSide;
     finest.texels.resize(finest.side * finest.side);
     TexelHeights heights(finest.texels.size());
-    TileMaker(source, id).run([&](std::size_t row, const std::vector<Sums>& sums) {
+    TileMaker(source, id, sides).run([&](std::size_t row, const std::vector<Sums>& sums) {
         const float row_samples = samples_of(row, id.row, source.rows());
         for (std::size_t column = columns.begin; column < columns.end; ++column) {
             const Sums& texel = sums[column];
             const std::size_t at = row * finest.side + column;
             const float share =
-                has_voids ? texel.sample_count /
-                                (row_samples * samples_of(column, id.column, source.columns()))
-                          : 1.0F;
+                has_voids
+                    ? texel.sample_count / (row_samples * samples_of(column, id.column, row_end))
+                    : 1.0F;
             const float weight_c = texel.column_count > 0.0F ? share / texel.column_count : 0.0F;
             const float weight_r = texel.row_count > 0.0F ? share / texel.row_count : 0.0F;
             const float per_column = texel.per_column * weight_c;
@@ -485,7 +530,7 @@ tileFrom(const Rows& source, const SceneFrame& frame, const ReliefTileId& id, do
 }
 
 // The existing samples for a tile: its own and one more on all sides.
-GridWindow windowOf(const ReliefTileId& id, std::size_t columns, std::size_t rows)
+GridWindow windowOf(const ReliefTileId& id, std::size_t columns, std::size_t rows, MapSides sides)
 {
     const std::size_t step = std::size_t{1} << id.level;
     const auto span = [step](std::size_t tile, std::size_t count) {
@@ -495,9 +540,19 @@ GridWindow windowOf(const ReliefTileId& id, std::size_t columns, std::size_t row
         return std::pair(begin,
                          std::min(first + ReliefTile::kTexels * step + border, count) - begin);
     };
-    const auto [column, column_count] = span(id.column, columns);
     const auto [row, row_count] = span(id.row, rows);
-    return {column, row, column_count, row_count};
+    if (sides == MapSides::End) {
+        const auto [column, column_count] = span(id.column, columns);
+        return {column, row, column_count, row_count};
+    }
+    const std::size_t border = ReliefTile::kBorder * step + 1;
+    const std::size_t first = id.column * ReliefTile::kTexels * step;
+    const std::size_t end =
+        std::min(first + ReliefTile::kTexels * step + border, rowEnd(columns, id.level, sides) + 1);
+    const std::size_t count = end + border - first;
+    return count < columns
+               ? GridWindow{(first + columns - border % columns) % columns, row, count, row_count}
+               : GridWindow{0, row, columns, row_count};
 }
 
 } // namespace
@@ -505,9 +560,10 @@ GridWindow windowOf(const ReliefTileId& id, std::size_t columns, std::size_t row
 ReliefTile makeReliefTile(const Heightfield& heightfield,
                           const SceneFrame& frame,
                           const ReliefTileId& id,
-                          double slope_max)
+                          double slope_max,
+                          MapSides sides)
 {
-    return tileFrom(HeldRows(heightfield), frame, id, slope_max);
+    return tileFrom(HeldRows(heightfield), frame, id, slope_max, sides);
 }
 
 // Sixteen or four means replace the samples of a texel: detail within a mean cancels in the texel's
@@ -515,10 +571,11 @@ ReliefTile makeReliefTile(const Heightfield& heightfield,
 Result<ReliefTile> loadReliefTile(const Heightfield& heightfield,
                                   const SceneFrame& frame,
                                   const ReliefTileId& id,
-                                  double slope_max)
+                                  double slope_max,
+                                  MapSides sides)
 {
     if (!heightfield.isTiled()) {
-        return makeReliefTile(heightfield, frame, id, slope_max);
+        return makeReliefTile(heightfield, frame, id, slope_max, sides);
     }
     const TileLayout& layout = heightfield.tiles()->layout();
     const std::size_t finer = layout.is_remote ? 1 : 2; // levels
@@ -527,7 +584,7 @@ Result<ReliefTile> loadReliefTile(const Heightfield& heightfield,
     const ReliefTileId within{.level = id.level - level, .column = id.column, .row = id.row};
     const Result<WindowRows> rows = WindowRows::load(
         heightfield, kind, level,
-        windowOf(within, layout.columnsAt(kind, level), layout.rowsAt(kind, level)));
+        windowOf(within, layout.columnsAt(kind, level), layout.rowsAt(kind, level), sides));
     if (!rows) {
         return rows.error();
     }
@@ -538,7 +595,7 @@ Result<ReliefTile> loadReliefTile(const Heightfield& heightfield,
     coarse.east_per_row *= step;
     coarse.north_per_column *= step;
     coarse.north_per_row *= step;
-    return tileFrom(*rows, coarse, within, slope_max);
+    return tileFrom(*rows, coarse, within, slope_max, sides);
 }
 
 } // namespace marsview

@@ -53,12 +53,16 @@ struct ReliefTile {
     double height_reach_m = 1.0; // > 0
 };
 
+/// What lies beyond a map's first and last column: nothing, or the other one.
+enum class MapSides : std::uint8_t { End, Meet };
+
 /// Makes a tile from samples in memory, reading each of them once. Any thread. `slope_max` > 0:
 /// larger slopes are clamped.
 ReliefTile makeReliefTile(const Heightfield& heightfield,
                           const SceneFrame& frame,
                           const ReliefTileId& id,
-                          double slope_max);
+                          double slope_max,
+                          MapSides sides = MapSides::End);
 
 /// As above for any map. On a tiled map it uses means, if there are any, so that a tile costs the
 /// same at every level: a quarter of a texel wide, or half a texel from a server, for a quarter of
@@ -67,6 +71,7 @@ ReliefTile makeReliefTile(const Heightfield& heightfield,
 Result<ReliefTile> loadReliefTile(const Heightfield& heightfield,
                                   const SceneFrame& frame,
                                   const ReliefTileId& id,
-                                  double slope_max);
+                                  double slope_max,
+                                  MapSides sides = MapSides::End);
 
 } // namespace marsview

@@ -18,6 +18,9 @@ namespace {
 constexpr double kShadowPoints = 9.0;
 constexpr int kShadowSides = 24;
 
+// How often missing pieces of a block are looked for, at least.
+constexpr std::chrono::milliseconds kArrivalInterval{50};
+
 } // namespace
 
 TerrainCanvas::TerrainCanvas(QOpenGLWidget& view, const CanvasScene& scene)
@@ -26,6 +29,8 @@ TerrainCanvas::TerrainCanvas(QOpenGLWidget& view, const CanvasScene& scene)
 {
     still_timer_.setSingleShot(true);
     connect(&still_timer_, &QTimer::timeout, this, &TerrainCanvas::refineWhenStill);
+    finer_timer_.setSingleShot(true);
+    connect(&finer_timer_, &QTimer::timeout, this, &TerrainCanvas::drawFiner);
     view_.installEventFilter(this);
 }
 
@@ -70,6 +75,7 @@ void TerrainCanvas::release()
 {
     if (renderer_) {
         view_.makeCurrent();
+        finer_.reset();
         picture_.reset();
         line_painter_.reset();
         cursor_.reset();
@@ -136,7 +142,7 @@ QImage TerrainCanvas::terrainPicture()
 Result<bool> TerrainCanvas::drawPart(const CanvasCamera& camera,
                                      const DrawStyle& style,
                                      const QRect& part,
-                                     PictureLines lines,
+                                     const PartOptions& options,
                                      QImage& picture)
 {
     if (!renderer_) {
@@ -147,10 +153,11 @@ Result<bool> TerrainCanvas::drawPart(const CanvasCamera& camera,
     sendLayers();
     Result<bool> drawn = marsview::drawPart(
         {.terrain = *renderer_,
-         .line_renderer = lines == PictureLines::Drawn ? &line_painter_->lines() : nullptr,
+         .line_renderer = options.lines == PictureLines::Drawn ? &line_painter_->lines() : nullptr,
          .lines = lines_,
          .view_height = static_cast<double>(view_.height()),
-         .has_antialiasing = has_antialiasing_},
+         .has_antialiasing = has_antialiasing_,
+         .is_supersampled = has_antialiasing_ && options.is_supersampled},
         {.camera = camera.camera, .viewport = {}, .body_pose = camera.body_pose}, style, part,
         picture);
     view_.doneCurrent();
@@ -173,9 +180,13 @@ void TerrainCanvas::paint()
     if (!renderer_) {
         return;
     }
-    const bool is_new = !is_terrain_current_;
+    bool is_new = !is_terrain_current_;
     if (is_new) {
         paintTerrain();
+    } else if (std::exchange(is_finer_picture_new_, false)) {
+        renderer_->present(view_.defaultFramebufferObject());
+        is_new = true;
+        QMetaObject::invokeMethod(this, &TerrainCanvas::finishStage, Qt::QueuedConnection);
     }
     if (!is_empty_) {
         paintLines(is_new ? TerrainPicture::New : TerrainPicture::Same);
@@ -188,15 +199,11 @@ void TerrainCanvas::paint()
 void TerrainCanvas::paintTerrain()
 {
     sendLayers();
-    CanvasCamera camera = scene_.canvasCamera();
-    const DrawReport report = picture_->paint({.camera = camera.camera,
-                                               .viewport = viewportOf(view_),
-                                               .stage = stage_,
-                                               .last_stage = lastStage(),
-                                               .is_touching = scene_.isTouching(),
-                                               .is_kept = true,
-                                               .body_pose = std::move(camera.body_pose)},
-                                              scene_.style(), view_.defaultFramebufferObject());
+    finer_.reset();
+    is_finer_decided_ = false;
+    is_finer_picture_new_ = false;
+    const DrawReport report =
+        picture_->paint(pictureRequest(stage_), scene_.style(), view_.defaultFramebufferObject());
     last_paint_ = std::chrono::steady_clock::now();
     is_terrain_current_ = true;
     this->report(report);
@@ -208,6 +215,18 @@ void TerrainCanvas::paintTerrain()
         // Input that arrived in the meantime is handled first.
         QMetaObject::invokeMethod(this, &TerrainCanvas::finishStage, Qt::QueuedConnection);
     }
+}
+
+PictureRequest TerrainCanvas::pictureRequest(PictureStage stage) const
+{
+    CanvasCamera camera = scene_.canvasCamera();
+    return {.camera = camera.camera,
+            .viewport = viewportOf(view_),
+            .stage = stage,
+            .last_stage = lastStage(),
+            .is_touching = scene_.isTouching(),
+            .is_kept = true,
+            .body_pose = std::move(camera.body_pose)};
 }
 
 void TerrainCanvas::report(const DrawReport& report)
@@ -276,6 +295,7 @@ void TerrainCanvas::redraw()
     still_timer_.stop();
     is_terrain_current_ = false;
     is_completion_reported_ = false;
+    finer_.reset();
     view_.update();
 }
 
@@ -283,6 +303,10 @@ void TerrainCanvas::redraw()
 void TerrainCanvas::redrawWithNews()
 {
     if (!renderer_) {
+        return;
+    }
+    if (finer_) {
+        finer_timer_.start(0);
         return;
     }
     const bool is_due = std::chrono::steady_clock::now() - last_paint_ >= kNewsInterval;
@@ -321,8 +345,50 @@ void TerrainCanvas::finishStage()
         view_.update();
         return;
     }
+    if (finer_ || is_finer_picture_new_ || beginFiner()) {
+        return;
+    }
     is_completion_reported_ = true;
     Q_EMIT completed();
+}
+
+// A hand that touches the terrain needs its cursor more often than blocks are drawn.
+bool TerrainCanvas::beginFiner()
+{
+    if (std::exchange(is_finer_decided_, true) || !has_antialiasing_ || is_empty_ ||
+        scene_.isTouching()) {
+        return false;
+    }
+    view_.makeCurrent();
+    finer_ = picture_->finer(pictureRequest(stage_), scene_.style());
+    view_.doneCurrent();
+    if (finer_) {
+        finer_timer_.start(0);
+    }
+    return finer_ != nullptr;
+}
+
+void TerrainCanvas::drawFiner()
+{
+    if (!finer_) {
+        return;
+    }
+    view_.makeCurrent();
+    const Result<bool> drawn = finer_->drawNext();
+    if (drawn && finer_->isDone()) {
+        renderer_->setKeptColors(finer_->colors());
+    }
+    view_.doneCurrent();
+    if (!drawn) {
+        finer_.reset(); // the smooth picture stays
+        finishStage();
+    } else if (finer_->isDone()) {
+        finer_.reset();
+        is_finer_picture_new_ = true;
+        view_.update();
+    } else {
+        finer_timer_.start(*drawn ? std::chrono::milliseconds{0} : kArrivalInterval);
+    }
 }
 
 } // namespace marsview

@@ -97,7 +97,7 @@ public:
     Result<bool> drawPart(const CanvasCamera& camera,
                           const DrawStyle& style,
                           const QRect& part,
-                          PictureLines lines,
+                          const PartOptions& options,
                           QImage& picture);
     /// Pixels a side that the graphics driver draws; 0 without a graphics context.
     int pictureSideMax();
@@ -123,6 +123,9 @@ private:
     void redrawWithNews();
     void refineWhenStill();
     void finishStage();
+    bool beginFiner();
+    void drawFiner();
+    PictureRequest pictureRequest(PictureStage stage) const;
     PictureStage lastStage() const;
 
     QOpenGLWidget& view_;
@@ -140,6 +143,11 @@ private:
     PictureStage stage_ = PictureStage::Moving;
     bool is_terrain_current_ = false; // the picture that was kept is of now
     bool is_completion_reported_ = false;
+    // Follows the last stage where neighboring pixels differ much; null when it is done.
+    std::unique_ptr<SupersampledPicture> finer_;
+    bool is_finer_decided_ = false;     // for the picture that was kept
+    bool is_finer_picture_new_ = false; // its colors are to be shown
+    QTimer finer_timer_;
     bool is_loading_ = false;
     bool is_cursor_shown_ = true;
     QString problem_;

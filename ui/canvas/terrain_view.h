@@ -170,10 +170,10 @@ public:
     Result<bool> drawPart(const OrbitCamera& camera,
                           const DrawStyle& style,
                           const QRect& part,
-                          PictureLines lines,
+                          const PartOptions& options,
                           QImage& picture)
     {
-        return canvas_.drawPart({.camera = camera}, style, part, lines, picture);
+        return canvas_.drawPart({.camera = camera}, style, part, options, picture);
     }
     /// Pixels a side that the graphics driver draws; 0 without a graphics context.
     int pictureSideMax() { return canvas_.pictureSideMax(); }

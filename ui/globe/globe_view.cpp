@@ -436,15 +436,15 @@ GlobeView::groundUnderCursor(const CursorPicture& cursor, double right_m, double
 Result<bool> GlobeView::drawPart(const BodyCamera& camera,
                                  const DrawStyle& style,
                                  const QRect& part,
-                                 PictureLines lines,
+                                 const PartOptions& options,
                                  QImage& picture)
 {
     if (ground_.isEmpty()) {
         return Error{ErrorCode::Unsupported,
                      "cannot draw a picture: the globe is not shown any more; show it again"};
     }
-    return canvas_.drawPart({.body_pose = poseOf(camera, ground_.ellipsoid())}, style, part, lines,
-                            picture);
+    return canvas_.drawPart({.body_pose = poseOf(camera, ground_.ellipsoid())}, style, part,
+                            options, picture);
 }
 
 } // namespace marsview

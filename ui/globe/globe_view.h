@@ -151,7 +151,7 @@ public:
     Result<bool> drawPart(const BodyCamera& camera,
                           const DrawStyle& style,
                           const QRect& part,
-                          PictureLines lines,
+                          const PartOptions& options,
                           QImage& picture);
     /// Pixels a side that the graphics driver draws; 0 without a graphics context.
     int pictureSideMax() { return canvas_.pictureSideMax(); }

@@ -73,10 +73,10 @@ int FlatPictures::sideMax()
 Result<bool> FlatPictures::drawPart(const SceneCamera& camera,
                                     const DrawStyle& style,
                                     const QRect& part,
-                                    PictureLines lines,
+                                    const PartOptions& options,
                                     QImage& picture)
 {
-    return view_.drawPart(std::get<OrbitCamera>(camera), style, part, lines, picture);
+    return view_.drawPart(std::get<OrbitCamera>(camera), style, part, options, picture);
 }
 
 std::vector<PicturePart>

@@ -31,7 +31,7 @@ public:
     Result<bool> drawPart(const SceneCamera& camera,
                           const DrawStyle& style,
                           const QRect& part,
-                          PictureLines lines,
+                          const PartOptions& options,
                           QImage& picture) override;
     std::vector<PicturePart>
     partsFor(const SceneCamera& camera, const QSize& picture, const PictureParts& parts) override;

@@ -74,10 +74,10 @@ int GlobePictures::sideMax()
 Result<bool> GlobePictures::drawPart(const SceneCamera& camera,
                                      const DrawStyle& style,
                                      const QRect& part,
-                                     PictureLines lines,
+                                     const PartOptions& options,
                                      QImage& picture)
 {
-    return globe_.drawPart(std::get<BodyCamera>(camera), style, part, lines, picture);
+    return globe_.drawPart(std::get<BodyCamera>(camera), style, part, options, picture);
 }
 
 std::vector<PicturePart>

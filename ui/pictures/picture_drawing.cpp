@@ -1,5 +1,7 @@
 #include "ui/pictures/picture_drawing.h"
 
+#include "ui/render/supersampled_picture.h"
+
 #include <chrono>
 
 namespace marsview {
@@ -8,12 +10,15 @@ namespace {
 // Pixels per side. In software a block takes some 50 ms, during which input has to wait.
 constexpr int kBlockSide = 512;
 
+// Of the progress: a picture with few samples a pixel comes first, and shows whether more follow.
+constexpr double kSmoothShare = 0.4;
+
 // The interval at which pieces of a block that were missing are looked for.
 constexpr std::chrono::milliseconds kArrivalInterval{20};
 
-int blocksAlong(int pixels)
+int blocksAlong(int pixels, int side)
 {
-    return (pixels + kBlockSide - 1) / kBlockSide;
+    return (pixels + side - 1) / side;
 }
 
 } // namespace
@@ -32,8 +37,16 @@ PictureDrawing::PictureDrawing(PictureScene& scene,
 {
     timer_.setSingleShot(true);
     connect(&timer_, &QTimer::timeout, this, &PictureDrawing::drawNext);
-    connect(&scene_, &PictureScene::layersChanged, this, [this] { next_ = 0; });
+    connect(&scene_, &PictureScene::layersChanged, this, [this] {
+        next_ = 0;
+        is_supersampled_ = false;
+    });
     timer_.start(0);
+}
+
+int PictureDrawing::blockSide() const
+{
+    return is_supersampled_ ? kBlockSide / kSamplesPerSide : kBlockSide;
 }
 
 void PictureDrawing::drawNext()
@@ -44,12 +57,13 @@ void PictureDrawing::drawNext()
                "one"));
         return;
     }
-    const int columns = blocksAlong(picture_.width());
-    const int count = columns * blocksAlong(picture_.height());
-    const QRect block(next_ % columns * kBlockSide, next_ / columns * kBlockSide, kBlockSide,
-                      kBlockSide);
+    const int side = blockSide();
+    const int columns = blocksAlong(picture_.width(), side);
+    const int count = columns * blocksAlong(picture_.height(), side);
+    const QRect block(next_ % columns * side, next_ / columns * side, side, side);
     const Result<bool> drawn =
-        scene_.drawPart(camera_, style_, block.intersected(picture_.rect()), lines_, picture_);
+        scene_.drawPart(camera_, style_, block.intersected(picture_.rect()),
+                        {.lines = lines_, .is_supersampled = is_supersampled_}, picture_);
     if (!drawn) {
         Q_EMIT failed(QString::fromStdString(drawn.error().message));
         return;
@@ -59,11 +73,21 @@ void PictureDrawing::drawNext()
         return;
     }
     ++next_;
-    Q_EMIT progressed(static_cast<double>(next_) / count);
-    if (next_ == count) {
-        Q_EMIT finished(picture_);
-    } else {
+    const double share = static_cast<double>(next_) / count;
+    Q_EMIT progressed(is_supersampled_ ? kSmoothShare + (1.0 - kSmoothShare) * share
+                                       : kSmoothShare * share);
+    if (next_ < count) {
         timer_.start(0);
+    } else if (!is_supersampled_ &&
+               contrastOf({.first = picture_.constBits(),
+                           .width = picture_.width(),
+                           .height = picture_.height(),
+                           .line_length = picture_.bytesPerLine()}) > kSmoothContrastMax) {
+        next_ = 0;
+        is_supersampled_ = true;
+        timer_.start(0);
+    } else {
+        Q_EMIT finished(picture_);
     }
 }
 

@@ -34,6 +34,7 @@ Q_SIGNALS:
 
 private:
     void drawNext();
+    int blockSide() const;
 
     PictureScene& scene_;
     SceneCamera camera_;
@@ -41,6 +42,7 @@ private:
     PictureLines lines_;
     QImage picture_;
     int next_ = 0; // block, row by row
+    bool is_supersampled_ = false;
     QTimer timer_;
 };
 

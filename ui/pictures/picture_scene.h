@@ -59,7 +59,7 @@ public:
     virtual Result<bool> drawPart(const SceneCamera& camera,
                                   const DrawStyle& style,
                                   const QRect& part,
-                                  PictureLines lines,
+                                  const PartOptions& options,
                                   QImage& picture) = 0;
     /// The overlays for a picture of any size that `camera` takes of the same layers. Their size
     /// grows with the height of the picture: they are as large as in the window if it is as high.

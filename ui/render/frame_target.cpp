@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <utility>
 
 namespace marsview {
@@ -12,6 +13,16 @@ namespace {
 bool isSame(const Viewport& a, const Viewport& b)
 {
     return a.width == b.width && a.height == b.height;
+}
+
+// Rows of OpenGL begin at the bottom, those of a picture at the top.
+void turnOver(Picture& picture)
+{
+    const auto row = static_cast<std::ptrdiff_t>(picture.width) * 3;
+    for (std::ptrdiff_t upper = 0, lower = picture.height - 1; upper < lower; ++upper, --lower) {
+        std::swap_ranges(picture.rgb.begin() + upper * row, picture.rgb.begin() + (upper + 1) * row,
+                         picture.rgb.begin() + lower * row);
+    }
 }
 
 void copy(
@@ -69,6 +80,38 @@ const FrameBuffer& FrameTarget::drawn() const
 {
     MARSVIEW_CHECK(drawn_.has_value() && drawn_->samples() <= 1);
     return *drawn_;
+}
+
+Picture FrameTarget::colors() const
+{
+    const Viewport& size = drawn().size();
+    Picture colors{.width = size.width, .height = size.height, .rgb = {}};
+    colors.rgb.resize(std::size_t{3} * static_cast<std::size_t>(size.width) *
+                      static_cast<std::size_t>(size.height));
+    glBindFramebuffer(GL_FRAMEBUFFER, drawn().id());
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, size.width, size.height, GL_RGB, GL_UNSIGNED_BYTE, colors.rgb.data());
+    turnOver(colors);
+    return colors;
+}
+
+void FrameTarget::setColors(const Picture& colors)
+{
+    const Viewport& size = drawn().size();
+    MARSVIEW_CHECK(colors.width == size.width && colors.height == size.height);
+    Picture turned = colors;
+    turnOver(turned);
+    const GlTexture texture;
+    const GlFramebuffer from;
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glBindTexture(GL_TEXTURE_2D, texture.id());
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, size.width, size.height, 0, GL_RGB, GL_UNSIGNED_BYTE,
+                 turned.rgb.data());
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+    glBindTexture(GL_TEXTURE_2D, 0);
+    glBindFramebuffer(GL_FRAMEBUFFER, from.id());
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture.id(), 0);
+    copy(from.id(), size, drawn().id(), size, GL_COLOR_BUFFER_BIT);
 }
 
 } // namespace marsview

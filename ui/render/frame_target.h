@@ -2,6 +2,7 @@
 // pixel.
 #pragma once
 
+#include "core/files/picture_file.h"
 #include "ui/render/opengl/frame_buffer.h"
 
 #include <optional>
@@ -25,6 +26,10 @@ public:
 
     /// What was drawn, one sample a pixel. Call after end().
     const FrameBuffer& drawn() const;
+    /// The colors that were drawn.
+    Picture colors() const;
+    /// Replaces them by those of a picture of the same size.
+    void setColors(const Picture& colors);
 
 private:
     std::optional<FrameBuffer> drawn_;

@@ -8,8 +8,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kSmoothSamples = 4;
-
 // Shading gives way with the surface, but never so far that it looks blurred.
 constexpr double kTexelPxMax = 2.0;
 
@@ -72,6 +70,28 @@ GovernedPicture::paint(const PictureRequest& request, const DrawStyle& style, un
                         duration_);
     }
     return report;
+}
+
+std::unique_ptr<SupersampledPicture> GovernedPicture::finer(const PictureRequest& request,
+                                                            const DrawStyle& style)
+{
+    if (contrastOf(renderer_.keptColors()) <= kSmoothContrastMax) {
+        return nullptr;
+    }
+    DrawRequest draw{
+        .camera = request.camera, .viewport = request.viewport, .body_pose = request.body_pose};
+    const double sample_count = kSamplesPerSide * kSamplesPerSide *
+                                static_cast<double>(request.viewport.width) *
+                                static_cast<double>(request.viewport.height);
+    // No more triangles than samples.
+    const FramePlan plan =
+        planAtRest(sample_count / kTrianglesPerPixelMax, [&](const FramePlan& tried) {
+            draw.detail = detailFor(tried);
+            return renderer_.countTriangles(supersampled(draw, renderer_, style.exaggeration),
+                                            style.exaggeration);
+        });
+    draw.detail = detailFor(plan);
+    return std::make_unique<SupersampledPicture>(renderer_, draw, style);
 }
 
 } // namespace marsview

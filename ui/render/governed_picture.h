@@ -2,9 +2,11 @@
 #pragma once
 
 #include "core/view/frame_governor.h"
+#include "ui/render/supersampled_picture.h"
 #include "ui/render/terrain_renderer.h"
 
 #include <chrono>
+#include <memory>
 #include <optional>
 
 namespace marsview {
@@ -44,6 +46,11 @@ public:
 
     /// Draws into `target` and waits until it is done, so that it knows how long that took.
     DrawReport paint(const PictureRequest& request, const DrawStyle& style, unsigned target);
+
+    /// A finer picture than the smooth one of `request`, which was kept last; null where
+    /// neighboring pixels of that differ little.
+    std::unique_ptr<SupersampledPicture> finer(const PictureRequest& request,
+                                               const DrawStyle& style);
 
     /// Of the last picture.
     const FramePlan& plan() const noexcept { return plan_; }

@@ -39,11 +39,23 @@ ReliefCache::ReliefCache(std::size_t tile_count, std::function<void()> notify)
     , loader_(std::move(notify))
 {}
 
+void ReliefCache::keepInPlaceOf(const LayerNode& key, const ReliefTile& tile)
+{
+    upload(key, tile);
+    replaced_.push_back(key);
+}
+
+bool ReliefCache::isReplaced(const LayerNode& key) const
+{
+    return std::find(replaced_.begin(), replaced_.end(), key) != replaced_.end();
+}
+
 void ReliefCache::beginRound(std::size_t upload_max)
 {
     slots_.beginRound();
     for (const ReliefResult& result : loader_.take(upload_max)) {
         upload(result.key, result.tile);
+        std::erase(replaced_, result.key);
     }
     missing_.clear();
 }
@@ -53,23 +65,24 @@ std::optional<ReliefCache::Found> ReliefCache::find(const ReliefRequest& wanted,
     LayerNode key = wanted.key;
     bool is_missing = false;
     while (true) {
-        if (const auto slot = slots_.find(key)) {
+        const auto slot = slots_.find(key);
+        if (!is_missing && (!slot || isReplaced(key))) {
+            const bool is_known =
+                std::any_of(missing_.begin(), missing_.end(),
+                            [&](const ReliefRequest& other) { return other.key == key; });
+            // What would find no room is not asked for: the larger one stays.
+            if (!is_known && (slot || slots_.usedCount() + missing_.size() < slots_.size())) {
+                missing_.push_back(wanted);
+            }
+        }
+        if (slot) {
             return Found{.page = *slot / kPageTiles,
                          .layer = *slot % kPageTiles,
                          .node = key.node,
                          .height_middle_m = heights_[*slot].middle_m,
                          .height_reach_m = heights_[*slot].reach_m};
         }
-        if (!is_missing) {
-            is_missing = true;
-            const bool is_known =
-                std::any_of(missing_.begin(), missing_.end(),
-                            [&](const ReliefRequest& other) { return other.key == key; });
-            // What would find no room is not asked for: the larger one stays.
-            if (!is_known && slots_.usedCount() + missing_.size() < slots_.size()) {
-                missing_.push_back(wanted);
-            }
-        }
+        is_missing = true;
         if (key.node.level >= std::max(top, kReliefLevelMin)) {
             return std::nullopt;
         }

@@ -35,6 +35,8 @@ public:
 
     /// Uploads a tile that is already loaded.
     void keep(const LayerNode& key, const ReliefTile& tile) { upload(key, tile); }
+    /// The same until the tile itself is made: it is missing when it is found.
+    void keepInPlaceOf(const LayerNode& key, const ReliefTile& tile);
     /// Uploads at most `upload_max` finished tiles and begins to collect requests for missing ones.
     /// Tiles found from now on stay until the next call.
     void beginRound(std::size_t upload_max);
@@ -62,11 +64,13 @@ private:
     };
 
     void upload(const LayerNode& key, const ReliefTile& tile);
+    bool isReplaced(const LayerNode& key) const;
 
     LruSlots<LayerNode, LayerNodeHash> slots_;
     std::vector<std::optional<GlTexture>> pages_; // created when their first tile arrives
     std::vector<Heights> heights_;                // by slot
     std::vector<ReliefRequest> missing_;
+    std::vector<LayerNode> replaced_; // for now, by others
     ReliefLoader loader_;
 };
 

@@ -141,8 +141,9 @@ void ReliefLoader::run()
         wanted_.pop_back();
         in_work_.push_back(request.key);
         lock.unlock();
-        Result<ReliefTile> tile = loadReliefTile(*request.heightfield, request.frame,
-                                                 reliefTileOf(request.key.node), request.slope_max);
+        Result<ReliefTile> tile =
+            loadReliefTile(*request.heightfield, request.frame, reliefTileOf(request.key.node),
+                           request.slope_max, request.sides);
         lock.lock();
         std::erase(in_work_, request.key);
         if (tile) {

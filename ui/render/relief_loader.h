@@ -24,6 +24,7 @@ struct ReliefRequest {
     std::shared_ptr<const Heightfield> heightfield;
     SceneFrame frame;
     double slope_max = 1.0;
+    MapSides sides = MapSides::End;
 };
 
 struct ReliefResult {

@@ -235,6 +235,11 @@ struct Layer {
         return {located(), source.heightfield->columns(), source.heightfield->rows()};
     }
 
+    MapSides sides() const
+    {
+        return source.body && source.body->closes() ? MapSides::Meet : MapSides::End;
+    }
+
     HeightRange range() const { return source.heightfield->range().value_or(HeightRange{}); }
     // Of a layer on its body.
     BodySubject onBody(double exaggeration, std::vector<BodyCover> covers) const
@@ -529,7 +534,8 @@ void TerrainRenderer::Impl::drawLayer(std::size_t index,
         return ReliefRequest{.key = {.layer = layer.number, .node = node},
                              .heightfield = layer.source.heightfield,
                              .frame = layer.source.frame,
-                             .slope_max = layer.source.slope_max};
+                             .slope_max = layer.source.slope_max,
+                             .sides = layer.sides()};
     };
     reliefs.find(request_of(layer.wholeNode()), top); // so that it is not given up
     const std::optional<BodySubject> on_body =
@@ -796,7 +802,7 @@ void TerrainRenderer::Impl::setUniforms(const GlProgram& program,
         slopes_rad > 0.0 ? -slopes.minimum.radians() / slopes_rad : 0.5);
 
     const HeightRange range = heightfield.range().value_or(HeightRange{});
-    const double pixel_m = metersPerPixel(pose, request.viewport);
+    const double pixel_m = metersPerPixel(pose, request.viewport) * request.pixels_shown_as_one;
     const double interval_m = contourInterval(look, range, pixel_m, style.exaggeration);
     if (interval_m > 0.0) {
         // Lines are counted in fives, so a multiple of five intervals may be left out.
@@ -805,6 +811,7 @@ void TerrainRenderer::Impl::setUniforms(const GlProgram& program,
     } else {
         set("u_contour", 0.0, 0.5);
     }
+    set("u_contour_px", request.pixels_shown_as_one);
 
     for (std::size_t i = 0; i < std::min<std::size_t>(index, kCoversMax); ++i) {
         Layer& cover = *layers[index - 1 - i];
@@ -857,7 +864,7 @@ void TerrainRenderer::Impl::setUniforms(const GlProgram& program,
     }
 }
 
-// The rays through the pixels that are drawn, from their lower left corner.
+// The rays through the pixels that are drawn, from the lower left corner of the target.
 void TerrainRenderer::Impl::setRays(const GlProgram& program,
                                     const DrawRequest& request,
                                     const SceneFrame& frame,
@@ -870,9 +877,12 @@ void TerrainRenderer::Impl::setRays(const GlProgram& program,
     };
     const double half_height = std::tan(request.pose().field_of_view.radians() / 2.0);
     const double half_width = half_height * request.viewport.aspect();
-    const std::array<Vec3, 3> rays{axis(0) * -half_width - axis(1) * half_height - axis(2),
-                                   axis(0) * (2.0 * half_width / drawn.width),
-                                   axis(1) * (2.0 * half_height / drawn.height)};
+    const Vec3 right = axis(0) * (2.0 * half_width / drawn.width);
+    const Vec3 up = axis(1) * (2.0 * half_height / drawn.height);
+    const PixelArea part = request.part.value_or(PixelArea{});
+    const Vec3 corner = axis(0) * -half_width - axis(1) * half_height - axis(2) +
+                        right * part.left + up * part.bottom;
+    const std::array<Vec3, 3> rays{corner, right, up};
     std::array<GLfloat, 9> values{};
     for (std::size_t i = 0; i < rays.size(); ++i) {
         values.at(3 * i) = static_cast<GLfloat>(rays.at(i).x);
@@ -966,8 +976,12 @@ void TerrainRenderer::setLayers(const std::vector<TerrainLayer>& layers)
         if (known == before.end()) {
             auto added = std::make_unique<Layer>(layer, impl_->next_layer_number++, impl_->notify);
             // There is always a relief: this one replaces any that is missing.
-            impl_->reliefs.keep({.layer = added->number, .node = added->wholeNode()},
-                                *layer.relief);
+            const LayerNode whole{.layer = added->number, .node = added->wholeNode()};
+            if (added->sides() == MapSides::End) {
+                impl_->reliefs.keep(whole, *layer.relief);
+            } else {
+                impl_->reliefs.keepInPlaceOf(whole, *layer.relief); // it has no sides that meet
+            }
             impl_->layers.push_back(std::move(added));
             continue;
         }
@@ -1098,6 +1112,16 @@ void TerrainRenderer::presentDepth(unsigned target, const PixelArea& area)
     impl_->frame_target.presentDepth(target, impl_->kept_size, area);
 }
 
+Picture TerrainRenderer::keptColors()
+{
+    return impl_->frame_target.colors();
+}
+
+void TerrainRenderer::setKeptColors(const Picture& colors)
+{
+    impl_->frame_target.setColors(colors);
+}
+
 KeptDepths TerrainRenderer::keptDepths() const
 {
     return {.texture = impl_->frame_target.drawn().depthTexture()};
@@ -1118,20 +1142,39 @@ std::size_t TerrainRenderer::countTriangles(const DrawRequest& request, double e
     return count;
 }
 
+bool TerrainRenderer::hasRoomFor(const DrawRequest& request, double exaggeration)
+{
+    std::size_t relief_count = 0;
+    for (const auto& layer : impl_->layers) {
+        relief_count += reliefCount(layer->selector.select({.camera = request.camera,
+                                                            .viewport = request.viewport,
+                                                            .exaggeration = exaggeration,
+                                                            .part = request.part,
+                                                            .pose = request.body_pose},
+                                                           request.detail));
+    }
+    return 2 * relief_count <= impl_->reliefs.size();
+}
+
 DrawReport
 TerrainRenderer::drawComplete(const DrawRequest& request, const DrawStyle& style, unsigned target)
 {
     DrawReport report = draw(request, style, target);
     while (!report.is_complete) {
-        impl_->reliefs.waitForPending();
-        for (const auto& layer : impl_->layers) {
-            if (layer->requests) {
-                layer->requests->waitForPending();
-            }
-        }
+        waitForPending();
         report = draw(request, style, target);
     }
     return report;
+}
+
+void TerrainRenderer::waitForPending()
+{
+    impl_->reliefs.waitForPending();
+    for (const auto& layer : impl_->layers) {
+        if (layer->requests) {
+            layer->requests->waitForPending();
+        }
+    }
 }
 
 } // namespace marsview

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/base/result.h"
+#include "core/files/picture_file.h"
 #include "core/view/camera.h"
 #include "core/view/color_ramp.h"
 #include "core/view/detail_selection.h"
@@ -26,6 +27,9 @@ struct DrawStyle {
     Rgb8 sky_bottom{34, 40, 50};
 };
 
+/// A pixel, for smooth edges.
+inline constexpr int kSmoothSamples = 4;
+
 /// One picture: from where, how large, how fine.
 struct DrawRequest {
     OrbitCamera camera{};
@@ -42,6 +46,8 @@ struct DrawRequest {
     std::optional<PixelArea> part{};
     /// A better picture follows at once: in software, colors are those of the mesh's place.
     bool is_interim = false;
+    /// Pixels along a side of those that are shown as one: contour lines are as many wide.
+    int pixels_shown_as_one = 1;
     std::optional<CameraPose> body_pose{}; // replaces `camera` where layers lie on their body
 
     CameraPose pose() const { return body_pose ? *body_pose : CameraPose(camera); }
@@ -94,6 +100,9 @@ public:
     /// The load of draw(). Cheap: nothing is drawn.
     std::size_t countTriangles(const DrawRequest& request, double exaggeration);
 
+    /// Whether the shading of a picture leaves room in store for that of another one. Cheap too.
+    bool hasRoomFor(const DrawRequest& request, double exaggeration);
+
     /// Draws into the frame buffer object `target` with what there is. Its depth buffer has 24 bits
     /// and a stencil of 8. It is filled only by pictures that are drawn straight into it: of one
     /// sample a pixel, at scale 1, not kept.
@@ -105,6 +114,12 @@ public:
     void presentDepth(unsigned target, const PixelArea& area);
     /// Its depths, until the next draw().
     KeptDepths keptDepths() const;
+    /// Its colors.
+    Picture keptColors();
+    /// Replaces its colors by those of a picture of the same size.
+    void setKeptColors(const Picture& colors);
+    /// Returns when what draw() asked for has come, or failed.
+    void waitForPending();
     /// As draw(), waiting for all that is missing.
     DrawReport drawComplete(const DrawRequest& request, const DrawStyle& style, unsigned target);
 

@@ -504,13 +504,14 @@ bool isCovered()
 #endif
 
 #ifdef CONTOURS
-uniform vec2 u_contour; // lines per metre, and the line at height 0
+uniform vec2 u_contour;     // lines per metre, and the line at height 0
+uniform float u_contour_px; // the width of a line, in pixels that are drawn
 
-// The share of a line on this pixel: 1 wide, every fifth 1.8.
+// The share of a line on this pixel: 1 width, every fifth 1.8.
 float contour(float height)
 {
     float line = height * u_contour.x + u_contour.y;
-    float per_pixel = max(fwidth(line), 1e-6);
+    float per_pixel = max(fwidth(line), 1e-6) * u_contour_px;
     float nearest = floor(line + 0.5);
     float width = abs(nearest - 5.0 * floor(nearest / 5.0 + 0.5)) < 0.25 ? 1.8 : 1.0;
     float ink = clamp(0.5 * width + 0.5 - abs(line - nearest) / per_pixel, 0.0, 1.0);

@@ -62,7 +62,7 @@ class Map:
         tilt_deg: float | None = None,
         exaggeration: float | None = None,
         error_px: float = 1.0,
-        samples: int = 4,
+        samples: int | None = None,
         shading: Literal["tint", "hillshade", "slope"] = "tint",
         ramp: str | None = None,
         light_deg: tuple[float, float] = (315.0, 45.0),

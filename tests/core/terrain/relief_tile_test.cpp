@@ -215,6 +215,39 @@ TEST(ReliefTile, HasMeanSlopesAndElevationsUpToTheMapsBorders)
     }
 }
 
+// Where its sides meet, a map is one turn of endless rows: a tile of it is that of a map of three
+// turns, one turn further on.
+TEST(ReliefTile, GoesOnAtTheOtherSideOfAMapAroundItsBody)
+{
+    test::Random random;
+    constexpr std::size_t kRows = 70;
+    for (const double void_share : {0.0, 0.05}) {
+        for (std::size_t level = 0; level <= 2; ++level) {
+            const std::size_t columns = 2 * kTexels << level;
+            std::vector<double> turn = test::fractalHeights(random, columns, kRows, 500.0, 0.5);
+            for (double& height_m : turn) {
+                height_m = random.chance(void_share) ? kNan : height_m;
+            }
+            const auto heights = test::heightsFrom(turn, columns);
+            const Heightfield map = test::floatTerrain(columns, kRows, heights);
+            const Heightfield turns =
+                test::floatTerrain(3 * columns, kRows, [&](std::size_t column, std::size_t row) {
+                    return heights(column % columns, row);
+                });
+            const SceneFrame frame = test::northUpFrame(columns, kRows, 30.0);
+            for (const std::size_t column : {std::size_t{0}, std::size_t{1}}) {
+                const ReliefTile tile =
+                    makeReliefTile(map, frame, {level, column, 0}, 40.0, MapSides::Meet);
+                const ReliefTile truth = makeReliefTile(turns, frame, {level, column + 2, 0}, 40.0);
+                for (std::size_t mip = 0; mip < tile.levels.size(); ++mip) {
+                    EXPECT_EQ(tile.levels[mip].texels, truth.levels[mip].texels)
+                        << "level " << level << ", tile " << column << ", mip " << mip;
+                }
+            }
+        }
+    }
+}
+
 TEST(ReliefTile, IsCorrectOnTheSmallestMapsAndOnStrips)
 {
     test::Random random;

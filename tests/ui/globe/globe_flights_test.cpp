@@ -124,7 +124,7 @@ TEST_F(GlobeFlightsTest, RecordsPicturesOfTheGlobe)
     QImage expected(last.size(), QImage::Format_RGB888);
     ASSERT_TRUE(waitFor([&] {
         const auto drawn = globe().drawPart(second_, globe().style(), expected.rect(),
-                                            PictureLines::Omitted, expected);
+                                            {.lines = PictureLines::Omitted}, expected);
         return drawn && *drawn;
     }));
     int differing = 0;

@@ -220,8 +220,8 @@ TEST_F(FlyThroughTest, RecordsNumberedPicturesOfThePath)
     EXPECT_FALSE(QFile::exists(path("flight_0006.png")));
     // The last picture is that of the window's own camera.
     QImage last(96, 64, QImage::Format_RGB888);
-    const auto drawn =
-        view().drawPart(second_, view().style(), last.rect(), PictureLines::Omitted, last);
+    const auto drawn = view().drawPart(second_, view().style(), last.rect(),
+                                       {.lines = PictureLines::Omitted}, last);
     ASSERT_TRUE(drawn && *drawn);
     EXPECT_EQ(QImage(path("flight_0005.png")).convertToFormat(QImage::Format_RGB888), last);
     EXPECT_NE(QImage(path("flight_0001.png")), QImage(path("flight_0005.png")));
@@ -270,8 +270,8 @@ TEST_F(FlyThroughTest, SendsEveryPictureToFfmpeg)
     constexpr qsizetype kFrameBytes = 96 * 64 * 3;
     ASSERT_EQ(pixels.size(), 4 * kFrameBytes);
     QImage last(96, 64, QImage::Format_RGB888);
-    const auto drawn =
-        view().drawPart(second_, view().style(), last.rect(), PictureLines::Omitted, last);
+    const auto drawn = view().drawPart(second_, view().style(), last.rect(),
+                                       {.lines = PictureLines::Omitted}, last);
     ASSERT_TRUE(drawn && *drawn);
     const QImage sent(reinterpret_cast<const uchar*>(pixels.constData()) + 3 * kFrameBytes, 96, 64,
                       qsizetype{96} * 3, QImage::Format_RGB888);

@@ -1,0 +1,201 @@
+#include "ui/render/supersampled_picture.h"
+
+#include "ui/render/offscreen_picture.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <numeric>
+
+namespace marsview {
+namespace {
+
+// Half a pixel, where there is room for so many texels beside those of the next picture in motion.
+constexpr double kTexelSamples = 0.5 * kSamplesPerSide;
+
+// Of the picture, per side: some 600 samples.
+constexpr int kBlockSide = 192;
+
+// Of absolute values up to 255; that of which one in a hundred is above.
+class Levels {
+public:
+    void add(int level) { ++counts_.at(static_cast<std::size_t>(level)); }
+    int exceededByOneInHundred() const
+    {
+        const std::size_t all = std::accumulate(counts_.begin(), counts_.end(), std::size_t{0});
+        std::size_t above = 0;
+        for (std::size_t level = counts_.size(); level-- > 0;) {
+            above += counts_[level];
+            if (above * 100 > all) {
+                return static_cast<int>(level);
+            }
+        }
+        return 0;
+    }
+
+private:
+    std::array<std::size_t, 256> counts_{};
+};
+
+int blocksAlong(int pixels)
+{
+    return (pixels + kBlockSide - 1) / kBlockSide;
+}
+
+} // namespace
+
+int contrastOf(const PixelRows& picture)
+{
+    if (picture.width < 3 || picture.height < 3) {
+        return 0;
+    }
+    const auto deviation = [](const std::uint8_t* at, std::ptrdiff_t step) {
+        return std::abs(2 * at[0] - at[-step] - at[step]) / 2;
+    };
+    Levels along_rows;
+    Levels along_columns;
+    for (int y = 1; y + 1 < picture.height; ++y) {
+        const std::uint8_t* row = picture.first + y * picture.line_length;
+        const std::uint8_t* end = row + std::ptrdiff_t{3} * (picture.width - 1);
+        for (const std::uint8_t* at = row + 3; at < end; ++at) {
+            along_rows.add(deviation(at, 3));
+            along_columns.add(deviation(at, picture.line_length));
+        }
+    }
+    return std::max(along_rows.exceededByOneInHundred(), along_columns.exceededByOneInHundred());
+}
+
+int contrastOf(const Picture& picture)
+{
+    return contrastOf({.first = picture.rgb.data(),
+                       .width = picture.width,
+                       .height = picture.height,
+                       .line_length = std::ptrdiff_t{3} * picture.width});
+}
+
+DrawRequest
+supersampled(const DrawRequest& request, TerrainRenderer& renderer, double exaggeration)
+{
+    DrawRequest samples = request;
+    samples.viewport.width *= kSamplesPerSide;
+    samples.viewport.height *= kSamplesPerSide;
+    samples.pixels_shown_as_one *= kSamplesPerSide;
+    samples.samples = 1;
+    samples.scale = 1.0;
+    samples.is_kept = false;
+    samples.part.reset();
+    samples.detail.texel_px = kTexelSamples * request.detail.texel_px;
+    if (!renderer.hasRoomFor(samples, exaggeration)) {
+        samples.detail.texel_px = kSamplesPerSide * request.detail.texel_px; // the same relief
+    }
+    return samples;
+}
+
+PixelArea areaOfSamples(const PixelArea& area)
+{
+    return {.left = area.left * kSamplesPerSide,
+            .bottom = area.bottom * kSamplesPerSide,
+            .width = area.width * kSamplesPerSide,
+            .height = area.height * kSamplesPerSide};
+}
+
+void mergeSamples(const std::vector<std::uint8_t>& samples,
+                  int width,
+                  int height,
+                  const PartTarget& target)
+{
+    constexpr auto kSide = static_cast<std::size_t>(kSamplesPerSide);
+    constexpr unsigned kSamples = kSamplesPerSide * kSamplesPerSide;
+    const auto columns = static_cast<std::size_t>(width);
+    const std::size_t sample_row = 3 * kSide * columns;
+    std::vector<unsigned> sums(3 * columns);
+    for (std::ptrdiff_t y = 0; y < height; ++y) {
+        std::fill(sums.begin(), sums.end(), 0U);
+        for (std::size_t line = 0; line < kSide; ++line) {
+            const std::uint8_t* from =
+                samples.data() + (static_cast<std::size_t>(y) * kSide + line) * sample_row;
+            for (std::size_t x = 0; x < kSide * columns; ++x, from += 3) {
+                unsigned* sum = sums.data() + 3 * (x / kSide);
+                sum[0] += from[0];
+                sum[1] += from[1];
+                sum[2] += from[2];
+            }
+        }
+        std::transform(sums.begin(), sums.end(), target.first + y * target.line_length,
+                       [](unsigned sum) {
+                           return static_cast<std::uint8_t>((2 * sum + kSamples) / (2 * kSamples));
+                       });
+    }
+}
+
+SupersampledPicture::SupersampledPicture(TerrainRenderer& renderer,
+                                         const DrawRequest& request,
+                                         const DrawStyle& style)
+    : renderer_(renderer)
+    , request_(supersampled(request, renderer, style.exaggeration))
+    , style_(style)
+    , colors_{.width = request.viewport.width, .height = request.viewport.height, .rgb = {}}
+    , columns_(blocksAlong(colors_.width))
+    , count_(columns_ * blocksAlong(colors_.height))
+{
+    colors_.rgb.resize(std::size_t{3} * static_cast<std::size_t>(colors_.width) *
+                       static_cast<std::size_t>(colors_.height));
+}
+
+PixelArea SupersampledPicture::block(int number) const
+{
+    PixelArea area{.left = number % columns_ * kBlockSide,
+                   .bottom = number / columns_ * kBlockSide,
+                   .width = kBlockSide,
+                   .height = kBlockSide};
+    area.width = std::min(area.width, colors_.width - area.left);
+    area.height = std::min(area.height, colors_.height - area.bottom);
+    return area;
+}
+
+Result<bool> SupersampledPicture::drawNext()
+{
+    const PixelArea area = block(next_);
+    request_.part = areaOfSamples(area);
+    const auto row = static_cast<std::size_t>(request_.part->width) * 3;
+    std::vector<std::uint8_t> samples(row * static_cast<std::size_t>(request_.part->height));
+    const Result<DrawReport> drawn =
+        drawPart(renderer_, request_, style_,
+                 {.first = samples.data(), .line_length = static_cast<std::ptrdiff_t>(row)});
+    if (!drawn) {
+        return drawn.error();
+    }
+    if (!drawn->is_complete) {
+        return false;
+    }
+    const auto line_length = std::ptrdiff_t{3} * colors_.width;
+    mergeSamples(samples, area.width, area.height,
+                 {.first = colors_.rgb.data() +
+                           (colors_.height - area.bottom - area.height) * line_length +
+                           std::ptrdiff_t{3} * area.left,
+                  .line_length = line_length});
+    report_.triangle_count += drawn->triangle_count;
+    report_.node_count += drawn->node_count;
+    report_.error_px = std::max(report_.error_px, drawn->error_px / kSamplesPerSide);
+    if (!report_.problem) {
+        report_.problem = drawn->problem;
+    }
+    ++next_;
+    return true;
+}
+
+Status SupersampledPicture::finish()
+{
+    while (!isDone()) {
+        const Result<bool> drawn = drawNext();
+        if (!drawn) {
+            return drawn.error();
+        }
+        if (!*drawn) {
+            renderer_.waitForPending();
+        }
+    }
+    return Done{};
+}
+
+} // namespace marsview

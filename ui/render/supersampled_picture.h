@@ -1,0 +1,84 @@
+// Pictures with nine samples a pixel, for terrain that changes much from one pixel to the next.
+#pragma once
+
+#include "core/base/result.h"
+#include "core/files/picture_file.h"
+#include "ui/render/offscreen_picture.h"
+#include "ui/render/terrain_renderer.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace marsview {
+
+/// Samples along a side of a pixel.
+inline constexpr int kSamplesPerSide = 3;
+
+/// Rows of red, green and blue.
+struct PixelRows {
+    const std::uint8_t* first = nullptr;
+    int width = 0;
+    int height = 0;
+    std::ptrdiff_t line_length = 0; // bytes from one row to the next
+};
+
+/// 99 in 100 color values are at most this far from the mean of their neighbors on both sides, in
+/// levels of 255, along rows or along columns: the larger of the two. 0 for a picture of less than
+/// three pixels a side.
+int contrastOf(const PixelRows& picture);
+int contrastOf(const Picture& picture);
+
+/// Above this contrast a picture with four samples a pixel is visibly off the mean over its pixels
+/// (tests/bench/VIEW.md).
+inline constexpr int kSmoothContrastMax = 16;
+
+/// The request for the samples of a picture that `request` draws, without its part.
+DrawRequest supersampled(const DrawRequest& request,
+                         TerrainRenderer& renderer,
+                         double exaggeration);
+/// The samples of an area of the picture.
+PixelArea areaOfSamples(const PixelArea& area);
+/// The means of the samples of each of width × height pixels, rounded. `samples` has rows of 3 ×
+/// kSamplesPerSide × width bytes.
+void mergeSamples(const std::vector<std::uint8_t>& samples,
+                  int width,
+                  int height,
+                  const PartTarget& target);
+
+/// Draws a picture of any size block by block, each within some 50 ms in software. Use with the
+/// renderer's context current; must not outlive the renderer. No frame buffer is kept between
+/// blocks.
+class SupersampledPicture {
+public:
+    /// `request` is that of a picture with one sample a pixel; its errors hold for each sample.
+    SupersampledPicture(TerrainRenderer& renderer,
+                        const DrawRequest& request,
+                        const DrawStyle& style);
+
+    /// Draws the next block. False, and nothing drawn, while pieces of it are missing: they are on
+    /// their way. OutOfRange where the driver has no frame buffer of a block's size.
+    Result<bool> drawNext();
+    bool isDone() const noexcept { return next_ == count_; }
+    /// Draws what is left of it and waits for what is missing.
+    Status finish();
+
+    /// Rows from the top.
+    const Picture& colors() const noexcept { return colors_; }
+    /// Of all blocks: nodes at the border of two count twice.
+    const DrawReport& report() const noexcept { return report_; }
+
+private:
+    PixelArea block(int number) const;
+
+    TerrainRenderer& renderer_;
+    DrawRequest request_; // of the samples
+    DrawStyle style_;
+    Picture colors_;
+    DrawReport report_;
+    int columns_ = 0; // blocks
+    int count_ = 0;
+    int next_ = 0;
+};
+
+} // namespace marsview
