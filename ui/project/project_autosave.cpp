@@ -8,6 +8,7 @@
 #include <QUuid>
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 #include <string>
 #include <system_error>
@@ -156,8 +157,11 @@ bool ProjectAutosave::begin()
     return true;
 }
 
-void ProjectAutosave::write(ProjectState state)
+void ProjectAutosave::write(ProjectState state, std::function<void()> then)
 {
+    if (then) {
+        after_next_.push_back(std::move(then));
+    }
     next_ = std::make_shared<const ProjectState>(std::move(state));
     start();
 }
@@ -172,6 +176,8 @@ void ProjectAutosave::start()
         return;
     }
     writing_ = std::exchange(next_, nullptr);
+    std::move(after_next_.begin(), after_next_.end(), std::back_inserter(after_writing_));
+    after_next_.clear();
     job_ = std::make_shared<Job>();
     job_->before = written_.get();
     job_->after = writing_.get();
@@ -200,6 +206,10 @@ void ProjectAutosave::finish()
     log_ = std::exchange(job->log, std::nullopt);
     if (!job->is_written) {
         log_.reset(); // what it has is not known
+    } else {
+        for (const auto& then : std::exchange(after_writing_, {})) {
+            then();
+        }
     }
     if (std::exchange(is_discarding_, false)) {
         removeCopy();
@@ -286,6 +296,20 @@ std::vector<LeftoverProject> ProjectAutosave::leftovers() const
         leftovers.push_back(std::move(leftover));
     }
     return leftovers;
+}
+
+std::set<fs::path> ProjectAutosave::copiesInUse() const
+{
+    std::set<fs::path> found;
+    std::error_code problem;
+    for (const auto& entry : fs::directory_iterator(folder_, problem)) {
+        const fs::path& copy = entry.path();
+        if (copy != copy_ && isProjectPath(copy.string()) &&
+            FileLock::isHeld(lockOf(copy).string())) {
+            found.insert(copy);
+        }
+    }
+    return found;
 }
 
 // Of programs that ended before the project file of a first copy was written.

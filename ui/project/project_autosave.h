@@ -12,6 +12,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
@@ -45,7 +46,8 @@ public:
     ~ProjectAutosave() override;
 
     /// Replaces the copy. Of states that arrive while one is being written, the last one is next.
-    void write(ProjectState state);
+    /// `then` is called once a copy with this state, or with a later one, is on the disk.
+    void write(ProjectState state, std::function<void()> then = {});
     /// Removes the copy, once it is written if it is being written: the project was saved, or the
     /// user does not want to keep its changes.
     void discard();
@@ -54,6 +56,9 @@ public:
 
     /// Copies of programs that do not run any more, the latest first. Damaged ones are skipped.
     std::vector<LeftoverProject> leftovers() const;
+    /// Copies of other programs that still run, or whose end the system has not completed: it frees
+    /// the memory of a program first, and its locks last.
+    std::set<std::filesystem::path> copiesInUse() const;
     /// With the annotations. Reads their log, which takes seconds for a million. Any thread.
     static Result<Project> wholeProject(const LeftoverProject& leftover, JobMonitor& monitor);
     /// Removes such a copy.
@@ -82,6 +87,8 @@ private:
     std::shared_ptr<const ProjectState> written_; // that the log has; null: none
     std::shared_ptr<const ProjectState> writing_;
     std::shared_ptr<const ProjectState> next_;
+    std::vector<std::function<void()>> after_writing_; // callbacks of that state
+    std::vector<std::function<void()>> after_next_;
     std::optional<AnnotationLog> log_;
     QThreadPool pool_;
 };

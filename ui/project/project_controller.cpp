@@ -363,10 +363,7 @@ void ProjectController::recover(const LeftoverProject& leftover)
         [this, leftover](const ReadProject& read) {
             replace(read.project, read.file);
             is_recovered_ = true;
-            connect(
-                &autosave_, &ProjectAutosave::copied, this,
-                [leftover] { ProjectAutosave::remove(leftover); }, Qt::SingleShotConnection);
-            autosave_.write(state());
+            autosave_.write(state(), [leftover] { ProjectAutosave::remove(leftover); });
             Q_EMIT changed();
         });
 }

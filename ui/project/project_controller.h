@@ -91,8 +91,12 @@ public:
     /// A project file is being read.
     bool isReading() const noexcept { return !readings_.empty(); }
 
-    /// The latest copy that a crash left behind; empty if there is none.
+    /// The copies that crashes left behind, the latest first.
+    std::vector<LeftoverProject> leftovers() const { return autosave_.leftovers(); }
+    /// The first of them; empty if there is none.
     std::optional<LeftoverProject> leftover() const;
+    /// Copies that other programs have locked; see ProjectAutosave.
+    std::set<std::filesystem::path> copiesInUse() const { return autosave_.copiesInUse(); }
     /// Reads such a copy and replaces the session by it, with unsaved changes. Removes the copy
     /// once there is another one. Emits failed() if its annotations cannot be read.
     void recover(const LeftoverProject& leftover);

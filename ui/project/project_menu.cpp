@@ -22,6 +22,10 @@
 namespace marsview {
 namespace {
 
+// How often, and for how long, the copies of programs are looked at that may be about to end.
+constexpr int kLookAgainMs = 250;
+constexpr qint64 kLookingMs = 120'000;
+
 QString nameOf(const QString& file)
 {
     return isolated(QFileInfo(file).completeBaseName());
@@ -33,6 +37,8 @@ ProjectMenu::ProjectMenu(const Parts& parts, QObject* parent)
     : QObject(parent)
     , parts_(parts)
 {
+    look_again_.setInterval(kLookAgainMs);
+    connect(&look_again_, &QTimer::timeout, this, &ProjectMenu::lookAtCopiesInUse);
     QMenu& menu = parts_.file_menu;
     QAction* first = menu.actions().isEmpty() ? nullptr : menu.actions().constFirst();
     const auto add = [&](const QString& text, const QKeySequence& key, const QString& name) {
@@ -181,21 +187,60 @@ void ProjectMenu::open(const QString& project, const QStringList& maps)
 
 void ProjectMenu::offerRecovery()
 {
-    const auto leftover = parts_.project.leftover();
-    if (!leftover || !parts_.has_questions) {
+    if (!parts_.has_questions) {
         return;
     }
+    in_use_ = parts_.project.copiesInUse();
+    offerLeftover();
+    if (!in_use_.empty()) {
+        looking_.start();
+        look_again_.start();
+    }
+}
+
+void ProjectMenu::lookAtCopiesInUse()
+{
+    if (question_) {
+        return; // one at a time
+    }
+    const std::set<std::filesystem::path> before =
+        std::exchange(in_use_, parts_.project.copiesInUse());
+    std::erase_if(in_use_,
+                  [&before](const std::filesystem::path& copy) { return !before.contains(copy); });
+    if (in_use_.empty() || looking_.hasExpired(kLookingMs)) {
+        look_again_.stop();
+    }
+    if (in_use_.size() < before.size()) {
+        offerLeftover(&before);
+    }
+}
+
+// One that the user was not asked about; null: of all.
+void ProjectMenu::offerLeftover(const std::set<std::filesystem::path>* of)
+{
+    for (const LeftoverProject& leftover : parts_.project.leftovers()) {
+        if (!asked_.contains(leftover.copy) && (of == nullptr || of->contains(leftover.copy))) {
+            ask(leftover);
+            return;
+        }
+    }
+}
+
+void ProjectMenu::ask(const LeftoverProject& leftover)
+{
+    asked_.insert(leftover.copy);
     auto* box = new QMessageBox(&parts_.window);
+    question_ = box;
     box->setObjectName(QStringLiteral("recovery"));
     box->setAttribute(Qt::WA_DeleteOnClose);
     box->setWindowModality(Qt::WindowModal);
     box->setIcon(QMessageBox::Question);
     box->setWindowTitle(tr("Restore Project"));
     box->setTextFormat(Qt::PlainText);
-    const QString time = QLocale().toString(
-        QFileInfo(QString::fromStdString(leftover->copy.string())).lastModified(),
-        QLocale::ShortFormat);
-    const QString file = QString::fromStdString(leftover->file.string());
+    const QString time =
+        QLocale().toString(QFileInfo(QString::fromStdString(leftover.copy.string())).lastModified(),
+                           QLocale::ShortFormat);
+    const QString file = QString::fromStdString(leftover.file.string());
     box->setText(file.isEmpty()
                      //: %1 is date and time
                      ? tr("MarsView ended unexpectedly. Restore the unsaved layers and settings "
@@ -211,12 +256,12 @@ void ProjectMenu::offerRecovery()
     drop->setObjectName(QStringLiteral("delete"));
     box->setDefaultButton(restore);
     box->setEscapeButton(later);
-    connect(box, &QMessageBox::finished, this, [this, box, restore, drop, leftover = *leftover] {
+    connect(box, &QMessageBox::finished, this, [this, box, restore, drop, leftover] {
         if (box->clickedButton() == restore) {
             saveThen([this, leftover] { parts_.project.recover(leftover); });
         } else if (box->clickedButton() == drop) {
             ProjectAutosave::remove(leftover);
-            offerRecovery(); // the next one
+            offerLeftover(); // the next one
         }
     });
     box->open();

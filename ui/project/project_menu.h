@@ -5,10 +5,15 @@
 #include "ui/project/project_controller.h"
 #include "ui/widgets/notice_center.h"
 
+#include <QElapsedTimer>
 #include <QObject>
+#include <QPointer>
 #include <QStringList>
+#include <QTimer>
 
+#include <filesystem>
 #include <functional>
+#include <set>
 
 class QAction;
 class QMainWindow;
@@ -43,7 +48,8 @@ public:
     bool hasQuestion() const;
     /// Reads a project, opens it once nothing would be lost, and then opens maps on top of it.
     void open(const QString& project, const QStringList& maps = {});
-    /// Asks whether to restore what a crash left behind, if anything.
+    /// Asks whether to restore what a crash left behind, if anything. A program that was killed a
+    /// moment ago may take seconds to end: until then its copy is watched.
     void offerRecovery();
     /// "PROJECT[*]"; empty if the project was never saved.
     QString title() const;
@@ -63,6 +69,9 @@ private:
     void saveAs(const std::function<void()>& next);
     void locate(LayerId id);
     void showMissing();
+    void offerLeftover(const std::set<std::filesystem::path>* of = nullptr);
+    void ask(const LeftoverProject& leftover);
+    void lookAtCopiesInUse();
     QString folder() const;
 
     Parts parts_;
@@ -72,7 +81,12 @@ private:
     QAction* save_as_ = nullptr;
     QMenu* recent_menu_ = nullptr;
     RecentFiles* recent_ = nullptr;
-    QStringList maps_; // to be opened on top of the project
+    std::set<std::filesystem::path> asked_;  // copies that the user has been asked about
+    std::set<std::filesystem::path> in_use_; // copies of others, until they are free or gone
+    QPointer<QMessageBox> question_;
+    QTimer look_again_;
+    QElapsedTimer looking_; // since the offer was made
+    QStringList maps_;      // to be opened on top of the project
 };
 
 } // namespace marsview

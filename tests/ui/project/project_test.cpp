@@ -1,5 +1,6 @@
 // Projects in the window: saving, opening, questions, recovery.
 
+#include "core/base/file_lock.h"
 #include "core/session/project.h"
 #include "tests/support/temp_folder.h"
 #include "tests/ui/map_window.h"
@@ -7,6 +8,7 @@
 #include "ui/commands/window_commands.h"
 #include "ui/controllers/annotation_controller.h"
 #include "ui/controllers/recent_files.h"
+#include "ui/project/project_autosave.h"
 #include "ui/project/project_controller.h"
 #include "ui/project/project_menu.h"
 #include "ui/widgets/notice_bar.h"
@@ -26,6 +28,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <memory>
 #include <string>
 
 namespace marsview {
@@ -367,6 +370,77 @@ TEST_F(ProjectWindowTest, CrashIsFollowedByTheOfferToRestore)
     EXPECT_FALSE(window_->isWindowModified());
     const auto leftover = window_->commands().project.leftover();
     EXPECT_FALSE(leftover) << leftover->copy;
+}
+
+// The system frees the memory of a killed program before its locks: the next one may start before.
+TEST_F(ProjectWindowTest, ACopyOfAProgramThatIsStillEndingIsOfferedOnceItHasEnded)
+{
+    makeChangedWindow();
+    window_->commands().project.autosaveNow();
+    const Project before = saved();
+    fs::path copy;
+    for (const auto& entry : fs::directory_iterator(folder_.path() / "autosave")) {
+        if (isProjectPath(entry.path().string())) {
+            copy = entry.path();
+        }
+    }
+    ASSERT_FALSE(copy.empty());
+    const fs::path kept = folder_.path() / "autosave/ending.mvproj";
+    const fs::path closed = folder_.path() / "autosave/closed.mvproj";
+    window_.reset();
+    fs::rename(copy, kept);
+    fs::copy_file(kept, closed);
+    const auto lock = [](const fs::path& of) { // a shared lock leaves its file, as a kill does
+        auto held = FileLock::tryLock(of.string() + ".lock", FileLock::Kind::Shared);
+        EXPECT_TRUE(held && *held);
+        return std::make_unique<FileLock>(std::move(**held));
+    };
+    auto ending = lock(kept);
+    auto closing = lock(closed);
+
+    makeWindow(kSmall, asking());
+    window_->commands().project_menu.offerRecovery();
+    const auto asked = [this] {
+        return window_->findChild<QMessageBox*>(QStringLiteral("recovery")) != nullptr;
+    };
+    EXPECT_FALSE(asked()) << "both still run";
+    fs::remove(closed); // as a program does that ends properly
+    closing.reset();
+    ending.reset();
+    QMessageBox* question = box("recovery");
+    ASSERT_NE(question, nullptr);
+    for (QAbstractButton* button : question->buttons()) {
+        if (button->objectName() == QStringLiteral("restore")) {
+            button->click();
+            break;
+        }
+    }
+    ASSERT_TRUE(waitFor([this] { return window_->session().layers.size() == 2; }));
+    EXPECT_EQ(saved().layers, before.layers);
+    EXPECT_TRUE(waitFor([&] { return !fs::exists(kept); })) << "there is another one";
+    EXPECT_FALSE(asked());
+}
+
+// A copy that is already being written when a project is restored lacks the restored state.
+TEST_F(ProjectWindowTest, ACopyGoesOnceItsOwnStateIsOnTheDiskAgain)
+{
+    ProjectAutosave autosave(folder_.path() / "autosave");
+    ProjectState state;
+    state.project.others["state"] = "2";
+    std::vector<std::string> written; // what the copy had when it was reported
+    const auto report = [&] {
+        for (const auto& entry : fs::directory_iterator(folder_.path() / "autosave")) {
+            if (isProjectPath(entry.path().string())) {
+                const auto project = readProject(entry.path(), {});
+                written.push_back(project ? project->others.at("state") : "");
+            }
+        }
+    };
+    autosave.write(state); // runs
+    state.project.others["state"] = "3";
+    autosave.write(state, report);
+    autosave.wait();
+    EXPECT_EQ(written, std::vector<std::string>{"3"});
 }
 
 TEST_F(ProjectWindowTest, AutosaveFollowsAChangeAndGoesWithItsUndo)
