@@ -22,6 +22,8 @@ namespace {
 
 constexpr double kDragLeast = 4.0; // pixels: less is a click
 constexpr int kTicksMax = 6;
+constexpr int kNameWidthMax = 180; // points: longer names are cut
+constexpr int kLegendMargins = 24; // points above and below all names
 constexpr QSize kPictureSize{1200, 500};
 constexpr double kPictureScale = 2.0;
 
@@ -152,7 +154,7 @@ void ProfilePlot::fillGraphs()
     parts_->heights = {};
     for (const ProfileCurve& curve : curves_) {
         QCPGraph* graph = plot.addGraph();
-        graph->setName(curve.name);
+        graph->setName(QFontMetrics(font()).elidedText(curve.name, Qt::ElideMiddle, kNameWidthMax));
         QVector<QCPGraphData> points;
         points.reserve(static_cast<qsizetype>(curve.distance_m.size()));
         for (std::size_t i = 0; i < curve.distance_m.size(); ++i) {
@@ -187,7 +189,7 @@ void ProfilePlot::fillGraphs()
         parts_->slope->rescaleValueAxis();
         parts_->slope->removeFromLegend();
     }
-    plot.legend->setVisible(curves_.size() > 1);
+    placeLegend();
     const bool is_kilometers = parts_->distance_unit_m > 1.0;
     plot.xAxis->setLabel(is_kilometers ? tr("Distance (km)") : tr("Distance (m)"));
     const bool is_approximate =
@@ -198,6 +200,43 @@ void ProfilePlot::fillGraphs()
             .arg(unitSymbol(unit_));
     fitAxes(plot.height());
     setSlopeShown(is_slope_shown_);
+}
+
+// The names of several curves are to the right of the diagram, where they cover no curve.
+void ProfilePlot::placeLegend()
+{
+    QCustomPlot& plot = *parts_->plot;
+    QCPLegend* legend = plot.legend;
+    const bool is_shown = curves_.size() > 1;
+    const bool is_to_the_right = plot.plotLayout()->columnCount() > 1;
+    legend->setVisible(is_shown);
+    if (is_shown == is_to_the_right) {
+        return;
+    }
+    constexpr double kLeastStretch = 0.001;
+    legend->layout()->take(legend);
+    if (is_shown) {
+        auto* column = new QCPLayoutGrid;
+        plot.plotLayout()->addElement(0, 1, column);
+        plot.plotLayout()->setColumnStretchFactor(1, kLeastStretch);
+        column->addElement(0, 0, legend);
+        column->addElement(1, 0, new QCPLayoutElement(&plot)); // the room below
+        column->setRowStretchFactor(0, kLeastStretch);
+    } else {
+        plot.axisRect()->insetLayout()->addElement(legend, Qt::AlignTop | Qt::AlignRight);
+        plot.plotLayout()->remove(plot.plotLayout()->element(0, 1));
+        plot.plotLayout()->simplify(); // gives its column to the diagram
+    }
+}
+
+// As many names below each other as there is room for, the others next to them.
+void ProfilePlot::fitLegend(int height)
+{
+    QCPLegend& legend = *parts_->plot->legend;
+    const int row = std::max(QFontMetrics(legend.font()).height(), legend.iconSize().height());
+    const int rows = std::max(1, (height - kLegendMargins) / std::max(1, row));
+    legend.setWrap(rows);
+    legend.setFillOrder(QCPLegend::foRowsFirst);
 }
 
 void ProfilePlot::applyColors()
@@ -470,6 +509,7 @@ void ProfilePlot::fitAxes(int height)
     };
     set_title(*parts_->plot->yAxis, parts_->elevation_title, unitSymbol(unit_));
     set_title(*parts_->plot->yAxis2, tr("Slope (°)"), QStringLiteral("°"));
+    fitLegend(height);
 }
 
 void ProfilePlot::keyPressEvent(QKeyEvent* event)

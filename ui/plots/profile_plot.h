@@ -82,6 +82,8 @@ private:
     void applyColors();
     void applyScale();
     void fitAxes(int height);
+    void placeLegend();
+    void fitLegend(int height);
     void placeCursor();
     void placeStretch();
     void moveCursor(std::optional<double> distance_m);

@@ -10,6 +10,9 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
 
 namespace marsview {
 namespace {
@@ -132,6 +135,71 @@ TEST_F(ProfilePlotTest, SavedPicturesShowTheCurveWithItsGap)
     const double without = redColumns(QImage(folder.filePath(QStringLiteral("whole.png"))));
     EXPECT_NEAR(with_gap / without, 0.9, 0.01) << "2 of 20 km are missing";
     EXPECT_FALSE(plot_.savePicture(folder.filePath(QStringLiteral("missing/profile.png"))));
+}
+
+// First and last column of the row that has most of a color, if the columns between have it, too.
+std::optional<std::pair<int, int>> longestRow(const QImage& picture, bool is_red)
+{
+    const auto has_color = [&](int x, int y) {
+        const QColor color = picture.pixelColor(x, y);
+        return (is_red ? color.red() : color.blue()) > 150 && color.green() < 110 &&
+               (is_red ? color.blue() : color.red()) < 110;
+    };
+    int count = 0;
+    std::pair<int, int> ends;
+    for (int y = 0; y < picture.height(); ++y) {
+        std::vector<int> columns;
+        for (int x = 0; x < picture.width(); ++x) {
+            if (has_color(x, y)) {
+                columns.push_back(x);
+            }
+        }
+        if (static_cast<int>(columns.size()) > count) {
+            count = static_cast<int>(columns.size());
+            ends = {columns.front(), columns.back()};
+        }
+    }
+    return count == ends.second - ends.first + 1 ? std::optional(ends) : std::nullopt;
+}
+
+TEST_F(ProfilePlotTest, NamesOfSeveralCurvesCoverNone)
+{
+    const auto level = [](const QString& name, const QColor& color, double elevation_m) {
+        return ProfileCurve{.name = name,
+                            .color = color,
+                            .distance_m = {0.0, 10000.0, 20000.0},
+                            .elevation_m = {elevation_m, elevation_m, elevation_m},
+                            .vertices_m = {}};
+    };
+    const QTemporaryDir folder;
+    const auto saved = [&](const char* name) {
+        const QString path = folder.filePath(QLatin1String(name));
+        EXPECT_TRUE(plot_.savePicture(path));
+        return QImage(path);
+    };
+    std::vector<ProfileCurve> curves{
+        level(QStringLiteral("Upper"), Qt::red, 1000.0),
+        level(QStringLiteral("A section with a name that is much too long for a legend"), Qt::blue,
+              0.0)};
+    plot_.setCurves(curves);
+    const QImage two = saved("two.png");
+    const auto upper = longestRow(two, true);
+    const auto lower = longestRow(two, false);
+    ASSERT_TRUE(upper && lower) << "there are gaps";
+    EXPECT_EQ(*upper, *lower) << "one of them is covered at an end";
+    EXPECT_GT(upper->second - upper->first, two.width() / 2);
+    for (int i = 0; i < 40; ++i) { // more than fit below each other
+        curves.push_back(level(QStringLiteral("More %1").arg(i), Qt::black, 500.0));
+    }
+    plot_.setCurves(curves);
+    const QImage many = saved("many.png");
+    ASSERT_TRUE(longestRow(many, true) && longestRow(many, false));
+    EXPECT_EQ(*longestRow(many, true), *longestRow(many, false));
+    EXPECT_GT(longestRow(many, true)->second - longestRow(many, true)->first, many.width() / 4);
+    plot_.setCurves({curves.front()}); // alone, it has the whole width
+    const auto alone = longestRow(saved("one.png"), true);
+    ASSERT_TRUE(alone);
+    EXPECT_GT(alone->second, upper->second + 20);
 }
 
 TEST_F(ProfilePlotTest, SamePlaceAgainKeepsTheStretch)
