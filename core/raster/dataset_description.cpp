@@ -145,11 +145,19 @@ std::string noticeOfRadii(GDALDataset& dataset, GDALDataset& placed, const std::
                        wrong->GetSemiMajor());
 }
 
+// GDAL's stand-in for a file that names no CRS.
+bool isStandIn(const OGRSpatialReference& reference)
+{
+    const char* unit = nullptr;
+    reference.GetLinearUnits(&unit);
+    return reference.IsLocal() != 0 && unit != nullptr && EQUAL(unit, "unknown");
+}
+
 void readPlacement(GDALDataset& dataset, const nlohmann::json& pds3, RasterInfo& info)
 {
     std::optional<Crs> exact = exactCrsOf(dataset);
     const OGRSpatialReference* reference = dataset.GetSpatialRef();
-    if (exact || reference != nullptr) {
+    if (exact || (reference != nullptr && !isStandIn(*reference))) {
         Result<Crs> crs =
             exact ? Result<Crs>(std::move(*exact)) : Crs::fromSpatialReference(*reference);
         if (crs) {

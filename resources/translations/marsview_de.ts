@@ -694,6 +694,11 @@
         <translation>Fallen</translation>
     </message>
     <message>
+        <source>undetermined</source>
+        <extracomment>The direction of a plane that may be level</extracomment>
+        <translation>unbestimmt</translation>
+    </message>
+    <message>
         <source>Dip direction</source>
         <translation>Fallrichtung</translation>
     </message>
@@ -3237,8 +3242,8 @@ y %2</translation>
         <translation>Am Rand der Karte</translation>
     </message>
     <message>
-        <source>S&amp;top Recording</source>
-        <translation>Aufzeichnung an&amp;halten</translation>
+        <source>S&amp;top</source>
+        <translation>An&amp;halten</translation>
     </message>
     <message>
         <source>&amp;Record…</source>
@@ -5778,8 +5783,13 @@ Bewegen Sie die Karte zu einer Ansicht, die Sie behalten wollen, und drücken Si
         <translation>Das Gelände in Perspektive; die Statusleiste zeigt Position und Höhe unter dem Zeiger oder dem Stift, oder am Fadenkreuz in der Mitte, wenn die Tastatur benutzt wird</translation>
     </message>
     <message>
+        <source>All layers are hidden; check one in the list of layers</source>
+        <extracomment>Shown in the middle of the window while no layer has a check mark</extracomment>
+        <translation>Alle Ebenen sind ausgeblendet; setzen Sie in der Ebenenliste ein Häkchen</translation>
+    </message>
+    <message>
         <source>Drop a DEM here or press Ctrl+O</source>
-        <extracomment>Shown in the middle of the window while no map is open. DEM = digital elevation model.</extracomment>
+        <extracomment>Shown while no map is open. DEM = digital elevation model.</extracomment>
         <translation>Legen Sie hier ein Geländemodell ab, oder drücken Sie Strg+O</translation>
     </message>
     <message>

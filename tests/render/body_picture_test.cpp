@@ -35,22 +35,24 @@ struct BodyPictureMap {
                    std::size_t rows,
                    const GeoTransform::Terms& terms,
                    double relief_m,
-                   Edges edges = Edges::Free)
+                   Edges edges = Edges::Free,
+                   std::size_t turned_by = 0) // columns
         : georeference(columns, rows, *GeoTransform::fromTerms(terms), *Crs::fromText(crs))
-        , drawn(terrain(columns, rows, relief_m, edges), georeference.sceneFrame())
+        , drawn(terrain(columns, rows, relief_m, edges, turned_by), georeference.sceneFrame())
     {
         JobMonitor monitor;
         grid = BodyGrid::make(georeference, monitor).value();
     }
 
-    static Heightfield terrain(std::size_t columns, std::size_t rows, double relief_m, Edges edges)
+    static Heightfield terrain(
+        std::size_t columns, std::size_t rows, double relief_m, Edges edges, std::size_t turned_by)
     {
         Random random(17);
         const auto heights =
             heightsFrom(fractalHeights(random, columns, rows, relief_m, 0.5), columns);
         return floatTerrain(columns, rows, [&](std::size_t column, std::size_t row) {
             if (edges == Edges::Free) {
-                return heights(column, row);
+                return heights((column + turned_by) % columns, row);
             }
             const bool is_pole = row == 0 || row == rows - 1;
             return heights(is_pole || column == columns - 1 ? 0 : column, row);
@@ -202,6 +204,27 @@ BodyCamera over(double longitude_deg, double latitude_deg, double distance_m, do
             .distance_m = distance_m,
             .azimuth = Angle::degrees(30.0),
             .tilt = Angle::degrees(tilt_deg)};
+}
+
+// The same planet as two maps whose sides meet at 0° and at 180°.
+TEST_F(BodyPicture, HasNoSeamWhereTheSidesOfAMapMeet)
+{
+    const BodyPictureMap mars = wholeMars();
+    const BodyPictureMap turned("IAU_2015:49900", 360, 180, {-180, 1, 0, 90, 0, -1}, 8000.0,
+                                Edges::Free, 180);
+    for (const double distance_m : {8e6, 1e6}) {
+        BodyCamera camera = homeCamera(mars.limits(3.0), kViewport);
+        camera.target = {.longitude = Angle::degrees(0.5), .latitude = Angle::degrees(-20.0)};
+        camera.distance_m = distance_m;
+        const Picture seam = drawFrom(mars, camera, 3.0).colors;
+        const Picture none = drawFrom(turned, camera, 3.0).colors;
+        std::size_t different = 0;
+        for (std::size_t i = 0; i < seam.rgb.size(); ++i) {
+            different += std::abs(seam.rgb[i] - none.rgb[i]) > 8 ? 1U : 0U;
+        }
+        EXPECT_LT(static_cast<double>(different), 0.002 * static_cast<double>(seam.rgb.size()))
+            << distance_m;
+    }
 }
 
 TEST_F(BodyPicture, IsWithinAPixelOfEverySampleCastInDouble)

@@ -74,6 +74,19 @@ TEST_F(LayersTest, AreAddedOnTopAndShown)
     EXPECT_TRUE(window_->windowTitle().contains(QStringLiteral("ring.asc")));
 }
 
+TEST_F(LayersTest, AViewWithoutVisibleLayersSaysThatTheyAreHidden)
+{
+    ASSERT_EQ(layers().size(), 1U);
+    const auto* hint = window_->view()->findChild<QLabel*>(QStringLiteral("emptyHint"));
+    EXPECT_FALSE(hint->isVisible());
+    controller().setVisible(id(0), false);
+    EXPECT_TRUE(hint->isVisible());
+    EXPECT_TRUE(hint->text().contains(QStringLiteral("hidden"))) << hint->text().toStdString();
+    controller().setVisible(id(0), true);
+    controller().remove(id(0));
+    EXPECT_TRUE(hint->text().contains(QStringLiteral("Ctrl+O"))) << hint->text().toStdString();
+}
+
 TEST_F(LayersTest, DroppedFilesAreLoadedInOrderDespiteAFailure)
 {
     QMimeData data;

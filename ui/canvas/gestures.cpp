@@ -88,9 +88,8 @@ QString gestureText(const GestureBinding& binding, Qt::MouseButtons buttons)
     QString text = plainText(binding.gesture, buttons);
     if (binding.modifiers != Qt::NoModifier) {
         // "Shift+", as the platform writes it
-        text = QKeySequence(static_cast<int>(binding.modifiers.toInt()))
-                   .toString(QKeySequence::NativeText) +
-               text.toLower();
+        text.prepend(QKeySequence(static_cast<int>(binding.modifiers.toInt()))
+                         .toString(QKeySequence::NativeText));
     }
     if (!binding.tool || binding.gesture == Gesture::WheelWhilePressing) {
         return text;

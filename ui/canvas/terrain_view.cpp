@@ -171,8 +171,19 @@ void TerrainView::replacePreview(const std::shared_ptr<const Map>& preview,
 
 void TerrainView::setHint(const QString& hint)
 {
-    //: Shown in the middle of the window while no map is open. DEM = digital elevation model.
-    empty_hint_->setText(hint.isEmpty() ? tr("Drop a DEM here or press Ctrl+O") : hint);
+    hint_ = hint;
+    empty_hint_->setText(!hint.isEmpty() ? hint
+                         //: Shown in the middle of the window while no layer has a check mark
+                         : is_all_hidden_
+                             ? tr("All layers are hidden; check one in the list of layers")
+                             //: Shown while no map is open. DEM = digital elevation model.
+                             : tr("Drop a DEM here or press Ctrl+O"));
+}
+
+void TerrainView::setAllHidden(bool is_so)
+{
+    is_all_hidden_ = is_so;
+    setHint(hint_);
 }
 
 void TerrainView::setLook(const TerrainLook& look)

@@ -52,8 +52,10 @@ public:
     /// Everything that is shown.
     const SceneSurface& ground() const noexcept { return scene_.ground(); }
 
-    /// The text in the middle of an empty view; if empty, how to open a map.
+    /// The text in the middle of an empty view; if empty, what to do about it.
     void setHint(const QString& hint);
+    /// There are layers, but the user has hidden all of them.
+    void setAllHidden(bool is_so);
     void setLook(const TerrainLook& look);
     const TerrainLook& look() const noexcept { return scene_.style.look; }
     void setAntialiasing(bool is_wanted) { canvas_.setAntialiasing(is_wanted); }
@@ -252,6 +254,8 @@ private:
     TerrainCanvas canvas_;
     bool is_context_missing_ = false;
     QLabel* empty_hint_ = nullptr;
+    QString hint_; // set, while a map is opened
+    bool is_all_hidden_ = false;
 };
 
 } // namespace marsview

@@ -719,6 +719,7 @@ void SessionController::show()
                          .color_range = stretchedRangeOf(*layer),
                          .slope_range = layer->slope_range});
     }
+    view_.setAllHidden(shown.empty() && !session_.layers.empty());
     if (!isSame(shown, shown_)) {
         shown_ = std::move(shown);
         view_.setLayers(shown_, exaggerationOf(session_));

@@ -588,7 +588,7 @@ void HapticsPanel::showState(const LoopState& state)
 
 void HapticsPanel::showRecording()
 {
-    record_->setText(controller_.recorder().isRecording() ? tr("S&top Recording") : tr("&Record…"));
+    record_->setText(controller_.recorder().isRecording() ? tr("S&top") : tr("&Record…"));
     record_->setEnabled(controller_.recorder().isRecording() || device_.isRunning());
     flight_->setEnabled(device_.hasTicks());
     const bool is_replay = device_.isReplaying();

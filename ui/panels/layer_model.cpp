@@ -120,7 +120,8 @@ const Layer& LayerModel::layerAt(const QModelIndex& index) const
 LayerState LayerModel::stateAt(const QModelIndex& index) const
 {
     const LayerState state = states_[rows_[static_cast<std::size_t>(index.row())].layer];
-    return is_scene_of_body_ && state == LayerState::OtherCrs ? LayerState::Shown : state;
+    const bool is_on_globe = is_scene_of_body_ && layerAt(index).map->info().body != nullptr;
+    return is_on_globe && state == LayerState::OtherCrs ? LayerState::Shown : state;
 }
 
 int LayerModel::rowCount(const QModelIndex& parent) const

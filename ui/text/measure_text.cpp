@@ -21,6 +21,11 @@ QString measureTr(const char* text)
     return QCoreApplication::translate("Measure", text);
 }
 
+bool isStrikeKnown(const AttitudeUncertainty& errors)
+{
+    return errors.strike_error_deg < 180.0;
+}
+
 QString missing()
 {
     //: In place of a number: the terrain has no data there
@@ -172,11 +177,18 @@ public:
         const int strike_place =
             errors.is_estimated ? anglePlace(errors.strike_error_deg) : kSlopePlace;
         const int dip_place = errors.is_estimated ? anglePlace(errors.dip_error_deg) : kSlopePlace;
-        addAngle(QT_TRANSLATE_NOOP("Measure", "Strike (right-hand rule)"), attitude.strike_deg,
-                 strike_place);
+        const auto add_direction = [&](const char* name, double direction_deg) {
+            if (isStrikeKnown(errors)) {
+                addAngle(name, direction_deg, strike_place);
+            } else {
+                //: The direction of a plane that may be level
+                add(name, measureTr(QT_TRANSLATE_NOOP("Measure", "undetermined")));
+            }
+        };
+        add_direction(QT_TRANSLATE_NOOP("Measure", "Strike (right-hand rule)"),
+                      attitude.strike_deg);
         addAngle(QT_TRANSLATE_NOOP("Measure", "Dip"), attitude.dip_deg, dip_place);
-        addAngle(QT_TRANSLATE_NOOP("Measure", "Dip direction"), attitude.dip_direction_deg,
-                 strike_place);
+        add_direction(QT_TRANSLATE_NOOP("Measure", "Dip direction"), attitude.dip_direction_deg);
         if (errors.is_estimated) {
             addAngle(QT_TRANSLATE_NOOP("Measure", "Dip error (95 %)"), errors.dip_error_deg,
                      dip_place);
@@ -250,11 +262,11 @@ struct Summary {
     // Strike/dip, as geologists write it.
     QString operator()(const Attitude& attitude) const
     {
-        const QString strike = std::isfinite(attitude.strike_deg)
+        const AttitudeUncertainty& errors = attitude.uncertainty;
+        const QString strike = std::isfinite(attitude.strike_deg) && isStrikeKnown(errors)
                                    ? QStringLiteral("%1").arg(std::lround(attitude.strike_deg), 3,
                                                               10, QLatin1Char('0'))
                                    : QStringLiteral("–");
-        const AttitudeUncertainty& errors = attitude.uncertainty;
         const int dip_place = errors.is_estimated ? anglePlace(errors.dip_error_deg) : kSlopePlace;
         return leftToRight(
             QStringLiteral("%1/%2").arg(strike, angleText(attitude.dip_deg, dip_place)));

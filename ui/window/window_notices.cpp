@@ -140,12 +140,17 @@ QList<Notice> WindowNotices::ofScene() const
 {
     const Session& session = parts_.session.session();
     const std::vector<LayerState> states = placement(session);
-    const auto left_out = std::find(states.begin(), states.end(), LayerState::OtherCrs);
+    std::size_t left_out = 0;
+    while (left_out < states.size() &&
+           (states[left_out] != LayerState::OtherCrs ||
+            session.layers[left_out].map->info().body == nullptr)) { // on no globe
+        ++left_out;
+    }
     QAction& globe = parts_.globe;
-    if (left_out == states.end() || globe.isChecked() || !globe.isEnabled()) {
+    if (left_out == states.size() || globe.isChecked() || !globe.isEnabled()) {
         return {};
     }
-    const Layer& layer = session.layers[static_cast<std::size_t>(left_out - states.begin())];
+    const Layer& layer = session.layers[left_out];
     return {{.id = idOf(layer.id, QStringLiteral("other CRS")),
              //: %1 is a layer
              .text = tr("%1 is hidden: its CRS is not that of the flat map. The globe shows both")

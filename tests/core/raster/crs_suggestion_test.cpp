@@ -1,9 +1,12 @@
 #include "core/raster/crs_suggestion.h"
+#include "core/raster/raster_file.h"
 #include "core/raster/raster_info.h"
+#include "tests/support/make_raster.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -64,6 +67,24 @@ TEST(CrsSuggestion, IsNotOfferedForGridsInMeters)
     RasterInfo nowhere = gridAt(0, 90, 1, 360, 180);
     nowhere.transform.reset();
     EXPECT_FALSE(suggestCrs(nowhere));
+}
+
+// GDAL gives GeoTIFF files that name no CRS a local one in an unknown unit.
+TEST(CrsSuggestion, IsOfferedForAFileWithAStandInForACrs)
+{
+    const test::TempFolder folder;
+    test::RasterRecipe recipe =
+        test::recipeFor(240, std::vector<std::int16_t>(std::size_t{240} * 144, 100));
+    recipe.transform = {-105.5, 1.0 / 1200, 0.0, 40.25, 0.0, -1.0 / 1200};
+    recipe.srs = "LOCAL_CS[\"unnamed\",UNIT[\"unknown\",1]]";
+    const auto degrees = RasterFile::open(test::writeVrt(folder, "degrees", recipe));
+    ASSERT_TRUE(degrees) << degrees.error().message;
+    EXPECT_FALSE(degrees->info().crs);
+    EXPECT_TRUE(suggestCrs(degrees->info()));
+    recipe.srs = "LOCAL_CS[\"site\",UNIT[\"metre\",1]]";
+    const auto site = RasterFile::open(test::writeVrt(folder, "site", recipe));
+    ASSERT_TRUE(site) << site.error().message;
+    EXPECT_TRUE(site->info().crs) << "a unit is information";
 }
 
 TEST(CrsSuggestion, FollowsDeclaredAxesAndTheBodyOfTheFile)

@@ -380,7 +380,7 @@ TEST_F(ToolsTest, TheListOfKeysHasEveryGesture)
         EXPECT_TRUE(texts.contains(line.action)) << line.action.toStdString();
     }
     for (const char* gesture : {"Left drag (Pan)", "Left drag (Touch)", "Left drag (Orbit)",
-                                "Right or middle drag", "Shift+drag", "Ctrl+wheel"}) {
+                                "Right or middle drag", "Shift+Drag", "Ctrl+Wheel"}) {
         EXPECT_TRUE(texts.contains(QString::fromLatin1(gesture))) << gesture;
     }
     dialog->close();

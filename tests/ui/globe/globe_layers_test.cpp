@@ -112,6 +112,30 @@ TEST_F(GlobeLayersTest, ANoticeOffersTheGlobeForLayersOfOtherCrss)
     EXPECT_TRUE(waitFor(offers));
 }
 
+// Without a body it has no place on the globe, either.
+TEST_F(GlobeLayersTest, ALayerWithoutABodyIsHiddenInBothScenes)
+{
+    ASSERT_TRUE(openAndWait(*window_, maps_.placed("site", "LOCAL_CS[\"site\",UNIT[\"metre\",1]]",
+                                                   {0.0, 20.0, 0.0, 600.0, 0.0, -20.0})));
+    ASSERT_TRUE(openNested()); // on top of it
+    const auto& bar = *window_->findChild<NoticeBar*>();
+    const auto& button = *bar.findChild<QToolButton*>(QStringLiteral("noticeAction"));
+    const auto reason = [this] {
+        for (int row = 0; row < list().rowCount(); ++row) {
+            const QModelIndex index = list().index(row, 0);
+            if (index.data().toString().contains(QStringLiteral("site"))) {
+                return index.data(LayerModel::ReasonRole).toString();
+            }
+        }
+        return QString();
+    };
+    EXPECT_FALSE(reason().isEmpty());
+    EXPECT_FALSE(bar.isVisible() && button.isVisible() &&
+                 button.text() == QStringLiteral("Show Globe"));
+    ASSERT_TRUE(showGlobe());
+    EXPECT_FALSE(reason().isEmpty());
+}
+
 TEST_F(GlobeLayersTest, TheElevationReadIsThatOfTheLayerInThePicture)
 {
     ASSERT_TRUE(showBoth());
