@@ -83,9 +83,12 @@ void printForPeople(const Json& json, const RasterInfo& info)
     print("CRS", json["crs_name"].is_null() ? "none" : field("crs_name"));
     print("body", field("body"));
     print("radii", json["radii_m"].is_null() ? "unknown" : field("radii_m") + " m");
-    print("pixel size",
-          field("pixel_size") + " " + (info.crs ? info.crs->unitName() : std::string("units")));
-    print("pixel size", field("pixel_size_m") + " m");
+    const std::string pixel_size_m = field("pixel_size_m") + " m";
+    if (!info.crs || field("pixel_size") + " m" != pixel_size_m) { // in other units than meters
+        print("pixel size",
+              field("pixel_size") + " " + (info.crs ? info.crs->unitName() : std::string("units")));
+    }
+    print("pixel size", pixel_size_m);
     print("geotransform", json["geotransform"].is_null() ? "none" : field("geotransform"));
     if (!json["corners_lonlat"].is_null()) {
         for (const auto& [name, corner] : json["corners_lonlat"].items()) {

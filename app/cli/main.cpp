@@ -158,7 +158,7 @@ int run(const std::vector<std::string>& arguments, marsview::ErrorForm form)
         }
         return EXIT_SUCCESS;
     } catch (const CLI::ParseError& error) {
-        return refuseUsage(app, arguments, marsview::usageMessage(error), form);
+        return refuseUsage(app, arguments, marsview::usageMessage(app, arguments, error), form);
     }
     marsview::prestartProbes();
     const marsview::Status status = action();

@@ -125,18 +125,15 @@ public:
             }
             const std::string& word = given_[at_];
             if (looksLikeOption(word)) {
-                return isHelpOrVersion(word) ? std::nullopt : std::optional(unknownOption(word));
+                return isHelpOrVersion(word) ? std::nullopt
+                                             : std::optional(optionBeforeCommand(word, names));
             }
             const CLI::App* next = nullptr;
             for (const CLI::App* known : command_->get_subcommands({})) {
                 next = known->get_name() == word ? known : next;
             }
             if (next == nullptr) {
-                const std::string within = command_->get_parent() != nullptr
-                                               ? fmt::format(" of {}", command_->get_name())
-                                               : std::string();
-                return usage(word, fmt::format("unknown command{}{}", within,
-                                               didYouMeanOrKnown(word, names)));
+                return unknownCommand(word, names);
             }
             words_.push_back(word);
             command_ = next;
@@ -145,7 +142,67 @@ public:
         return std::nullopt;
     }
 
+    // A message about "--output" as one about "-o" if that was typed.
+    static std::string
+    asTyped(const CLI::App& command, const Words& arguments, const std::string& message)
+    {
+        const auto is_typed = [&arguments](const std::string& name) {
+            return std::any_of(arguments.begin(), arguments.end(), [&](const std::string& word) {
+                return word == name || word.starts_with(name + "=") ||
+                       (!name.starts_with("--") && word.starts_with(name));
+            });
+        };
+        for (const CLI::Option* option : command.get_options()) {
+            for (const std::string& long_name : option->get_lnames()) {
+                const std::string name = "--" + long_name;
+                if (!message.starts_with(name + ": ") || is_typed(name)) {
+                    continue;
+                }
+                for (const std::string& short_name : option->get_snames()) {
+                    if (is_typed("-" + short_name)) {
+                        return "-" + short_name + message.substr(name.size());
+                    }
+                }
+            }
+        }
+        return message;
+    }
+
 private:
+    Error unknownCommand(const std::string& word, const Words& known) const
+    {
+        const std::string within = command_->get_parent() != nullptr
+                                       ? fmt::format(" of {}", command_->get_name())
+                                       : std::string();
+        return usage(word,
+                     fmt::format("unknown command{}{}", within, didYouMeanOrKnown(word, known)));
+    }
+
+    // Options belong behind their command. A wrong command after options without values is what to
+    // mend first.
+    Error optionBeforeCommand(const std::string& option, const Words& commands) const
+    {
+        const auto is_flag = [this](const std::string& name) {
+            const std::vector<const CLI::App*> known = command_->get_subcommands({});
+            return std::any_of(known.begin(), known.end(), [&name](const CLI::App* command) {
+                const CLI::Option* of = command->get_option_no_throw(name);
+                return of != nullptr && of->get_items_expected_max() == 0;
+            });
+        };
+        std::size_t at = at_;
+        while (at < given_.size() && looksLikeOption(given_[at]) && is_flag(given_[at])) {
+            ++at;
+        }
+        if (at == given_.size() || looksLikeOption(given_[at])) {
+            return unknownOption(option);
+        }
+        const std::string& word = given_[at];
+        if (std::find(commands.begin(), commands.end(), word) == commands.end()) {
+            return at > at_ ? unknownCommand(word, commands) : unknownOption(option);
+        }
+        return usage(option, fmt::format("belongs after the command: {} {}", word, option));
+    }
+
     static Error usage(const std::string& what, const std::string& why)
     {
         return Error{ErrorCode::Invalid, fmt::format("{}: {}", what, why)};
@@ -396,14 +453,7 @@ private:
     Words words_;
 };
 
-} // namespace
-
-Result<Words> normalizedArguments(const CLI::App& app, const Words& arguments)
-{
-    return Normalizer(app, arguments).normalized();
-}
-
-std::string usageMessage(const CLI::ParseError& error)
+std::string plainMessage(const CLI::ParseError& error)
 {
     const std::string text = error.what();
     const auto ended = [&text](std::string_view end) { return text.ends_with(end); };
@@ -424,6 +474,21 @@ std::string usageMessage(const CLI::ParseError& error)
         return fmt::format("{}: needs {}", text.substr(0, at), text.substr(at + kRequires.size()));
     }
     return text;
+}
+
+} // namespace
+
+Result<Words> normalizedArguments(const CLI::App& app, const Words& arguments)
+{
+    return Normalizer(app, arguments).normalized();
+}
+
+std::string usageMessage(const CLI::App& app, const Words& arguments, const CLI::ParseError& error)
+{
+    const std::string message = plainMessage(error);
+    Normalizer normalizer(app, arguments);
+    (void)normalizer.findCommand();
+    return Normalizer::asTyped(normalizer.command(), arguments, message);
 }
 
 std::string commandName(const CLI::App& app, const Words& arguments)

@@ -21,8 +21,10 @@ namespace marsview {
 Result<std::vector<std::string>> normalizedArguments(const CLI::App& app,
                                                      const std::vector<std::string>& arguments);
 
-/// The parser's error as "<option>: <what and why>".
-std::string usageMessage(const CLI::ParseError& error);
+/// The parser's error as "<option>: <what and why>", with the name of the option that was typed.
+std::string usageMessage(const CLI::App& app,
+                         const std::vector<std::string>& arguments,
+                         const CLI::ParseError& error);
 
 /// "marsview-cli sample" for the arguments of that command, or the closest match.
 std::string commandName(const CLI::App& app, const std::vector<std::string>& arguments);

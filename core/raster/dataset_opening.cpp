@@ -3,6 +3,7 @@
 #include "core/files/gdal_runtime.h"
 #include "core/files/open_guard.h"
 #include "core/files/raster_path.h"
+#include "core/formats/odl_label.h"
 #include "core/raster/label_elevation.h"
 #include "core/raster/large_blocks.h"
 
@@ -36,6 +37,35 @@ std::optional<Result<OpenedDataset>> openEncodedImage(const std::string& name)
     }
     opened->label = name;
     return opened;
+}
+
+bool hasImage(const OdlStatement& group)
+{
+    return std::any_of(
+        group.statements.begin(), group.statements.end(), [](const OdlStatement& statement) {
+            const std::string& name = statement.name;
+            const bool is_pointer =
+                name.starts_with("^") && (name.ends_with("IMAGE") || name.ends_with("QUBE"));
+            return is_pointer ||
+                   (statement.is_group && (name == "COMPRESSED_FILE" || hasImage(statement)));
+        });
+}
+
+// What a PDS3 label without an image points to, as " (only ^TABLE)"; nothing for any other file.
+std::optional<std::string> labelWithoutImage(const std::string& name)
+{
+    const std::optional<OdlStatement> label =
+        lowerCase(name).ends_with(".lbl") ? readOdlLabel(name) : std::nullopt;
+    if (!label || statementIn(*label, "PDS_VERSION_ID") == nullptr || hasImage(*label)) {
+        return std::nullopt;
+    }
+    std::string pointers;
+    for (const OdlStatement& statement : label->statements) {
+        if (statement.name.starts_with("^")) {
+            pointers += (pointers.empty() ? "" : ", ") + statement.name;
+        }
+    }
+    return pointers.empty() ? pointers : fmt::format(" (only {})", pointers);
 }
 
 Result<OpenedDataset> openFolder(const std::string& path, int band)
@@ -202,6 +232,12 @@ Result<OpenedDataset> openDataset(const std::string& path, int band)
     } else if (says("No such file or directory")) {
         first_failure = fmt::format(
             "names a data file that is missing; put it next to this file ({})", first_failure);
+    } else if (const auto pointers = labelWithoutImage(names->front())) {
+        first_failure = fmt::format(
+            "is a PDS label without an image: it has neither ^IMAGE nor a COMPRESSED_FILE{}; open "
+            "the "
+            "label of an image",
+            *pointers);
     } else if (!says("; ")) { // a driver's own words, without advice
         first_failure = fmt::format(
             "cannot be opened ({}); fetch it again or convert it to GeoTIFF", first_failure);

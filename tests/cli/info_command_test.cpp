@@ -2,13 +2,18 @@
 #include "tests/support/gdal_tools.h"
 #include "tests/support/http_server.h"
 #include "tests/support/make_raster.h"
+#include "tests/support/run_program.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/temp_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
 
 namespace marsview::test {
 namespace {
@@ -84,6 +89,56 @@ TEST(InfoCommand, PlacesTheCornersOfPds3MapsWhereTheLabelsDo)
         EXPECT_THAT(corners["lower_right"].get<std::vector<double>>(),
                     ElementsAre(DoubleNear(360.0, kRoundedScaleDeg), DoubleNear(-90.0, 1e-9)));
     }
+}
+
+// The unit of most projected maps is the meter.
+TEST(InfoCommand, PrintsThePixelSizeInMetersOnce)
+{
+    const auto sizes_of = [](const std::string& raster) {
+        std::vector<std::string> sizes;
+        std::istringstream lines(runCli({"info", raster}).out);
+        for (std::string line; std::getline(lines, line);) {
+            if (line.starts_with("pixel size")) {
+                sizes.push_back(line.substr(16));
+            }
+        }
+        return sizes;
+    };
+    const TempFolder folder;
+    const auto raster = [&](const char* name, const char* crs, double cell) {
+        const std::string text = folder.write(
+            std::string(name) + ".asc",
+            fmt::format("ncols 3\nnrows 2\nxllcorner 0\nyllcorner 10\ncellsize {}\n1 2 3\n4 5 6\n",
+                        cell));
+        const std::string file = folder.file(std::string(name) + ".tif");
+        test::runTool({"gdal_translate", "-q", "-ot", "Int16", "-a_srs", crs, text, file});
+        return file;
+    };
+    EXPECT_THAT(sizes_of(raster("meters", "EPSG:32632", 30.0)), ElementsAre("30.0 30.0 m"));
+    EXPECT_THAT(sizes_of(raster("feet", "EPSG:2230", 100.0)),
+                ElementsAre("100.0 100.0 US survey foot", testing::StartsWith("30.48")));
+    EXPECT_THAT(sizes_of(raster("degrees", "EPSG:4326", 1.0)),
+                ElementsAre("1.0 1.0 degree", testing::EndsWith(" m")));
+}
+
+TEST(InfoCommand, SaysThatALabelHasNoImage)
+{
+    const TempFolder folder;
+    const auto refusal = [&](const std::string& more) {
+        return runCli({"info", folder.write("table.lbl",
+                                            "PDS_VERSION_ID = PDS3\nRECORD_TYPE = FIXED_LENGTH\n"
+                                            "RECORD_BYTES = 80\nFILE_RECORDS = 20\n" +
+                                                more + "END\n")})
+            .err;
+    };
+    EXPECT_THAT(
+        refusal("^TABLE = \"A.TAB\"\nOBJECT = TABLE\n ROWS = 20\nEND_OBJECT = TABLE\n"),
+        testing::HasSubstr("table.lbl: is a PDS label without an image: it has neither ^IMAGE "
+                           "nor a COMPRESSED_FILE (only ^TABLE); open the label of an image"));
+    EXPECT_THAT(refusal("OBJECT = IMAGE\n LINES = 20\n LINE_SAMPLES = 40\nEND_OBJECT = IMAGE\n"),
+                testing::HasSubstr("neither ^IMAGE nor a COMPRESSED_FILE; open"));
+    EXPECT_THAT(refusal("^IMAGE = \"A.IMG\"\n"),
+                testing::Not(testing::HasSubstr("without an image")));
 }
 
 TEST(InfoCommand, RefusesTruncatedNetcdf)

@@ -50,6 +50,14 @@ TEST(Usage, NamesUnknownCommandsAndSuggestsTheNearest)
     EXPECT_EQ(refusal({"juggle"}),
               "marsview-cli: juggle: unknown command; known ones are info, sample, measure, trace, "
               "loop, prepare, render, thumbnail, devices, bench");
+    // The unknown command is named, not the option before it.
+    EXPECT_THAT(refusal({"--json", "inof", bundledMars()}),
+                HasSubstr("\"what\":\"inof\",\"message\":\"unknown command. Did you mean"));
+    EXPECT_THAT(
+        refusal({"--json", "info", bundledMars()}),
+        HasSubstr("\"what\":\"--json\",\"message\":\"belongs after the command: info --json"));
+    EXPECT_EQ(refusal({"--exaggeration", "3", "render", bundledMars()}),
+              "marsview-cli: --exaggeration: unknown option");
     EXPECT_THAT(refusal({}), StartsWith("marsview-cli: a command is missing; known ones are info"));
     EXPECT_THAT(refusal({"bench"}), StartsWith("marsview-cli: bench: a command is missing; known "
                                                "ones are view"));
@@ -96,8 +104,11 @@ TEST(Usage, RefusesValuesOfTheWrongFormOrOutsideTheirRange)
         {with(render, {"--size", "12x"}), "--size"},
         {with(render, {"--size", "0x10"}), "--size"},
         {with(render, {"--size", "99999x10"}), "--size"},
-        {{"render", bundledMars(), "-o", "x.gif"}, "--output"},
-        {{"render", bundledMars(), "-o", ".png"}, "--output"},
+        {{"render", bundledMars(), "-o", "x.gif"}, "-o"},
+        {{"render", bundledMars(), "-ox.gif"}, "-o"},
+        {{"render", bundledMars(), "--output", "x.gif"}, "--output"},
+        {{"render", bundledMars(), "--output=x.gif"}, "--output"},
+        {{"render", bundledMars(), "-o", ".png"}, "-o"},
         {{"prepare", bundledMars(), "-o", "x.gif"}, "--output"},
         {with(render, {"--tilt", "200"}), "--tilt"},
         {with(render, {"--tilt", "nan"}), "--tilt"},
