@@ -459,6 +459,8 @@ void MainWindow::keyPressEvent(QKeyEvent* event)
         map->setFocus(Qt::ShortcutFocusReason);
     } else if (isFullScreen()) {
         actions_->full_screen->trigger();
+    } else if (commands_->places.features().hasFeature()) {
+        commands_->places.features().clear();
     } else if (overlays_->isPlaceMarked()) {
         overlays_->clearMark();
     } else if (overlays_->isHintOffered()) {

@@ -602,6 +602,10 @@
         <source>Finish the measurement or annotation</source>
         <translation>Die Messung oder Anmerkung beenden</translation>
     </message>
+    <message>
+        <source>Select a feature and show its attributes</source>
+        <translation>Ein Objekt auswählen und seine Attribute zeigen</translation>
+    </message>
 </context>
 <context>
     <name>HeightText</name>
@@ -2337,6 +2341,17 @@
     <message>
         <source>Vertical exaggeration (+ and −); the mark is at ×1</source>
         <translation>Überhöhung (+ und −); die Marke steht bei ×1</translation>
+    </message>
+</context>
+<context>
+    <name>marsview::FeaturePicker</name>
+    <message>
+        <source>Vector file</source>
+        <translation>Vektordatei</translation>
+    </message>
+    <message>
+        <source>Feature</source>
+        <translation>Objekt</translation>
     </message>
 </context>
 <context>

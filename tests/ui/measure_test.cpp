@@ -173,6 +173,77 @@ TEST_F(MeasureTest, DraggingPansAndDraggingAPointMovesIt)
     EXPECT_TRUE(measuring().current()->vertices[1] == old);
 }
 
+// A click on a vertex of another line snaps to it instead of selecting that line.
+TEST_F(MeasureTest, ALineBeginsAtAVertexOfAnotherOne)
+{
+    ASSERT_NO_FATAL_FAILURE(choose(MeasurementKind::Distance));
+    click(at(-0.1, 0.0));
+    click(at(0.1, 0.0));
+    measuring().finish();
+    const std::uint32_t first = measuring().current()->id;
+    const auto vertices = measuring().current()->vertices;
+    click(at(-0.2, -0.2));
+    click(at(0.2, -0.2));
+    measuring().finish();
+    const std::uint32_t second = measuring().current()->id;
+
+    click(at(-0.1, 0.0) + QPoint(4, -3));
+    ASSERT_EQ(measuring().state().items.size(), 3U);
+    EXPECT_EQ(measuring().current()->vertices.front(), vertices[0]);
+    click(at(0.1, 0.0) + QPoint(-4, 3));
+    measuring().finish();
+    ASSERT_EQ(measuring().current()->vertices.size(), 2U);
+    EXPECT_EQ(measuring().current()->vertices[1], vertices[1]);
+    EXPECT_EQ(measuring().itemOf(first)->vertices, vertices);
+
+    // A drag there pans. The selected one's points are its handles.
+    measuring().select(second);
+    const OrbitCamera before = view().camera();
+    const auto drag = [this](QPoint from, QPoint to) {
+        QTest::mousePress(&view(), Qt::LeftButton, {}, from);
+        for (const double share : {0.5, 1.0}) {
+            const QPoint on = from + (to - from) * share;
+            QMouseEvent move(QEvent::MouseMove, on, view().mapToGlobal(on), Qt::NoButton,
+                             Qt::LeftButton, Qt::NoModifier);
+            QApplication::sendEvent(&view(), &move);
+        }
+        QTest::mouseRelease(&view(), Qt::LeftButton, {}, to);
+    };
+    const QPoint handle = at(-0.2, -0.2);
+    drag(handle, handle + QPoint(0, 30));
+    EXPECT_TRUE(view().camera() == before);
+    EXPECT_EQ(window_->undoStack().undoText(), QStringLiteral("Move Point"));
+    drag(at(-0.1, 0.0), at(-0.1, 0.1));
+    EXPECT_FALSE(view().camera() == before);
+    EXPECT_EQ(measuring().itemOf(first)->vertices, vertices);
+    EXPECT_EQ(measuring().currentId(), second);
+    EXPECT_EQ(measuring().state().items.size(), 3U);
+}
+
+// Without a tool that places points.
+TEST_F(MeasureTest, AClickSelectsAMeasurementByItsPointsAndItsLine)
+{
+    ASSERT_NO_FATAL_FAILURE(choose(MeasurementKind::Distance));
+    click(at(-0.1, 0.1));
+    click(at(0.1, 0.1));
+    measuring().finish();
+    const std::uint32_t first = measuring().current()->id;
+    click(at(-0.1, -0.1));
+    click(at(0.1, -0.1));
+    measuring().finish();
+    const std::uint32_t second = measuring().current()->id;
+    view().setTool(Tool::Pan);
+    click(at(0.1, 0.1) + QPoint(3, 3));
+    EXPECT_EQ(measuring().currentId(), first);
+    click(at(0.0, -0.1) + QPoint(0, 4));
+    EXPECT_EQ(measuring().currentId(), second);
+    click(at(0.05, 0.1));
+    EXPECT_EQ(measuring().currentId(), first);
+    click(at(0.0, 0.0));
+    EXPECT_EQ(measuring().currentId(), first) << "there is none";
+    EXPECT_EQ(measuring().state().items.size(), 2U);
+}
+
 TEST_F(MeasureTest, BackspaceAfterADragRemovesThePointThatWasDragged)
 {
     ASSERT_NO_FATAL_FAILURE(choose(MeasurementKind::Distance));

@@ -1,21 +1,28 @@
 // Vector files on the terrain, in a window. The files are made by GDAL's ogr2ogr.
 #include "tests/support/run_program.h"
+#include "tests/support/shared_data.h"
 #include "tests/ui/map_window.h"
 #include "tests/ui/project_files.h"
+#include "ui/commands/feature_picker.h"
 #include "ui/commands/vector_tools.h"
 #include "ui/commands/window_commands.h"
 #include "ui/controllers/file_work.h"
 #include "ui/controllers/session_controller.h"
 #include "ui/controllers/vector_overlays.h"
+#include "ui/dialogs/place_dialog.h"
+#include "ui/globe/globe_view.h"
 #include "ui/project/project_controller.h"
 #include "ui/widgets/notice_bar.h"
 #include "ui/window/window_actions.h"
 
 #include <QAction>
+#include <QApplication>
 #include <QFile>
 #include <QLabel>
 #include <QMenu>
+#include <QMouseEvent>
 #include <QSignalSpy>
+#include <QTest>
 #include <QToolButton>
 #include <QUndoStack>
 
@@ -158,6 +165,142 @@ TEST_F(VectorToolsTest, AFeatureIsFoundWithItsAttributes)
     ASSERT_EQ(at(15.0, 15.5).size(), 1U);
     EXPECT_EQ(at(15.0, 15.5).front().attributes.front().second, QStringLiteral("Ridge “A”"));
     EXPECT_TRUE(at(11.0, 13.0).empty());
+}
+
+TEST_F(VectorToolsTest, AClickSelectsAFeatureAndShowsItsAttributes)
+{
+    ASSERT_NO_FATAL_FAILURE(openMars());
+    ASSERT_TRUE(focusMap());
+    ASSERT_TRUE(openVector(marsFile()));
+    const QString csv = maps_.path(QStringLiteral("units.csv"));
+    QFile out(csv);
+    ASSERT_TRUE(out.open(QIODevice::WriteOnly));
+    out.write("WKT,unit\n\"POLYGON ((14 19.5,19 19.5,19 17,14 17,14 19.5))\",Plains\n");
+    out.close();
+    const QString units = maps_.path(QStringLiteral("units.gpkg"));
+    test::runTool({"ogr2ogr", "-q", "-oo", "KEEP_GEOM_COLUMNS=NO", "-f", "GPKG", "-a_srs",
+                   "IAU_2015:49900", units.toStdString(), csv.toStdString()});
+    ASSERT_TRUE(openVector(units));
+    FeaturePicker& picker = window_->commands().places.features();
+    const auto place_of = [this](double longitude, double latitude) {
+        return view().positionOf(gridOf(longitude, latitude)).value().toPoint();
+    };
+    const auto click = [this](QPoint position) {
+        QTest::mouseClick(&view(), Qt::LeftButton, {}, position);
+        QCoreApplication::processEvents(QEventLoop::ExcludeUserInputEvents);
+    };
+    const auto shown = [&] {
+        return picker.card() != nullptr && picker.card()->isVisible() ? picker.card()->text()
+                                                                      : QString();
+    };
+    // Pixels of the light border.
+    const auto light_around = [&](QPoint place) {
+        EXPECT_TRUE(rest());
+        const QImage picture = view().terrainPicture();
+        const double scale = view().devicePixelRatioF();
+        int count = 0;
+        for (int y = -12; y <= 12; ++y) {
+            for (int x = -12; x <= 12; ++x) {
+                const QPoint pixel = (QPointF(place + QPoint(x, y)) * scale).toPoint();
+                const QColor seen = picture.pixelColor(pixel);
+                count += seen.red() > 235 && seen.green() > 235 && seen.blue() > 235 ? 1 : 0;
+            }
+        }
+        return count;
+    };
+    const QPoint outcrop = place_of(16.0, 18.5);
+    const QPoint ridge = place_of(13.5, 16.75);
+    EXPECT_EQ(light_around(outcrop), 0);
+
+    // A point before the polygon around it, though its file is drawn below.
+    click(outcrop + QPoint(3, -2));
+    EXPECT_EQ(shown(), QStringLiteral("Vector file: ridges.gpkg\nname: Outcrop\nage: 3.5"));
+    EXPECT_TRUE(view().hasFocus()) << "the keys are still those of the map";
+    EXPECT_GT(light_around(outcrop), 20);
+    click(place_of(18.0, 17.8));
+    EXPECT_EQ(shown(), QStringLiteral("Vector file: units.gpkg\nunit: Plains"));
+    EXPECT_EQ(light_around(outcrop), 0);
+    EXPECT_GT(light_around(place_of(19.0, 18.0)), 20) << "the border of the polygon";
+    click(ridge + QPoint(2, 2));
+    EXPECT_EQ(shown(), QStringLiteral("Vector file: ridges.gpkg\nname: Ridge “A”"));
+    EXPECT_GT(light_around(ridge), 20);
+
+    click(place_of(11.0, 13.0)); // there is nothing
+    EXPECT_EQ(picker.card(), nullptr);
+    EXPECT_FALSE(picker.hasFeature());
+    EXPECT_EQ(light_around(ridge), 0);
+
+    // A drag pans and selects nothing.
+    const OrbitCamera before = view().camera();
+    QTest::mousePress(&view(), Qt::LeftButton, {}, outcrop);
+    for (const int way : {2, 6, 2, 0}) {
+        const QPoint on = outcrop + QPoint(way, 0);
+        QMouseEvent move(QEvent::MouseMove, on, view().mapToGlobal(on), Qt::NoButton,
+                         Qt::LeftButton, Qt::NoModifier);
+        QApplication::sendEvent(&view(), &move);
+        EXPECT_FALSE(view().camera() == before && way > 0) << "it pans from the first pixel on";
+    }
+    QTest::mouseRelease(&view(), Qt::LeftButton, {}, outcrop);
+    EXPECT_EQ(picker.card(), nullptr);
+    view().setCamera(before);
+
+    // By touch, a short press; a longer one feels the ground.
+    view().setTool(Tool::Touch);
+    click(outcrop);
+    EXPECT_TRUE(shown().contains(QStringLiteral("Outcrop")));
+    QTest::keyClick(&view(), Qt::Key_Escape);
+    EXPECT_EQ(picker.card(), nullptr);
+    EXPECT_FALSE(picker.hasFeature());
+    QTest::mousePress(&view(), Qt::LeftButton, {}, outcrop);
+    QTest::mouseRelease(&view(), Qt::LeftButton, {}, outcrop,
+                        QApplication::doubleClickInterval() + 100);
+    EXPECT_EQ(picker.card(), nullptr);
+
+    // The card and the border go together, and with the file.
+    view().setTool(Tool::Pan);
+    click(outcrop);
+    ASSERT_NE(picker.card(), nullptr);
+    picker.card()->reject();
+    EXPECT_FALSE(picker.hasFeature());
+    click(outcrop);
+    ASSERT_TRUE(picker.hasFeature());
+    const std::string selected = overlays().selected()->path;
+    window_->controller().removeOverlay(selected);
+    EXPECT_EQ(picker.card(), nullptr);
+    EXPECT_FALSE(picker.hasFeature());
+    click(outcrop);
+    EXPECT_EQ(shown(), QStringLiteral("Vector file: units.gpkg\nunit: Plains"));
+}
+
+// The map is placed on the globe after it was loaded.
+TEST_F(VectorToolsTest, AFileThatIsOpenedWithAPlanetIsDrawnOnTheGlobeAndSelectedThere)
+{
+    WindowOptions options = testWindowOptions();
+    options.scene = SceneChoice::Automatic;
+    makeWindow(kSmall, options);
+    const QString csv = maps_.path(QStringLiteral("outcrop.csv"));
+    QFile out(csv);
+    ASSERT_TRUE(out.open(QIODevice::WriteOnly));
+    out.write("WKT,name\nPOINT (-94 -1),Outcrop\n"); // where the camera looks first
+    out.close();
+    const QString file = maps_.path(QStringLiteral("outcrop.gpkg"));
+    test::runTool({"ogr2ogr", "-q", "-oo", "KEEP_GEOM_COLUMNS=NO", "-f", "GPKG", "-a_srs",
+                   "IAU_2015:49900", file.toStdString(), csv.toStdString()});
+    window_->openAll({QString::fromStdString(test::bundledMars()), file});
+    ASSERT_TRUE(waitFor([this] { return window_->session().overlays.size() == 1; }));
+    GlobeView& globe = *window_->globe();
+    ASSERT_FALSE(globe.isHidden());
+    const GeographicPoint place{.longitude = Angle::degrees(-94.0),
+                                .latitude = Angle::degrees(-1.0)};
+    ASSERT_TRUE(waitFor([&] { return overlays().featuresAt(place, 1e3).size() == 1; }));
+    ASSERT_TRUE(waitUntilSettled(*window_));
+    FeaturePicker& picker = window_->commands().places.features();
+    QTest::mouseClick(&globe, Qt::LeftButton, {}, globe.rect().center() + QPoint(2, -2));
+    ASSERT_NE(picker.card(), nullptr);
+    EXPECT_EQ(picker.card()->text(), QStringLiteral("Vector file: outcrop.gpkg\nname: Outcrop"));
+    QTest::mouseClick(&globe, Qt::LeftButton, {}, globe.rect().center() + QPoint(60, 60));
+    EXPECT_EQ(picker.card(), nullptr);
+    EXPECT_FALSE(picker.hasFeature());
 }
 
 TEST_F(VectorToolsTest, AFileOfAnotherBodyOrNoneIsRefusedWithTheReason)

@@ -38,6 +38,8 @@ constexpr std::array kBindings{
     GestureBinding{Gesture::Wheel, Qt::NoButton, Qt::NoModifier, std::nullopt, MapAction::Zoom},
     GestureBinding{Gesture::DoubleClick, Qt::LeftButton, Qt::NoModifier, std::nullopt,
                    MapAction::FlyThere},
+    GestureBinding{Gesture::Click, Qt::LeftButton, Qt::NoModifier, std::nullopt,
+                   MapAction::SelectFeature},
     GestureBinding{Gesture::Click, Qt::RightButton, Qt::NoModifier, std::nullopt,
                    MapAction::OpenMenu},
 };
@@ -128,6 +130,8 @@ QString actionText(MapAction action)
         return gestureTr(QT_TRANSLATE_NOOP("Gestures", "Move a point"));
     case MapAction::FinishDrawing:
         return gestureTr(QT_TRANSLATE_NOOP("Gestures", "Finish the measurement or annotation"));
+    case MapAction::SelectFeature:
+        return gestureTr(QT_TRANSLATE_NOOP("Gestures", "Select a feature and show its attributes"));
     case MapAction::OpenMenu:
         //: Of the place on the map that is clicked
         return gestureTr(QT_TRANSLATE_NOOP("Gestures", "Context menu"));

@@ -33,6 +33,7 @@ enum class MapAction {
     AddPoint,  // of a measurement or an annotation
     MovePoint, // bound to no gesture: the tool says where a drag does that
     FinishDrawing,
+    SelectFeature, // of a vector file, or a measurement or annotation
     OpenMenu,
 };
 

@@ -14,8 +14,8 @@
 namespace marsview {
 
 /// Lines that are set together. The later ones are drawn over the others.
-enum class LineSet : std::uint8_t { Graticule, Overlays, Annotations, Measurements };
-inline constexpr std::size_t kLineSets = 4;
+enum class LineSet : std::uint8_t { Graticule, Overlays, Selection, Annotations, Measurements };
+inline constexpr std::size_t kLineSets = 5;
 
 /// As they are drawn: thin, and only where they are seen.
 std::vector<DrapedLine> graticuleLines(const std::vector<GraticuleLine>& lines);

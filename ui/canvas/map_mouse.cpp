@@ -67,8 +67,11 @@ void MapMouse::press(const QMouseEvent& event)
         beginDrag(MapAction::MovePoint);
         return;
     }
-    may_be_click_ =
-        actionOf(Gesture::Click, event.button(), event.modifiers(), tool_) != MapAction::None;
+    const MapAction click = actionOf(Gesture::Click, event.button(), event.modifiers(), tool_);
+    may_be_click_ = click != MapAction::None && click != MapAction::SelectFeature;
+    if (click == MapAction::SelectFeature) {
+        still_click_.press(event);
+    }
     beginDrag(actionOf(Gesture::Drag, event.button(), event.modifiers(), tool_));
     parts_.reader.report();
 }
@@ -92,6 +95,7 @@ void MapMouse::beginDrag(MapAction action)
 
 void MapMouse::move(const QMouseEvent& event)
 {
+    still_click_.move(event.position());
     parts_.reader.notePointer(event.position());
     if (drag_ == MapAction::None && isOverOverlay(event.position())) {
         parts_.reader.forgetPointer();
@@ -155,7 +159,12 @@ void MapMouse::release(const QMouseEvent& event)
         return;
     }
     const bool is_click = std::exchange(may_be_click_, false);
+    const bool is_still = still_click_.release(event, tool_ == Tool::Touch);
     endDrag();
+    if (is_still) {
+        Q_EMIT clicked(event.position());
+        return;
+    }
     const MapAction action =
         is_click ? actionOf(Gesture::Click, event.button(), event.modifiers(), tool_)
                  : MapAction::None;
@@ -174,6 +183,7 @@ void MapMouse::endDrag()
         tool->release();
     }
     may_be_click_ = false;
+    still_click_.forget();
     parts_.touch.setPressing(false);
     parts_.touch.follow();
 }

@@ -9,6 +9,7 @@
 #include "ui/canvas/place_tool.h"
 #include "ui/canvas/touch_tool.h"
 #include "ui/canvas/view_projection.h"
+#include "ui/widgets/still_click.h"
 
 #include <QObject>
 #include <QPointF>
@@ -76,6 +77,8 @@ Q_SIGNALS:
     void gestureMade(MapAction action);
     /// The context menu of what lies at a position of the view is asked for.
     void menuRequested(QPointF position);
+    /// The left button was pressed and released in one place with a tool that places no points.
+    void clicked(QPointF position);
 
 private:
     PlaceTool* placeTool() const
@@ -98,6 +101,7 @@ private:
     MapAction drag_ = MapAction::None;
     Qt::MouseButton drag_button_ = Qt::NoButton;
     bool may_be_click_ = false; // the drag has not left the place where it began
+    StillClick still_click_;
     QPointF drag_position_;
     double grabbed_z_m_ = 0.0; // of what the drag has hold of
 };

@@ -79,6 +79,7 @@ void TerrainView::connectParts()
     connect(&mouse_, &MapMouse::toolChanged, this, &TerrainView::toolChanged);
     connect(&mouse_, &MapMouse::gestureMade, this, &TerrainView::gestureMade);
     connect(&mouse_, &MapMouse::menuRequested, this, &TerrainView::menuRequested);
+    connect(&mouse_, &MapMouse::clicked, this, &TerrainView::clicked);
     connect(&canvas_, &TerrainCanvas::completed, this, &TerrainView::pictureCompleted);
     connect(&canvas_, &TerrainCanvas::detailChanged, this, &TerrainView::detailChanged);
     connect(&canvas_, &TerrainCanvas::loadingChanged, this, &TerrainView::loadingChanged);

@@ -212,6 +212,8 @@ Q_SIGNALS:
     void gestureMade(MapAction action);
     /// The context menu of what lies at a position in widget coordinates is asked for.
     void menuRequested(QPointF position);
+    /// A position was clicked with a tool that places no points.
+    void clicked(QPointF position);
 
 protected:
     void initializeGL() override;

@@ -6,10 +6,8 @@
 #include <QClipboard>
 #include <QGuiApplication>
 #include <QMenu>
-#include <QScreen>
 #include <QWidget>
 
-#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -93,13 +91,7 @@ void MapMenu::showCard(const MenuPlace& place, QPoint at)
         },
         view_.window());
     card_->setAttribute(Qt::WA_DeleteOnClose);
-    card_->QWidget::show();
-    // Beside the place, on the screen that it is on.
-    const QRect screen = view_.screen()->availableGeometry();
-    QRect card(at + QPoint(12, 12), card_->frameGeometry().size());
-    card.moveRight(std::min(card.right(), screen.right()));
-    card.moveBottom(std::min(card.bottom(), screen.bottom()));
-    card_->move(card.topLeft());
+    card_->showAt(at);
 }
 
 } // namespace marsview

@@ -20,6 +20,9 @@ namespace marsview {
 
 class PlaceDialog;
 
+/// So far from a feature of a vector file it is meant, in points of the screen.
+inline constexpr double kFeatureReachPoints = 6.0;
+
 /// A place of the terrain in a view.
 struct MenuPlace {
     std::shared_ptr<const Map> map; // that is seen there
@@ -59,6 +62,8 @@ public:
 
     /// Opens the menu of a position of the view.
     void open(QPointF position);
+    /// The place at a position of the view, if there is terrain.
+    std::optional<MenuPlace> placeAt(QPointF position) const { return source_.place_at(position); }
 
     /// The menu and the card that are open; null for none.
     QMenu* menu() const;

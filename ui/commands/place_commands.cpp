@@ -34,6 +34,10 @@ PlaceCommands::PlaceCommands(const Parts& parts)
     : parts_(parts)
     , map_menu_(makeMenu())
     , globe_menu_(makeGlobeMenu())
+    , features_({.window = parts.window,
+                 .measuring = parts.measuring,
+                 .annotating = parts.annotating,
+                 .overlays = parts.vector_files.overlays()})
 {
     const WindowActions& actions = parts_.actions;
     connect(actions.go_to_place, &QAction::triggered, this, &PlaceCommands::goToPlace);
@@ -44,6 +48,15 @@ PlaceCommands::PlaceCommands(const Parts& parts)
             [this] { askPoint([this](GridPoint grid) { parts_.annotating.addPointAt(grid); }); });
     connect(actions.copy_coordinates, &QAction::triggered, this, [this] { copyCoordinates(); });
     connectReadout();
+    connectClicks();
+}
+
+void PlaceCommands::connectClicks()
+{
+    connect(&parts_.view, &TerrainView::clicked, &features_,
+            [this](QPointF position) { features_.pick(*map_menu_, parts_.view, position); });
+    connect(&parts_.globe, &GlobeView::clicked, &features_,
+            [this](QPointF position) { features_.pick(*globe_menu_, parts_.globe, position); });
 }
 
 // Children of the window alone: the view loses the focus while the window is being destroyed.
@@ -192,13 +205,12 @@ PlaceFacts PlaceCommands::factsAt(const MenuPlace& place) const
     PlaceFacts facts = placeFacts(
         *place.map, layer != layers.end() ? QString::fromStdString(layer->name) : QString(),
         place.grid, {.format = preferences.coordinates, .unit = preferences.height_unit});
-    constexpr double kReachPoints = 6.0;
     const auto vertex = vertexAt(place.map->georeference(), place.grid);
     if (!vertex) {
         return facts;
     }
     for (const VectorOverlays::Hit& hit :
-         parts_.vector_files.overlays().featuresAt(*vertex, kReachPoints * place.point_m)) {
+         parts_.vector_files.overlays().featuresAt(*vertex, kFeatureReachPoints * place.point_m)) {
         facts.facts.push_back({.name = tr("Vector file"), .value = hit.file});
         for (const auto& [name, value] : hit.attributes) {
             facts.facts.push_back({.name = name, .value = value});

@@ -2,6 +2,7 @@
 // the place under the pointer in the status bar.
 #pragma once
 
+#include "ui/commands/feature_picker.h"
 #include "ui/commands/map_menu.h"
 #include "ui/dialogs/go_to_dialog.h"
 #include "ui/text/place_facts.h"
@@ -65,9 +66,12 @@ public:
     MapMenu* mapMenu() const noexcept { return map_menu_; }
     /// The same of the globe.
     MapMenu* globeMenu() const noexcept { return globe_menu_; }
+    /// What was clicked on either.
+    FeaturePicker& features() noexcept { return features_; }
 
 private:
     void connectReadout();
+    void connectClicks();
     GoToDialog* makeDialog();
     MapMenu::Beginnings beginnings();
     MapMenu::Extras extras();
@@ -80,6 +84,7 @@ private:
     Parts parts_;
     MapMenu* map_menu_ = nullptr;
     MapMenu* globe_menu_ = nullptr;
+    FeaturePicker features_;
     GoToEntry last_place_;
 };
 

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 #include <variant>
@@ -15,15 +16,16 @@
 namespace marsview {
 namespace {
 
-constexpr double kLineWidth = 1.8;   // points
-constexpr double kDotWidth = 7.0;    // points
+constexpr double kLineWidth = 1.8; // points
+constexpr double kDotWidth = 7.0;  // points
+constexpr double kHaloWidth = 2.5; // points on each side of the selected feature
+constexpr Rgb8 kHaloColor{255, 255, 255};
 constexpr double kPiecePoints = 6.0; // a part of a line that is drawn straight
 // Of all overlays, in a picture at rest and in one that moves.
 constexpr std::size_t kPointsMax = 120000;
 constexpr std::size_t kMovingPointsMax = 8000;
 constexpr std::size_t kEdgePiecesMax = 400; // of one edge
 constexpr qint64 kRestShare = 9; // at most a tenth of the time goes into lines while moving
-constexpr std::size_t kAttributesMax = 8;
 
 QString textOf(const FieldValue& value)
 {
@@ -34,6 +36,19 @@ QString textOf(const FieldValue& value)
         QString operator()(const std::string& text) const { return QString::fromStdString(text); }
     };
     return std::visit(Text{}, value);
+}
+
+// All halos lie below all lines, so that none covers a line where two meet.
+std::vector<DrapedLine> withHalos(std::vector<DrapedLine> lines)
+{
+    std::vector<DrapedLine> all = lines;
+    for (DrapedLine& halo : all) {
+        halo.color = kHaloColor;
+        halo.width_points += 2.0 * kHaloWidth;
+    }
+    all.insert(all.end(), std::make_move_iterator(lines.begin()),
+               std::make_move_iterator(lines.end()));
+    return all;
 }
 
 } // namespace
@@ -78,6 +93,7 @@ void VectorOverlays::drawOn(DrawingScene* scene)
         scene_->disconnect(this);
         scene_->setLines({}, LineSet::Overlays);
         scene_->setDots({}, LineSet::Overlays);
+        scene_->setLines({}, LineSet::Selection);
         scene_ = next;
         joinScene();
         placeAll();
@@ -97,6 +113,9 @@ void VectorOverlays::placeAll()
     for (const VectorOverlay& overlay : overlays_) {
         place({.path = overlay.path, .crs = overlay.crs});
     }
+    for (const Request& request : std::exchange(waiting_, {})) {
+        place(request);
+    }
     draw_soon_.request();
 }
 
@@ -113,6 +132,7 @@ void VectorOverlays::setSession(const Session& session)
         return;
     }
     overlays_ = session.overlays;
+    dropSelectionIfHidden();
     placeAll();
 }
 
@@ -120,8 +140,11 @@ void VectorOverlays::setSession(const Session& session)
 void VectorOverlays::place(const Request& request)
 {
     const std::shared_ptr<const ScenePlan> plan = scene_->plan();
-    if (!plan) {
-        return; // when a map is shown
+    if (!plan) { // until a map is shown; on a body, placing it takes a moment
+        if (request.is_asked_for) {
+            waiting_.push_back(request);
+        }
+        return;
     }
     Entry& entry = entries_[request.path];
     const bool is_known = !request.is_asked_for && entry.crs == request.crs;
@@ -200,7 +223,11 @@ void VectorOverlays::take(const Request& request,
     const bool is_first = !entry.file && !entry.has_failed;
     const bool is_canceled = outcome.problem && outcome.problem->code == ErrorCode::Canceled;
     if (!on || entry.plan.lock() != on || entry.crs != request.crs) {
-        return; // another map is shown by now
+        // Another map is shown by now. A file that the user has asked for is for that one.
+        if (request.is_asked_for && entry.crs == request.crs && !is_canceled) {
+            place(request);
+        }
+        return;
     }
     if (is_canceled) { // until it is opened again
         entry.has_failed = true;
@@ -208,6 +235,10 @@ void VectorOverlays::take(const Request& request,
         return;
     }
     if (outcome.file) {
+        if (entry.file != outcome.file && selected_ && selected_->path == request.path) {
+            select(std::nullopt); // its number may be that of another feature now
+            Q_EMIT selectionLost();
+        }
         entry.file = outcome.file;
         entry.placed = std::move(outcome.placed);
         entry.dot_places.clear();
@@ -292,10 +323,11 @@ void VectorOverlays::drawLines()
     for (const VectorOverlay* overlay : shown) {
         addLines(*overlay, entries_.at(overlay->path), points_max / shown.size(), drawn);
     }
-    is_drawn_ = !drawn.lines.empty() || !drawn.dots.empty();
+    is_drawn_ = !drawn.lines.empty() || !drawn.dots.empty() || !drawn.selected.empty();
     scene_->setLines(std::move(drawn.lines), LineSet::Overlays);
     scene_->setDots({.dots = std::move(drawn.dots), .width_points = kDotWidth, .stamps = nullptr},
                     LineSet::Overlays);
+    scene_->setLines(withHalos(std::move(drawn.selected)), LineSet::Selection);
     hasty_drawing_ns_ = is_hasty_ ? drawn_at_.nsecsElapsed() : 0;
     drawn_at_.start();
 }
@@ -303,15 +335,25 @@ void VectorOverlays::drawLines()
 void VectorOverlays::addLines(const VectorOverlay& overlay,
                               Entry& entry,
                               std::size_t points_max,
-                              Drawn& drawn) const
+                              Drawn& drawn)
 {
-    std::vector<DrapedLine>& lines = drawn.lines;
     // Details of a point of the screen.
     const auto resolution = scene_->planResolution();
     const FeatureIndex::Selection selection =
         entry.placed->index.select(resolution, points_max, entry.coarsening);
     entry.coarsening = selection.coarsening;
+    const bool has_selected = selected_ && selected_->path == overlay.path;
+    const auto is_selected = [&](std::uint32_t feature) {
+        return has_selected && feature == selected_->number;
+    };
+    const auto add_disc = [&](const ScenePoint& place) { // a line without length
+        drawn.selected.push_back(
+            {.points = {place, place}, .color = overlay.color, .width_points = kDotWidth});
+    };
+    bool is_selected_seen = !has_selected;
     for (const auto& piece : selection.pieces) {
+        std::vector<DrapedLine>& lines = is_selected(piece.feature) ? drawn.selected : drawn.lines;
+        is_selected_seen = is_selected_seen || is_selected(piece.feature);
         DrapedLine line{.points = {}, .color = overlay.color, .width_points = kLineWidth};
         const auto end_run = [&] { // no terrain there, or not on this side of the body
             if (line.points.size() > 1) {
@@ -331,7 +373,11 @@ void VectorOverlays::addLines(const VectorOverlay& overlay,
         if (piece.shape == PlaneShape::Dot) {
             const auto place = placeOfDot(entry, piece.part, first);
             if (place && !scene_->isBehindHorizon(*place)) {
-                drawn.dots.push_back({.place = *place, .color = overlay.color});
+                if (is_selected(piece.feature)) {
+                    add_disc(*place);
+                } else {
+                    drawn.dots.push_back({.place = *place, .color = overlay.color});
+                }
             }
             continue;
         }
@@ -355,6 +401,44 @@ void VectorOverlays::addLines(const VectorOverlay& overlay,
         }
         end_run();
     }
+    if (is_selected_seen) {
+        return;
+    }
+    // It is too small for a piece of its own here, or out of sight.
+    if (selected_on_.lock() != entry.placed) {
+        selected_box_ = entry.placed->index.boxOf(selected_->number);
+        selected_on_ = entry.placed;
+    }
+    if (std::isfinite(resolution(selected_box_))) {
+        const auto place =
+            scene_->onTerrain(PlanePoint{(selected_box_.min_x + selected_box_.max_x) / 2.0,
+                                         (selected_box_.min_y + selected_box_.max_y) / 2.0});
+        if (place && !scene_->isBehindHorizon(*place)) {
+            add_disc(*place);
+        }
+    }
+}
+
+void VectorOverlays::select(const std::optional<FeatureId>& feature)
+{
+    if (feature != selected_) {
+        selected_ = feature;
+        selected_on_.reset();
+        draw_soon_.request();
+    }
+}
+
+void VectorOverlays::dropSelectionIfHidden()
+{
+    const bool is_drawn =
+        selected_ &&
+        std::any_of(overlays_.begin(), overlays_.end(), [this](const VectorOverlay& overlay) {
+            return overlay.is_visible && overlay.path == selected_->path;
+        });
+    if (selected_ && !is_drawn) {
+        select(std::nullopt);
+        Q_EMIT selectionLost();
+    }
 }
 
 // Finding heights takes longer than drawing: they are kept until the maps change.
@@ -377,7 +461,8 @@ VectorOverlays::placeOfDot(Entry& entry, std::uint32_t part, const PlanePoint& p
 }
 
 std::vector<VectorOverlays::Hit> VectorOverlays::featuresAt(const DrawnVertex& place,
-                                                            double reach_m) const
+                                                            double reach_m,
+                                                            std::size_t attributes_max) const
 {
     std::vector<Hit> hits;
     const auto plan = scene_->plan();
@@ -411,9 +496,11 @@ std::vector<VectorOverlays::Hit> VectorOverlays::featuresAt(const DrawnVertex& p
         const FeatureLayer& layer = entry->second.file->content.layers[layer_index];
         const Feature& feature = layer.features[feature_index];
         Hit hit{.file = QFileInfo(QString::fromStdString(overlay->path)).fileName(),
-                .attributes = {}};
+                .attributes = {},
+                .feature = {overlay->path, *found},
+                .shape = feature.shape};
         for (std::size_t i = 0; i < layer.fields.size() && i < feature.values.size() &&
-                                hit.attributes.size() < kAttributesMax;
+                                hit.attributes.size() < attributes_max;
              ++i) {
             if (const QString text = textOf(feature.values[i]); !text.isEmpty()) {
                 hit.attributes.emplace_back(QString::fromStdString(layer.fields[i].name), text);

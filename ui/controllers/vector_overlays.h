@@ -48,13 +48,28 @@ public:
     /// Draws the overlays of a session, and reads those that are not known yet.
     void setSession(const Session& session);
 
+    /// A feature of one of the files.
+    struct FeatureId {
+        std::string path;
+        std::uint32_t number = 0;
+        bool operator==(const FeatureId&) const = default;
+    };
     /// A file that is in sight, with the attributes of its feature at a place.
     struct Hit {
         QString file; // its name without folder
         std::vector<std::pair<QString, QString>> attributes;
+        FeatureId feature;
+        FeatureShape shape = FeatureShape::Point;
     };
-    /// The features within `reach_m` of a place, of the overlay drawn last first.
-    std::vector<Hit> featuresAt(const DrawnVertex& place, double reach_m) const;
+    static constexpr std::size_t kAttributesMax = 8; // unless others are asked for
+    /// The features within `reach_m` of a place, of the overlay drawn last first. Takes as long for
+    /// a million features as for a few.
+    std::vector<Hit> featuresAt(const DrawnVertex& place,
+                                double reach_m,
+                                std::size_t attributes_max = kAttributesMax) const;
+    /// Draws a feature with a light border, above all others; nothing: none.
+    void select(const std::optional<FeatureId>& feature);
+    const std::optional<FeatureId>& selected() const noexcept { return selected_; }
     /// Flies to where all features of a file can be seen, if they are on the map.
     void goTo(const std::string& path);
     /// Something is being read or placed, or is about to be drawn.
@@ -70,6 +85,8 @@ Q_SIGNALS:
     void failed(const QString& problem);
     /// Other features are drawn.
     void changed();
+    /// The selected feature is not drawn any more, and not selected.
+    void selectionLost();
 
 private:
     struct Placed {
@@ -114,11 +131,10 @@ private:
     struct Drawn {
         std::vector<DrapedLine> lines;
         std::vector<TerrainDot> dots;
+        std::vector<DrapedLine> selected; // lines and dots
     };
-    void addLines(const VectorOverlay& overlay,
-                  Entry& entry,
-                  std::size_t points_max,
-                  Drawn& drawn) const;
+    void dropSelectionIfHidden();
+    void addLines(const VectorOverlay& overlay, Entry& entry, std::size_t points_max, Drawn& drawn);
     std::optional<ScenePoint>
     placeOfDot(Entry& entry, std::uint32_t part, const PlanePoint& point) const;
     void forgetDotPlaces();
@@ -128,6 +144,10 @@ private:
     FileWork& work_;
     std::vector<VectorOverlay> overlays_; // of the session
     std::map<std::string, Entry> entries_;
+    std::vector<Request> waiting_; // for a map to be shown
+    std::optional<FeatureId> selected_;
+    std::weak_ptr<const Placed> selected_on_; // that the box is of
+    PlaneBox selected_box_;
     bool is_drawn_ = false;
     PostedCall draw_soon_{[this] { drawLines(); }}; // gathers reasons to draw the lines again
     bool is_hasty_ = false;       // the camera has moved since the picture was complete

@@ -6,8 +6,12 @@
 #include <QGuiApplication>
 #include <QLabel>
 #include <QPushButton>
+#include <QScreen>
+#include <QScrollArea>
+#include <QScrollBar>
 #include <QVBoxLayout>
 
+#include <algorithm>
 #include <utility>
 
 namespace marsview {
@@ -16,13 +20,27 @@ namespace {
 // How often it is looked whether finer samples have arrived.
 constexpr int kReadInterval = 100; // ms
 
+// Longer texts are wrapped, and more facts scrolled.
+constexpr int kLineCharactersMax = 60;
+constexpr double kScreenShareMax = 0.5; // of its height
+
 } // namespace
 
 PlaceDialog::PlaceDialog(std::function<PlaceFacts()> read, QWidget* parent)
     : QDialog(parent)
     , read_(std::move(read))
-    , form_(new QFormLayout)
+    , scroll_(new QScrollArea(this))
 {
+    auto* facts = new QWidget;
+    form_ = new QFormLayout(facts);
+    form_->setContentsMargins({});
+    scroll_->setWidget(facts);
+    scroll_->setWidgetResizable(true);
+    scroll_->setFrameShape(QFrame::NoFrame);
+    scroll_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    // The card's own ground; that of a list differs.
+    scroll_->viewport()->setAutoFillBackground(false);
+    facts->setAutoFillBackground(false);
     setWindowTitle(tr("What Is Here"));
     setObjectName(QStringLiteral("placeDialog"));
     form_->setHorizontalSpacing(16);
@@ -33,7 +51,7 @@ PlaceDialog::PlaceDialog(std::function<PlaceFacts()> read, QWidget* parent)
             [this] { QGuiApplication::clipboard()->setText(text()); });
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
     auto* layout = new QVBoxLayout(this);
-    layout->addLayout(form_);
+    layout->addWidget(scroll_);
     layout->addSpacing(6);
     layout->addWidget(buttons);
     layout->setSizeConstraint(QLayout::SetFixedSize);
@@ -65,7 +83,42 @@ void PlaceDialog::show(const PlaceFacts& place)
         name_label->setText(name);
         value_label->setText(value);
         value_label->setAccessibleName(name);
+        const bool is_long = value.size() > kLineCharactersMax;
+        value_label->setWordWrap(is_long);
+        value_label->setMinimumWidth(
+            is_long ? kLineCharactersMax * value_label->fontMetrics().averageCharWidth() : 0);
     }
+    fitFacts();
+}
+
+void PlaceDialog::fitFacts()
+{
+    const QWidget* facts = scroll_->widget();
+    form_->activate();
+    const QSize wanted = facts->sizeHint();
+    const int height =
+        facts->hasHeightForWidth() ? facts->heightForWidth(wanted.width()) : wanted.height();
+    const int height_max =
+        static_cast<int>(kScreenShareMax * screen()->availableGeometry().height());
+    const int bar = height > height_max ? scroll_->verticalScrollBar()->sizeHint().width() : 0;
+    scroll_->setFixedSize(wanted.width() + bar, std::min(height, height_max));
+}
+
+void PlaceDialog::showAt(QPoint place)
+{
+    QWidget::show();
+    const QScreen* at = QGuiApplication::screenAt(place);
+    const QRect screen = (at != nullptr ? at : this->screen())->availableGeometry();
+    QRect card(place + QPoint(12, 12), frameGeometry().size());
+    card.moveRight(std::min(card.right(), screen.right()));
+    card.moveBottom(std::min(card.bottom(), screen.bottom()));
+    move(card.topLeft());
+}
+
+void PlaceDialog::setReader(std::function<PlaceFacts()> read)
+{
+    read_ = std::move(read);
+    show(read_());
 }
 
 QString PlaceDialog::text() const

@@ -4,11 +4,14 @@
 #include "ui/text/place_facts.h"
 
 #include <QDialog>
+#include <QPoint>
 #include <QTimer>
 
 #include <functional>
+#include <vector>
 
 class QFormLayout;
+class QScrollArea;
 
 namespace marsview {
 
@@ -20,13 +23,19 @@ public:
     /// `read` gives the facts, and is asked again while they are rough.
     explicit PlaceDialog(std::function<PlaceFacts()> read, QWidget* parent = nullptr);
 
+    /// Opens it next to a place of the screen.
+    void showAt(QPoint place);
+    /// Shows the facts of something else, where it is.
+    void setReader(std::function<PlaceFacts()> read);
     /// All facts, one "name: value" a line.
     QString text() const;
 
 private:
     void show(const PlaceFacts& place);
+    void fitFacts();
 
     std::function<PlaceFacts()> read_;
+    QScrollArea* scroll_ = nullptr;
     QFormLayout* form_ = nullptr;
     std::vector<PlaceFacts::Fact> facts_;
     QTimer timer_;

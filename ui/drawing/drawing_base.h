@@ -32,6 +32,9 @@ public:
     /// Whether clicks on the map place points.
     virtual bool isToolChosen() const = 0;
     virtual void select(std::uint32_t id) = 0;
+    /// Selects the item whose vertex or line is near a position of the view. False if there is
+    /// none.
+    virtual bool selectAt(QPointF position) = 0;
     virtual void rename(std::uint32_t id, const QString& name) = 0;
     virtual void setNote(std::uint32_t id, const QString& note) = 0;
     /// Empty for the usual color.

@@ -110,6 +110,15 @@ public:
             setState(std::move(state));
         }
     }
+    bool selectAt(QPointF position) override
+    {
+        const auto handle = handleAt(position);
+        const std::uint32_t near = handle ? handle->item : lineAt(position);
+        if (near != 0) {
+            select(near);
+        }
+        return near != 0;
+    }
     void remove(std::uint32_t id) { removeItems({id}); }
     void removeItems(const std::vector<std::uint32_t>& ids) override
     {
@@ -829,9 +838,46 @@ private:
         }
         return nearest;
     }
+    // The item with the line that is nearest, 0 for none.
+    std::uint32_t lineAt(QPointF position) const
+    {
+        std::uint32_t nearest = 0;
+        double reach = kReach;
+        for (const Leg& leg : legs_) {
+            std::optional<QPointF> last;
+            for (const ScenePoint& point : leg.run.points) {
+                const auto place = scene_->positionOf(point);
+                if (place && last) {
+                    const QPointF along = *place - *last;
+                    const double length_squared = QPointF::dotProduct(along, along);
+                    const double share =
+                        length_squared > 0.0
+                            ? std::clamp(QPointF::dotProduct(position - *last, along) /
+                                             length_squared,
+                                         0.0, 1.0)
+                            : 0.0;
+                    const double away = distanceBetween(position, *last + share * along);
+                    if (away <= reach) {
+                        reach = away;
+                        nearest = leg.item;
+                    }
+                }
+                last = place;
+            }
+        }
+        return nearest;
+    }
+    // With the tool, vertices of other items are places to snap to. A point on a point would be of
+    // no use, and the symbol of an annotation is there to be clicked: these are picked up instead.
+    bool isGrabbedWithTool(const DrawnHandle& handle) const
+    {
+        return handle.item == state_.current ||
+               (itemOf(handle.item)->isSingle() &&
+                (tool_ == Tool::Annotate || newItem(state_.next_id).isSingle()));
+    }
     bool grabHandle(QPointF position)
     {
-        if (const auto handle = handleAt(position)) {
+        if (const auto handle = handleAt(position); handle && isGrabbedWithTool(*handle)) {
             select(handle->item);
             grabbed_ = Grabbed{handle->item, handle->index, state_};
             return true;
@@ -1016,7 +1062,7 @@ private:
             return std::nullopt;
         }
         return scene_->isReadByStylus() ? placeRead()
-               : pointer_               ? placeAt(*pointer_)
+               : pointer_               ? snappedAt(*pointer_)
                                         : std::nullopt;
     }
 

@@ -142,8 +142,11 @@ void GlobeView::mousePressEvent(QMouseEvent* event)
         showCursor();
         return;
     }
-    may_be_click_ =
-        actionOf(Gesture::Click, event->button(), event->modifiers(), tool_) != MapAction::None;
+    const MapAction click = actionOf(Gesture::Click, event->button(), event->modifiers(), tool_);
+    may_be_click_ = click != MapAction::None && click != MapAction::SelectFeature;
+    if (click == MapAction::SelectFeature) {
+        still_click_.press(*event);
+    }
     drag_ = actionOf(Gesture::Drag, event->button(), event->modifiers(), tool_);
     if (drag_ == MapAction::Pan) {
         held_ = camera_.hold(pixelAt(event->position()));
@@ -157,6 +160,7 @@ void GlobeView::mousePressEvent(QMouseEvent* event)
 
 void GlobeView::mouseMoveEvent(QMouseEvent* event)
 {
+    still_click_.move(event->position());
     if (drag_ == MapAction::None && isOverOverlay(*this, event->position())) {
         forgetPointer();
         return;
@@ -206,9 +210,14 @@ void GlobeView::mouseReleaseEvent(QMouseEvent* event)
         return;
     }
     const bool is_click = may_be_click_;
+    const bool is_still = still_click_.release(*event, tool_ == Tool::Touch);
     endDrag();
     followTouch();
     showCursor();
+    if (is_still) {
+        Q_EMIT clicked(event->position());
+        return;
+    }
     const MapAction action =
         is_click ? actionOf(Gesture::Click, event->button(), event->modifiers(), tool_)
                  : MapAction::None;
@@ -226,6 +235,7 @@ void GlobeView::endDrag()
         tool->release();
     }
     may_be_click_ = false;
+    still_click_.forget();
     held_.reset();
     touch_.setPressing(false);
 }

@@ -15,6 +15,7 @@
 #include "ui/globe/globe_layers.h"
 #include "ui/globe/globe_meshes.h"
 #include "ui/globe/globe_touch.h"
+#include "ui/widgets/still_click.h"
 
 #include <QOpenGLWidget>
 #include <QPointF>
@@ -180,6 +181,8 @@ Q_SIGNALS:
     void gestureMade(MapAction action);
     /// The context menu of what lies at a position in widget coordinates is asked for.
     void menuRequested(QPointF position);
+    /// A position was clicked with a tool that places no points.
+    void clicked(QPointF position);
     void detailChanged(double pixels);
     void loadingChanged(bool is_loading);
     void problemChanged(const QString& problem);
@@ -241,6 +244,7 @@ private:
     MapAction drag_ = MapAction::None;
     Qt::MouseButton drag_button_ = Qt::NoButton;
     bool may_be_click_ = false; // the drag has not left the place where it began
+    StillClick still_click_;
     QPointF drag_position_;
     bool was_crosshair_shown_ = false;
     bool is_over_terrain_ = false; // the pointer

@@ -45,7 +45,7 @@ struct DotSet {
 /// program, buffer, texture or vertex array bound.
 class DotRenderer {
 public:
-    static constexpr std::size_t kSlots = 4;
+    static constexpr std::size_t kSlots = 5;
 
     static Result<std::unique_ptr<DotRenderer>> create();
     ~DotRenderer();
