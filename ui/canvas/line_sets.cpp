@@ -74,11 +74,13 @@ void LineSets::paint(TerrainRenderer& terrain,
 {
     for (std::size_t i = 0; i < kLineSets; ++i) {
         const std::vector<DrapedLine>& lines = lines_[i];
-        const PixelArea area =
-            areaOf(lines, picture.camera, picture.viewport, picture.pixels_per_point);
+        if (lines.empty() && dots_[i].set.dots.empty()) {
+            continue;
+        }
+        const PixelArea area = renderers.lines.project(lines, picture);
         if (area.width > 0 && area.height > 0) {
             terrain.presentDepth(frame_buffer, area);
-            renderers.lines.draw(lines, picture);
+            renderers.lines.drawProjected();
         }
         if (!dots_[i].set.dots.empty()) {
             renderers.dots.draw(i, dots_[i].set, dots_[i].revision, picture, terrain.keptDepths());

@@ -141,12 +141,19 @@ public:
         return std::max(infinite_z_ + (z - infinite_z_) / share, -1.0);
     }
 
+    ClipPoint clipPoint(const ScenePoint& point) const
+    {
+        const Vec3 p = point - eye_;
+        const auto row = [&](std::size_t r) {
+            return matrix_(r, 0) * p.x + matrix_(r, 1) * p.y + matrix_(r, 2) * p.z + matrix_(r, 3);
+        };
+        return {row(0), row(1), row(2), row(3)};
+    }
+
     // The part of a segment before the near plane and the far one, and within a few pictures to
     // the sides, so that positions keep their precision as floats.
-    std::optional<DeviceSegment> segment(const ScenePoint& from, const ScenePoint& to) const
+    std::optional<DeviceSegment> segment(const ClipPoint& a, const ClipPoint& b) const
     {
-        const ClipPoint a = clipPoint(from);
-        const ClipPoint b = clipPoint(to);
         double begin = 0.0;
         double end = 1.0;
         constexpr double kMargin = 3.0; // half pictures
@@ -174,20 +181,20 @@ public:
                              .is_end_cut = end < 1.0};
     }
 
+    // Whether all that is within so many pixels of a line between two is on one side of the
+    // picture.
+    bool isAside(const PixelPoint& a, const PixelPoint& b, double reach) const
+    {
+        return std::max(a.x, b.x) < -reach || std::min(a.x, b.x) > viewport_.width + reach ||
+               std::max(a.y, b.y) < -reach || std::min(a.y, b.y) > viewport_.height + reach;
+    }
+
     PixelPoint pixel(const DevicePoint& p) const
     {
         return {(p.x + 1.0) * 0.5 * viewport_.width, (p.y + 1.0) * 0.5 * viewport_.height};
     }
 
 private:
-    ClipPoint clipPoint(const ScenePoint& point) const
-    {
-        const Vec3 p = point - eye_;
-        const auto row = [&](std::size_t r) {
-            return matrix_(r, 0) * p.x + matrix_(r, 1) * p.y + matrix_(r, 2) * p.z + matrix_(r, 3);
-        };
-        return {row(0), row(1), row(2), row(3)};
-    }
     static DevicePoint devicePoint(const ClipPoint& p) { return {p.x / p.w, p.y / p.w, p.z / p.w}; }
 
     ScenePoint eye_;
@@ -197,18 +204,58 @@ private:
     double pixel_share_; // of the distance along the view axis: a pixel's side
 };
 
+// Encloses pixels, each with its surroundings.
+class AreaFinder {
+public:
+    void include(const PixelPoint& pixel, double reach)
+    {
+        left_ = std::min(left_, pixel.x - reach);
+        right_ = std::max(right_, pixel.x + reach);
+        bottom_ = std::min(bottom_, pixel.y - reach);
+        top_ = std::max(top_, pixel.y + reach);
+    }
+    // Of a picture; empty before the first pixel.
+    PixelArea within(const Viewport& viewport) const
+    {
+        const auto inside = [](double value, int limit) {
+            return static_cast<int>(std::clamp(value, 0.0, static_cast<double>(limit)));
+        };
+        const int first_column = inside(std::floor(left_), viewport.width);
+        const int first_row = inside(std::floor(bottom_), viewport.height);
+        return {.left = first_column,
+                .bottom = first_row,
+                .width = std::max(0, inside(std::ceil(right_), viewport.width) - first_column),
+                .height = std::max(0, inside(std::ceil(top_), viewport.height) - first_row)};
+    }
+
+private:
+    static constexpr double kFar = 1e9;
+
+    double left_ = kFar;
+    double right_ = -kFar;
+    double bottom_ = kFar;
+    double top_ = -kFar;
+};
+
 enum class SegmentBegin : std::uint8_t { Round, Square };
 
-// The rectangle around a segment that its line can cover: `reach` pixels to all sides.
-void addSegment(std::vector<Vertex>& corners,
+// The rectangle around a segment that its line can cover: `reach` pixels to all sides. False if
+// that is outside the picture.
+bool addSegment(std::vector<Vertex>& corners,
                 const Screen& screen,
                 const DeviceSegment& segment,
                 SegmentBegin begin,
                 double reach,
-                const Vertex& paint)
+                const Vertex& paint,
+                AreaFinder& area)
 {
     const PixelPoint a = screen.pixel(segment.begin);
     const PixelPoint b = screen.pixel(segment.end);
+    if (screen.isAside(a, b, reach)) {
+        return false;
+    }
+    area.include(a, reach);
+    area.include(b, reach);
     Vertex vertex = paint;
     vertex.ends = {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(b.x),
                    static_cast<float>(b.y)};
@@ -221,6 +268,7 @@ void addSegment(std::vector<Vertex>& corners,
     };
     add(segment.begin.z, begin == SegmentBegin::Round ? -1.0F : 0.0F);
     add(segment.end.z, 1.0F);
+    return true;
 }
 
 } // namespace
@@ -231,6 +279,11 @@ struct LineRenderer::Impl {
     GlBuffer indices; // of rectangles one after the other
     std::size_t indexed = 0;
     GlVertexArray array;
+
+    // What project() has found.
+    std::optional<LinePicture> picture;
+    std::vector<Vertex> corners;
+    std::size_t faint_count = 0; // of rectangles
 
     explicit Impl(GlProgram compiled)
         : program(std::move(compiled))
@@ -321,15 +374,19 @@ Result<std::unique_ptr<LineRenderer>> LineRenderer::create()
         new LineRenderer(std::make_unique<Impl>(std::move(program).value())));
 }
 
-void LineRenderer::draw(std::span<const DrapedLine> lines, const LinePicture& picture)
+PixelArea LineRenderer::project(std::span<const DrapedLine> lines, const LinePicture& picture)
 {
     const Screen screen(picture.camera, picture.viewport, picture.clip);
     const double pixels_per_point = picture.pixels_per_point;
     const double border_px = kBorderPoints * pixels_per_point;
-    // Lines with faint parts first, since only these are drawn where the terrain hides them.
-    std::vector<Vertex> corners;
-    std::size_t faint_count = 0; // of rectangles
+    AreaFinder area;
+    impl_->picture = picture;
+    std::vector<Vertex>& corners = impl_->corners; // keeps its memory
+    corners.clear();
     const auto add = [&](const DrapedLine& line) {
+        if (line.points.empty()) {
+            return;
+        }
         const double half_width = 0.5 * line.width_points * pixels_per_point;
         const Vertex paint{.ends = {},
                            .corner = {},
@@ -337,17 +394,20 @@ void LineRenderer::draw(std::span<const DrapedLine> lines, const LinePicture& pi
                            .color = {line.color.red, line.color.green, line.color.blue, 0},
                            .half_width = static_cast<float>(half_width)};
         bool is_joint = false; // the segment before ends where this one begins
+        ClipPoint from = screen.clipPoint(line.points.front());
         for (std::size_t i = 1; i < line.points.size(); ++i) {
-            const auto segment = screen.segment(line.points[i - 1], line.points[i]);
-            if (segment) {
-                addSegment(corners, screen, *segment,
-                           is_joint && !segment->is_begin_cut ? SegmentBegin::Square
-                                                              : SegmentBegin::Round,
-                           half_width + border_px + 1.0, paint);
-            }
-            is_joint = segment && !segment->is_end_cut;
+            const ClipPoint to = screen.clipPoint(line.points[i]);
+            const auto segment = screen.segment(from, to);
+            const bool is_seen =
+                segment && addSegment(corners, screen, *segment,
+                                      is_joint && !segment->is_begin_cut ? SegmentBegin::Square
+                                                                         : SegmentBegin::Round,
+                                      half_width + border_px + 1.0, paint, area);
+            is_joint = is_seen && !segment->is_end_cut;
+            from = to;
         }
     };
+    // Lines with faint parts first, since only these are drawn where the terrain hides them.
     for (const HiddenParts hidden_parts : {HiddenParts::Faint, HiddenParts::Invisible}) {
         for (const DrapedLine& line : lines) {
             if (line.hidden_parts == hidden_parts) {
@@ -355,12 +415,20 @@ void LineRenderer::draw(std::span<const DrapedLine> lines, const LinePicture& pi
             }
         }
         if (hidden_parts == HiddenParts::Faint) {
-            faint_count = corners.size() / kCorners;
+            impl_->faint_count = corners.size() / kCorners;
         }
     }
+    return area.within(picture.viewport);
+}
+
+void LineRenderer::drawProjected()
+{
+    const std::vector<Vertex>& corners = impl_->corners;
     if (corners.empty()) {
         return;
     }
+    const LinePicture& picture = *impl_->picture;
+    const double border_px = kBorderPoints * picture.pixels_per_point;
     const std::size_t count = corners.size() / kCorners;
     glUseProgram(impl_->program.id());
     glBindVertexArray(impl_->array.id());
@@ -381,8 +449,8 @@ void LineRenderer::draw(std::span<const DrapedLine> lines, const LinePicture& pi
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
     glEnable(GL_DEPTH_TEST);
     glDepthMask(GL_FALSE);
-    if (faint_count > 0) {
-        impl_->drawHidden(faint_count);
+    if (impl_->faint_count > 0) {
+        impl_->drawHidden(impl_->faint_count);
     }
     glDepthFunc(GL_LEQUAL);
     impl_->draw({.border_px = border_px, .alpha = kBorderAlpha, .has_own_color = false}, count);
@@ -394,45 +462,6 @@ void LineRenderer::draw(std::span<const DrapedLine> lines, const LinePicture& pi
     glBindBuffer(GL_ARRAY_BUFFER, 0);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, 0);
     glUseProgram(0);
-}
-
-PixelArea areaOf(std::span<const DrapedLine> lines,
-                 const CameraPose& camera,
-                 const Viewport& viewport,
-                 double pixels_per_point)
-{
-    // Only positions on the screen count, so that any depths do.
-    const Screen screen(camera, viewport,
-                        {.near_m = 1e-3 * camera.distance_m, .far_m = 1e3 * camera.distance_m});
-    double left = viewport.width;
-    double right = 0.0;
-    double bottom = viewport.height;
-    double top = 0.0;
-    for (const DrapedLine& line : lines) {
-        const double reach = (0.5 * line.width_points + kBorderPoints) * pixels_per_point + 1.0;
-        for (std::size_t i = 1; i < line.points.size(); ++i) {
-            const auto segment = screen.segment(line.points[i - 1], line.points[i]);
-            if (!segment) {
-                continue;
-            }
-            for (const DevicePoint& end : {segment->begin, segment->end}) {
-                const PixelPoint pixel = screen.pixel(end);
-                left = std::min(left, pixel.x - reach);
-                right = std::max(right, pixel.x + reach);
-                bottom = std::min(bottom, pixel.y - reach);
-                top = std::max(top, pixel.y + reach);
-            }
-        }
-    }
-    const auto inside = [](double value, int limit) {
-        return static_cast<int>(std::clamp(value, 0.0, static_cast<double>(limit)));
-    };
-    const int first_column = inside(std::floor(left), viewport.width);
-    const int first_row = inside(std::floor(bottom), viewport.height);
-    return {.left = first_column,
-            .bottom = first_row,
-            .width = std::max(0, inside(std::ceil(right), viewport.width) - first_column),
-            .height = std::max(0, inside(std::ceil(top), viewport.height) - first_row)};
 }
 
 } // namespace marsview

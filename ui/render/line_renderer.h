@@ -43,11 +43,18 @@ public:
     LineRenderer(const LineRenderer&) = delete;
     LineRenderer& operator=(const LineRenderer&) = delete;
 
-    /// Draws over a picture of the terrain in the bound frame buffer, which has that picture's
-    /// depths and a stencil of 8 bits where the lines are; see areaOf(). A dark border keeps lines
-    /// visible over any color. Parts that the terrain hides have no border; they are faint, or not
-    /// drawn.
-    void draw(std::span<const DrapedLine> lines, const LinePicture& picture);
+    /// Finds where lines are in a picture, for drawProjected(). Returns the part of the picture
+    /// that this changes; its width is 0 where that is nothing.
+    PixelArea project(std::span<const DrapedLine> lines, const LinePicture& picture);
+    /// Draws them over a picture of the terrain in the bound frame buffer, which has that picture's
+    /// depths and a stencil of 8 bits where the lines are. A dark border keeps lines visible over
+    /// any color. Parts that the terrain hides have no border; they are faint, or not drawn.
+    void drawProjected();
+    void draw(std::span<const DrapedLine> lines, const LinePicture& picture)
+    {
+        project(lines, picture);
+        drawProjected();
+    }
 
 private:
     struct Impl;
@@ -55,11 +62,5 @@ private:
 
     std::unique_ptr<Impl> impl_;
 };
-
-/// The part of the picture that draw() changes; its width is 0 where that is nothing.
-PixelArea areaOf(std::span<const DrapedLine> lines,
-                 const CameraPose& camera,
-                 const Viewport& viewport,
-                 double pixels_per_point);
 
 } // namespace marsview
