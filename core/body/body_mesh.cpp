@@ -1,7 +1,7 @@
 #include "core/body/body_mesh.h"
 
 #include "core/base/check.h"
-#include "core/body/tiled_rim.h"
+#include "core/body/pinned_samples.h"
 
 #include <algorithm>
 #include <cmath>
@@ -291,9 +291,9 @@ double BodyMesh::tiledHeight(std::size_t column, std::size_t raster_row) const n
     const auto c = static_cast<std::int32_t>(column);
     const auto r = static_cast<std::int32_t>(raster_row);
     double height_m = 0.0;
-    if (const double* at_rim =
-            rim_ ? rim_->find(column, raster_row - positions_->firstRow()) : nullptr) {
-        height_m = *at_rim;
+    if (const double* pinned_m =
+            pins_ ? pins_->find(column, raster_row - positions_->firstRow()) : nullptr) {
+        height_m = *pinned_m;
     } else if (const std::int16_t* raw = tile_type_ == SampleType::Int16
                                              ? terrain_->plainSample<std::int16_t>(c, r)
                                              : nullptr) {
@@ -306,6 +306,20 @@ double BodyMesh::tiledHeight(std::size_t column, std::size_t raster_row) const n
         height_m = terrain_->sample(column, raster_row);
     }
     return std::clamp(exaggeration_ * height_m, nodes_->lowest(), nodes_->highest());
+}
+
+std::shared_ptr<const BodyMesh> BodyMesh::withPins(std::span<const BodyIndex> vertices) const
+{
+    MARSVIEW_CHECK(terrain_ != nullptr);
+    std::vector<PinnedSamples::Sample> samples;
+    samples.reserve(vertices.size());
+    for (const BodyIndex vertex : vertices) {
+        const auto [column, row] = sampleOf(vertex);
+        samples.push_back({column, row, terrain_->sample(column, row + positions_->firstRow())});
+    }
+    auto mesh = std::make_shared<BodyMesh>(*this);
+    mesh->pins_ = std::make_shared<const PinnedSamples>(columns_, samples);
+    return mesh;
 }
 
 Status BodyMesh::buildTree(JobMonitor& monitor)

@@ -17,11 +17,12 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 
 namespace marsview {
 
-class TiledRim;
+class PinnedSamples;
 
 /// Of a vertex, a face or a corner of maps on a body: a planet at 200 m has more than 2^32 corners.
 using BodyIndex = std::uint64_t;
@@ -94,8 +95,16 @@ public:
     std::uint32_t cellColumns() const noexcept { return cell_columns_; }
     std::uint32_t cellRows() const noexcept { return rows_ - 1; }
     bool isTiled() const noexcept { return nodes_ != nullptr; }
-    /// Of a map in tiles whose border does not depend on them; otherwise null.
-    const std::shared_ptr<const TiledRim>& rim() const noexcept { return rim_; }
+    /// Of a map in tiles; otherwise null.
+    const TileHeights* tileHeights() const noexcept
+    {
+        return nodes_ ? &nodes_->heights() : nullptr;
+    }
+    /// Of a map in tiles: the samples that do not depend on them; null without any.
+    const std::shared_ptr<const PinnedSamples>& pins() const noexcept { return pins_; }
+    /// The same map in tiles with the samples of these vertices pinned, with the heights that its
+    /// terrain has now. Each vertex once.
+    std::shared_ptr<const BodyMesh> withPins(std::span<const BodyIndex> vertices) const;
 
     ScenePoint vertex(BodyIndex index) const noexcept { return pointOf(sampleOf(index)); }
     BodyFace face(BodyIndex index) const noexcept
@@ -225,6 +234,24 @@ public:
                 const BodyIndex cell = BodyIndex{row} * cell_columns_ + column;
                 visit(2 * cell);
                 visit(2 * cell + 1);
+            }
+        }
+    }
+
+    /// Calls visit(vertex) with the vertices at the border, and with some vertex of a map without
+    /// one.
+    template <typename F>
+    void eachVertexAtBorder(F&& visit) const
+    {
+        visit(BodyIndex{0});
+        for (std::uint32_t row = 0; row < rows_; ++row) {
+            const bool is_whole = row == 0 || row + 1 == rows_;
+            for (std::uint32_t column = 0; column < columns_;
+                 column += is_whole ? 1 : columns_ - 1) {
+                const BodyIndex vertex = vertexOf({column, row});
+                if (vertex != 0 && isAtBorder(vertex)) {
+                    visit(vertex);
+                }
             }
         }
     }
@@ -619,7 +646,7 @@ private:
     std::shared_ptr<const FilledHeightfield> heights_; // of a map in memory
     std::shared_ptr<const TiledBodyNodes> nodes_;      // these: of a map in tiles
     std::shared_ptr<const TiledTerrain> terrain_;
-    std::shared_ptr<const TiledRim> rim_; // of these tiles, or null
+    std::shared_ptr<const PinnedSamples> pins_; // of these tiles, or null
     SampleType tile_type_ = SampleType::Int16;
     std::shared_ptr<const BodyPositions> positions_;
     double exaggeration_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <fmt/format.h>
 #include <limits>
 #include <unordered_map>
 #include <unordered_set>
@@ -36,13 +38,22 @@ Error cannotCut(const char* why)
     return {ErrorCode::Unsupported, why};
 }
 
+Error tooLarge(const char* does, std::size_t limit)
+{
+    return {ErrorCode::TooLarge,
+            fmt::format("{} more than {} million triangles of the maps below it, one of which is "
+                        "larger than memory",
+                        does, limit / 1'000'000)};
+}
+
 // One map over those below it.
 class MapCut {
 public:
-    MapCut(LayerPatch& patch, std::size_t index, JobMonitor& monitor)
+    MapCut(LayerPatch& patch, std::size_t index, const LayerLimits& limits, JobMonitor& monitor)
         : patch_(patch)
         , index_(index)
         , map_(patch.maps()[index])
+        , limits_(limits)
         , monitor_(monitor)
     {}
 
@@ -64,6 +75,9 @@ public:
             auto way = patch_.connect(below_.at(edge.from), below_.at(edge.to), tolerance_);
             if (!way || way->size() < 2) {
                 return cannotCut(kCannotCut);
+            }
+            if (is_over_tiles_ && patch_.cutFaces().size() > limits_.cut_faces_max) {
+                return tooLarge("the border of a map crosses", limits_.cut_faces_max);
             }
             ways.push_back(std::move(*way));
         }
@@ -114,7 +128,7 @@ private:
                 }
             }
         };
-        if (map_.mesh->rim()) {
+        if (map_.mesh->isTiled()) { // without voids
             map_.mesh->eachFaceAtBorder(look_at);
         } else {
             const auto count = map_.mesh->faceCount();
@@ -176,27 +190,17 @@ private:
     {
         for (std::size_t i = index_ + 1; i < patch_.maps().size(); ++i) {
             const LayerPatch::Map& other = patch_.maps()[i];
-            const auto count = other.mesh->vertexCount();
             std::size_t looked_at = 0;
             std::size_t covered = 0;
-            for (BodyIndex vertex = 0; vertex < count; ++vertex) {
-                if (vertex != 0 && !other.mesh->isAtBorder(vertex)) {
-                    continue;
-                }
+            other.mesh->eachVertexAtBorder([&](BodyIndex vertex) {
                 ++looked_at;
                 covered += isOver(other.mesh->vertex(vertex)) ? 1U : 0U;
-            }
+            });
             if (covered != 0 && covered != looked_at) {
                 return cannotCut(kLeadsBeyond);
             }
-            for (BodyIndex face = 0; covered != 0 && face < other.mesh->faceCount(); ++face) {
-                patch_.removeFace(other.first_face + face);
-            }
-            for (std::size_t cut = 0; covered != 0 && cut < patch_.cutFaces().size(); ++cut) {
-                const BodyIndex origin = patch_.cutFaces()[cut].origin;
-                if (patch_.mapOf(origin) == i) {
-                    patch_.removeFace(patch_.mapFaces() + static_cast<BodyIndex>(cut));
-                }
+            if (covered != 0) {
+                patch_.removeMap(i);
             }
         }
         return Done{};
@@ -258,7 +262,9 @@ private:
                 twins_.emplace_back(uppers[i][k], way[k]);
             }
         }
-        removeCovered(inside);
+        if (Status removed = removeCovered(inside); !removed) {
+            return removed;
+        }
         for (const Joint& joint : joints) {
             if (patch_.isGone(joint.lower / 3)) {
                 return failure;
@@ -273,35 +279,50 @@ private:
         return Done{};
     }
 
-    void removeCovered(const std::vector<BodyIndex>& inside)
+    // From the border inwards, ring by ring: there are far more covered faces than a ring has.
+    Status removeCovered(const std::vector<BodyIndex>& inside)
     {
         std::unordered_set<BodyIndex> border(inside.begin(), inside.end());
         std::vector<BodyIndex> faces;
+        std::size_t count = 0;
         const auto take = [&](BodyIndex face) {
             if (!patch_.isGone(face)) {
                 patch_.removeFace(face);
                 faces.push_back(face);
+                ++count;
             }
         };
         for (const BodyIndex corner : inside) {
             take(corner / 3);
         }
         while (!faces.empty()) {
-            const BodyIndex face = faces.back();
-            faces.pop_back();
-            for (BodyIndex corner = 3 * face; corner < 3 * face + 3; ++corner) {
-                const BodyIndex beyond = patch_.across(corner);
-                if (beyond != kNone && !border.contains(corner)) {
-                    take(beyond / 3);
+            if (monitor_.isCanceled()) {
+                return canceled();
+            }
+            if (is_over_tiles_ && count > limits_.covered_faces_max) {
+                return tooLarge("a map covers", limits_.covered_faces_max);
+            }
+            for (const BodyIndex face : std::exchange(faces, {})) {
+                for (BodyIndex corner = 3 * face; corner < 3 * face + 3; ++corner) {
+                    const BodyIndex beyond = patch_.across(corner);
+                    if (beyond != kNone && !border.contains(corner)) {
+                        take(beyond / 3);
+                    }
                 }
             }
         }
+        return Done{};
     }
 
     LayerPatch& patch_;
     std::size_t index_;
     const LayerPatch::Map& map_;
+    const LayerLimits& limits_;
     JobMonitor& monitor_;
+    const bool is_over_tiles_ =
+        std::any_of(patch_.maps().begin() + static_cast<std::ptrdiff_t>(index_) + 1,
+                    patch_.maps().end(),
+                    [](const LayerPatch::Map& map) { return map.mesh->isTiled(); });
     std::vector<RimEdge> rim_;
     double tolerance_ = 0.0;
     std::unordered_map<BodyIndex, BodyIndex> below_; // of vertices of the rim
@@ -595,9 +616,9 @@ private:
 
 } // namespace
 
-Status cutOut(LayerPatch& patch, std::size_t index, JobMonitor& monitor)
+Status cutOut(LayerPatch& patch, std::size_t index, const LayerLimits& limits, JobMonitor& monitor)
 {
-    return MapCut(patch, index, monitor).run();
+    return MapCut(patch, index, limits, monitor).run();
 }
 
 void addWalls(LayerPatch& patch)

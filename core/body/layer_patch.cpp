@@ -185,6 +185,14 @@ void LayerPatch::removeFace(BodyIndex face)
     }
 }
 
+void LayerPatch::removeMap(std::size_t index)
+{
+    maps_[index].is_gone.setAll();
+    for (Face& face : cut_) {
+        face.is_gone = face.is_gone || (face.origin != kNone && mapOf(face.origin) == index);
+    }
+}
+
 void LayerPatch::setTwins(BodyIndex a, BodyIndex b)
 {
     a = placeOf(a);

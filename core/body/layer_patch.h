@@ -71,6 +71,8 @@ public:
 
     void setAcross(BodyIndex corner, BodyIndex beyond);
     void removeFace(BodyIndex face);
+    /// All faces of a map, cut ones included.
+    void removeMap(std::size_t index);
     void setTwins(BodyIndex a, BodyIndex b);
     void setVertex(BodyIndex corner, BodyIndex vertex);
     BodyIndex addVertex(const ScenePoint& point, const Vec3& up);

@@ -9,9 +9,56 @@
 #include <utility>
 
 namespace marsview {
+namespace {
+
+// Of a map in tiles: all that the patch has used heights of. A ring of faces around those that are
+// cut is pinned too, so that the ways on which they were found are the same with other tiles.
+std::vector<BodyIndex> verticesToPin(const LayerPatch& patch, std::size_t index)
+{
+    const LayerPatch::Map& map = patch.maps()[index];
+    std::vector<BodyIndex> vertices;
+    const auto isOwnVertex = [&](BodyIndex vertex) {
+        return vertex >= map.first_vertex && vertex < map.first_vertex + map.mesh->vertexCount();
+    };
+    const auto add_face = [&](BodyIndex face) {
+        if (face >= map.first_face && face < map.first_face + map.mesh->faceCount()) {
+            for (const BodyIndex vertex : map.mesh->face(face - map.first_face)) {
+                vertices.push_back(vertex);
+            }
+        }
+    };
+    for (const LayerPatch::Face& face : patch.cutFaces()) {
+        add_face(face.origin);
+        for (const BodyIndex vertex : face.vertices) {
+            if (isOwnVertex(vertex)) {
+                vertices.push_back(vertex - map.first_vertex);
+            }
+        }
+    }
+    for (const auto& [corner, beyond] : patch.links()) {
+        add_face(corner / 3);
+    }
+    const auto sort = [&vertices] {
+        std::sort(vertices.begin(), vertices.end());
+        vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    };
+    sort();
+    for (std::size_t i = 0, count = vertices.size(); i < count; ++i) {
+        for (const BodyIndex corner : map.mesh->fan(vertices[i])) {
+            const BodyFace around = map.mesh->face(corner / 3);
+            vertices.insert(vertices.end(), around.begin(), around.end());
+        }
+    }
+    sort();
+    return vertices;
+}
+
+} // namespace
 
 Result<std::shared_ptr<const LayeredMesh>>
-LayeredMesh::build(const std::vector<std::shared_ptr<const BodyMesh>>& maps, JobMonitor& monitor)
+LayeredMesh::build(const std::vector<std::shared_ptr<const BodyMesh>>& maps,
+                   JobMonitor& monitor,
+                   const LayerLimits& limits)
 {
     MARSVIEW_CHECK(!maps.empty());
     if (maps.size() > kMapsMax) {
@@ -19,14 +66,17 @@ LayeredMesh::build(const std::vector<std::shared_ptr<const BodyMesh>>& maps, Job
                      fmt::format("{} maps lie on top of each other; up to {} can be joined",
                                  maps.size(), kMapsMax)};
     }
-    for (std::size_t i = 0; i < maps.size(); ++i) {
-        if (maps[i]->isTiled() && (i > 0 || !maps[i]->rim())) {
-            return Error{ErrorCode::Unsupported, "a map in tiles lies below others"};
+    for (std::size_t i = 0; i + 1 < maps.size(); ++i) {
+        if (const TileHeights* heights = maps[i]->tileHeights();
+            heights != nullptr && !canBeCutOut(*heights)) {
+            return Error{
+                ErrorCode::Unsupported,
+                "a map in tiles with nodata, or without measured bounds, lies above others"};
         }
     }
     LayerPatch patch(maps);
     for (std::size_t i = maps.size() - 1; i-- > 0;) {
-        if (Status cut = cutOut(patch, i, monitor); !cut) {
+        if (Status cut = cutOut(patch, i, limits, monitor); !cut) {
             return std::move(cut).error();
         }
     }
@@ -77,6 +127,9 @@ LayeredMesh::build(const std::vector<std::shared_ptr<const BodyMesh>>& maps, Job
         return marks.isAny() ? std::make_shared<const FaceMarks>(marks) : nullptr;
     };
     for (std::size_t i = 0; i < maps.size(); ++i) {
+        if (maps[i]->isTiled()) {
+            mesh->maps_[i].mesh = maps[i]->withPins(verticesToPin(patch, i));
+        }
         mesh->maps_[i].gone = shared(patch.maps()[i].is_gone);
         mesh->maps_[i].linked = shared(linked[i]);
     }
@@ -124,11 +177,14 @@ LayeredMesh::build(const std::vector<std::shared_ptr<const BodyMesh>>& maps, Job
 }
 
 std::shared_ptr<const LayeredMesh>
-LayeredMesh::over(std::shared_ptr<const BodyMesh> uppermost) const
+LayeredMesh::over(const std::shared_ptr<const BodyMesh>& tiled) const
 {
-    MARSVIEW_CHECK(uppermost->rim() && uppermost->rim() == maps_.front().mesh->rim());
     std::shared_ptr<LayeredMesh> mesh(new LayeredMesh(*this));
-    mesh->maps_.front().mesh = std::move(uppermost);
+    const auto map = std::find_if(mesh->maps_.begin(), mesh->maps_.end(), [&tiled](const Map& own) {
+        return own.mesh->pins() && own.mesh->pins() == tiled->pins();
+    });
+    MARSVIEW_CHECK(map != mesh->maps_.end());
+    map->mesh = tiled;
     return mesh;
 }
 

@@ -3,6 +3,7 @@
 
 #include "core/body/body_mesh.h"
 #include "core/body/face_marks.h"
+#include "core/body/layer_limits.h"
 
 #include <algorithm>
 #include <array>
@@ -47,12 +48,13 @@ private:
 /// border to a few thousandths of how far a cell lies below the curved surface: c² / 8R. All other
 /// triangles are those of BodyMesh, which stores none of them.
 ///
-/// The uppermost map may be in tiles if it has a rim: the stored triangles do not depend on the
-/// tiles in memory. Such a mesh is as constant as that map's terrain, and for the thread that has
-/// the terrain: each user gets one by over().
+/// Maps may be in tiles. Their samples along the borders of the maps are pinned, so that the stored
+/// triangles do not depend on the tiles in memory. Such a mesh is as constant as the terrains of
+/// these maps, and for the thread that has them: each user gets one by over().
 ///
 /// The same queries as TriangleMesh. Otherwise immutable, any thread; allocates nothing after
-/// construction. About 150 bytes per edge of a border, and two bits per face of each map in memory.
+/// construction. About 150 bytes per edge of a border, up to two bits per face that is covered, and
+/// 32 to 64 bytes per pinned sample.
 class LayeredMesh {
 public:
     using Index = BodyIndex;
@@ -60,15 +62,25 @@ public:
     static constexpr double kCoordinateMaxM = BodyMesh::kCoordinateMaxM;
     static constexpr std::size_t kMapsMax = 32;
 
-    /// The uppermost map first; all with the same ellipsoid and exaggeration. Errors: Unsupported
-    /// where the border of a map leads beyond the maps below it, or cannot be cut out of them, and
-    /// for maps in tiles other than the above; TooLarge above kMapsMax maps; Canceled.
+    /// The uppermost map first; all with the same ellipsoid and exaggeration. Maps in tiles are
+    /// over a WaitingTerrain, whose error() makes the result worthless; only tiles along borders
+    /// are read. Errors: Unsupported where the border of a map leads beyond the maps below it, or
+    /// cannot be cut out of them, and for maps in tiles that cannot be cut out; TooLarge above
+    /// kMapsMax maps and beyond the limits; Canceled.
     static Result<std::shared_ptr<const LayeredMesh>>
-    build(const std::vector<std::shared_ptr<const BodyMesh>>& maps, JobMonitor& monitor);
+    build(const std::vector<std::shared_ptr<const BodyMesh>>& maps,
+          JobMonitor& monitor,
+          const LayerLimits& limits = {});
 
-    /// The same with the uppermost map, which has a rim, over another terrain. The stored
-    /// triangles are shared.
-    std::shared_ptr<const LayeredMesh> over(std::shared_ptr<const BodyMesh> uppermost) const;
+    /// Whether a map in tiles can lie above others. The lowest may be any.
+    static bool canBeCutOut(const TileHeights& heights) noexcept
+    {
+        return heights.filledMaxima().empty();
+    }
+
+    /// The same with a map in tiles over another terrain: `tiled` has the pins of one of the maps.
+    /// The stored triangles are shared.
+    std::shared_ptr<const LayeredMesh> over(const std::shared_ptr<const BodyMesh>& tiled) const;
 
     /// Faces that are cut or covered are counted, but none of the queries finds them.
     std::size_t faceCount() const noexcept { return map_faces_ + cut_->faces.size(); }
@@ -77,6 +89,13 @@ public:
     const std::shared_ptr<const BodyMesh>& map(std::size_t index) const noexcept
     {
         return maps_[index].mesh;
+    }
+    /// The uppermost of the maps in tiles; null without any.
+    std::shared_ptr<const BodyMesh> tiledMap() const noexcept
+    {
+        const auto found = std::find_if(maps_.begin(), maps_.end(),
+                                        [](const Map& map) { return map.mesh->isTiled(); });
+        return found == maps_.end() ? nullptr : found->mesh;
     }
     double exaggeration() const noexcept { return maps_.front().mesh->exaggeration(); }
     const Ellipsoid& ellipsoid() const noexcept

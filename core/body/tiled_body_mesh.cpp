@@ -68,13 +68,13 @@ Status TiledBodyMesh::buildTree(JobMonitor& monitor)
 }
 
 std::shared_ptr<const BodyMesh> TiledBodyMesh::over(std::shared_ptr<const TiledTerrain> terrain,
-                                                    std::shared_ptr<const TiledRim> rim) const
+                                                    std::shared_ptr<const PinnedSamples> pins) const
 {
     MARSVIEW_CHECK(terrain && terrain->heights().layout().columns ==
                                   shape_.nodes_->heights().layout().columns);
     auto mesh = std::make_shared<BodyMesh>(shape_);
     mesh->terrain_ = std::move(terrain);
-    mesh->rim_ = std::move(rim);
+    mesh->pins_ = std::move(pins);
     return mesh;
 }
 

@@ -31,9 +31,9 @@ public:
     const std::shared_ptr<const BodyLocator>& locator() const noexcept { return locator_; }
 
     /// The triangles over a terrain of the map. Where its tiles are in memory, those of the map in
-    /// memory to the bit; at a rim, always.
+    /// memory to the bit; between pinned samples of the map, always.
     std::shared_ptr<const BodyMesh> over(std::shared_ptr<const TiledTerrain> terrain,
-                                         std::shared_ptr<const TiledRim> rim = nullptr) const;
+                                         std::shared_ptr<const PinnedSamples> pins = nullptr) const;
 
 private:
     TiledBodyMesh(std::shared_ptr<const BodyGrid> grid,

@@ -39,7 +39,10 @@ void BodyStylus::aim(const BodyAim& at, const StylusButtons& buttons, double poi
     const bool is_pressing = mode == StylusMode::Press;
     if (at.index != at_.index) {
         releaseModel(); // no wall between two maps holds a pointer, which feels none
-        touch_.reset();
+        if (at_.index >= surfaces_.size() || at.index >= surfaces_.size() ||
+            tilesOf(surfaces_[at_.index]) != tilesOf(surfaces_[at.index])) {
+            touch_.reset();
+        }
     }
     at_ = at;
     point_m_ = point_m;

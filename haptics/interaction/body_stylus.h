@@ -34,7 +34,7 @@ public:
         std::shared_ptr<const TiledBodyMesh> tiled{};
         std::shared_ptr<const Map> map{};
         /// The map joined with others, which is pressed in place of the mesh; null for a map by
-        /// itself. Surfaces that share it are one. If one of them is in tiles, it is the uppermost.
+        /// itself. Surfaces that share it are one. At most one of them is in tiles.
         std::shared_ptr<const LayeredMesh> joined{};
         double radius_m = 1.0; // of the sphere of a VirtualProxy
 

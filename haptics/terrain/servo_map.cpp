@@ -310,20 +310,18 @@ std::shared_ptr<ServoMap> makeServoMap(const std::vector<std::shared_ptr<const G
     return map;
 }
 
-std::shared_ptr<ServoMap>
-makeServoMap(const std::shared_ptr<const Georeference>& uppermost,
-             const std::vector<std::shared_ptr<const Georeference>>& below,
-             const LayeredMesh& mesh,
-             const TiledBodyMesh& tiled,
-             std::shared_ptr<ServoTerrain> terrain,
-             const ServoMapOptions& options)
+std::shared_ptr<ServoMap> makeServoMap(const std::vector<std::shared_ptr<const Georeference>>& maps,
+                                       const LayeredMesh& mesh,
+                                       const TiledBodyMesh& tiled,
+                                       std::shared_ptr<ServoTerrain> terrain,
+                                       const ServoMapOptions& options)
 {
-    MARSVIEW_CHECK(below.empty() || below.size() + 1 == mesh.mapCount());
+    MARSVIEW_CHECK(maps.size() == 1 || maps.size() == mesh.mapCount());
     auto map = bodyMapOf<LayeredSurface>(
-        uppermost, mesh.over(tiled.over(terrain->terrain(), mesh.map(0)->rim())), options,
+        maps.front(), mesh.over(tiled.over(terrain->terrain(), mesh.tiledMap()->pins())), options,
         tiled.locator());
     map->terrain = std::move(terrain);
-    map->below = below;
+    map->below.assign(maps.begin() + 1, maps.end());
     return map;
 }
 

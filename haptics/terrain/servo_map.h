@@ -78,14 +78,12 @@ std::shared_ptr<ServoMap> makeServoMap(const std::shared_ptr<const Georeference>
 std::shared_ptr<ServoMap> makeServoMap(const std::vector<std::shared_ptr<const Georeference>>& maps,
                                        const std::shared_ptr<const LayeredMesh>& mesh,
                                        const ServoMapOptions& options);
-/// The same with the uppermost map in tiles: `mesh` has been built from `tiled`. `below` are the
-/// maps below it, or nothing if there will be no recording.
-std::shared_ptr<ServoMap>
-makeServoMap(const std::shared_ptr<const Georeference>& uppermost,
-             const std::vector<std::shared_ptr<const Georeference>>& below,
-             const LayeredMesh& mesh,
-             const TiledBodyMesh& tiled,
-             std::shared_ptr<ServoTerrain> terrain,
-             const ServoMapOptions& options);
+/// The same with one of the maps in tiles: that which `tiled` was made for, from which `mesh` has
+/// been built. If there will be no recording, `maps` may be only one of them.
+std::shared_ptr<ServoMap> makeServoMap(const std::vector<std::shared_ptr<const Georeference>>& maps,
+                                       const LayeredMesh& mesh,
+                                       const TiledBodyMesh& tiled,
+                                       std::shared_ptr<ServoTerrain> terrain,
+                                       const ServoMapOptions& options);
 
 } // namespace marsview

@@ -55,16 +55,18 @@ std::shared_ptr<ServoMap> TouchMap::make(ContactModelKind kind,
                         {.kind = kind, .contact = {.radius_m = radius_m}, .map_id = map_id_});
 }
 
-std::shared_ptr<ServoMap>
-TouchMap::make(ContactModelKind kind,
-               const TiledBodyMesh& tiled,
-               const LayeredMesh& mesh,
-               const std::vector<std::shared_ptr<const Georeference>>& below,
-               double radius_m)
+std::shared_ptr<ServoMap> TouchMap::make(ContactModelKind kind,
+                                         const TiledBodyMesh& tiled,
+                                         const LayeredMesh& mesh,
+                                         std::vector<std::shared_ptr<const Georeference>> maps,
+                                         double radius_m)
 {
     MARSVIEW_CHECK(terrain_ != nullptr);
     stream();
-    return makeServoMap({map_.map, &map_.map->georeference()}, below, mesh, tiled, terrain_,
+    if (maps.empty()) {
+        maps.emplace_back(map_.map, &map_.map->georeference());
+    }
+    return makeServoMap(maps, mesh, tiled, terrain_,
                         {.kind = kind, .contact = {.radius_m = radius_m}, .map_id = map_id_});
 }
 

@@ -41,12 +41,12 @@ public:
     /// The same of a map in tiles on its body; the mesh is that of the map.
     std::shared_ptr<ServoMap>
     make(ContactModelKind kind, const std::shared_ptr<const TiledBodyMesh>& mesh, double radius_m);
-    /// The same, joined with maps below it: `mesh` has been made from `tiled`. `below` are these
-    /// maps, or nothing if there will be no recording.
+    /// The same, joined with other maps: `mesh` has been made from `tiled`. `maps` are all of them,
+    /// the uppermost first, or nothing if there will be no recording.
     std::shared_ptr<ServoMap> make(ContactModelKind kind,
                                    const TiledBodyMesh& tiled,
                                    const LayeredMesh& mesh,
-                                   const std::vector<std::shared_ptr<const Georeference>>& below,
+                                   std::vector<std::shared_ptr<const Georeference>> maps,
                                    double radius_m);
     /// The hand is gone: loading stops.
     void release();

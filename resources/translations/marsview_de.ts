@@ -2872,8 +2872,8 @@ y %2</translation>
 <context>
     <name>marsview::GlobeMeshes</name>
     <message>
-        <source>A map larger than memory is joined only with layers in memory that lie below it, and only without nodata</source>
-        <translation>Eine Karte, die größer als der Speicher ist, wird nur mit Ebenen im Speicher verbunden, die unter ihr liegen, und nur ohne Nodata</translation>
+        <source>Of layers on top of each other, only one may be larger than memory, and with nodata only the lowest</source>
+        <translation>Von übereinanderliegenden Ebenen darf nur eine größer als der Speicher sein, mit Nodata nur die unterste</translation>
     </message>
 </context>
 <context>

@@ -85,11 +85,25 @@ void GlobeHandScene::touch(std::size_t index)
                        .map_id = nextMapId(),
                        .joined = surface.joined,
                        .radius_m = surface.radius_m};
-    if (const BodyStylus::Surface& uppermost = surfaces[*touched()]; uppermost.tiled) {
+    if (const BodyStylus::Surface* in_tiles = tilesOf(index)) {
+        touched_->tiled = in_tiles->tiled;
         touched_->tiles = std::make_unique<TouchMap>(
-            SceneMap{.map = uppermost.map, .frame = uppermost.map->georeference().sceneFrame()},
+            SceneMap{.map = in_tiles->map, .frame = in_tiles->map->georeference().sceneFrame()},
             MapEnds::Meet);
     }
+}
+
+// Of the map with that index or those that it is joined with: the one in tiles, or null.
+const BodyStylus::Surface* GlobeHandScene::tilesOf(std::size_t index) const
+{
+    const auto& surfaces = globe_.meshes().ground()->surfaces;
+    const auto& joined = surfaces[index].joined;
+    const auto found =
+        std::find_if(surfaces.begin(), surfaces.end(), [&](const BodyStylus::Surface& surface) {
+            return surface.tiled &&
+                   (&surface == &surfaces[index] || (joined && surface.joined == joined));
+        });
+    return found != surfaces.end() ? &*found : nullptr;
 }
 
 // Of several maps, the uppermost, as long as all are shown in their order.
@@ -140,16 +154,18 @@ std::shared_ptr<ServoMap> GlobeHandScene::make(ContactModelKind kind) const
     const auto index = *touched();
     const BodyStylus::Surface& surface = globe_.meshes().ground()->surfaces[index];
     // At another exaggeration the same maps are joined again.
-    const auto& joined = surface.joined && isTouched(index) ? surface.joined : touched_->joined;
+    const bool is_joined = surface.joined && isTouched(index);
+    const auto& joined = is_joined ? surface.joined : touched_->joined;
     std::vector<std::shared_ptr<const Georeference>> maps;
     for (const BodyTerrain& terrain : touched_->maps) {
         maps.emplace_back(terrain.map(), &terrain.map()->georeference());
     }
     if (touched_->tiles) {
-        return maps.size() == 1
-                   ? touched_->tiles->make(kind, surface.tiled, touched_->radius_m)
-                   : touched_->tiles->make(kind, *surface.tiled, *joined,
-                                           {maps.begin() + 1, maps.end()}, touched_->radius_m);
+        if (maps.size() == 1) {
+            return touched_->tiles->make(kind, surface.tiled, touched_->radius_m);
+        }
+        const auto& tiled = is_joined ? tilesOf(index)->tiled : touched_->tiled;
+        return touched_->tiles->make(kind, *tiled, *joined, maps, touched_->radius_m);
     }
     const ServoMapOptions options{
         .kind = kind, .contact = {.radius_m = touched_->radius_m}, .map_id = touched_->map_id};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/session/body_terrain.h"
+#include "haptics/interaction/body_stylus.h"
 #include "ui/controllers/hand_scene.h"
 
 #include <cstdint>
@@ -63,10 +64,12 @@ private:
         std::uint64_t map_id = 0;
         std::shared_ptr<const LayeredMesh> joined{}; // the latest
         double radius_m = 1.0;
-        std::unique_ptr<TouchMap> tiles{}; // of the uppermost, if it is in tiles
+        std::shared_ptr<const TiledBodyMesh> tiled{}; // of which it has been made, or null
+        std::unique_ptr<TouchMap> tiles{};            // of this map
     };
 
     std::vector<BodyTerrain> surfaceOf(std::size_t index) const;
+    const BodyStylus::Surface* tilesOf(std::size_t index) const;
 
     BodyGround ground() const;
 

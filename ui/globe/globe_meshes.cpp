@@ -1,6 +1,6 @@
 #include "ui/globe/globe_meshes.h"
 
-#include "core/body/tiled_rim.h"
+#include "core/body/layered_mesh.h"
 #include "core/levels/waiting_terrain.h"
 #include "core/session/joined_maps.h"
 
@@ -62,8 +62,8 @@ struct Piles {
     bool is_tiled_apart = false; // some map in tiles lies on top of others or below them
 };
 
-// A pile is joined as a whole if its maps are in memory, except that the uppermost may be in tiles.
-// Of other piles, the maps in memory are joined.
+// A pile is joined as a whole if its maps are in memory, except for one, which has to be the lowest
+// if it cannot be cut out. Of other piles, the maps in memory are joined.
 Piles pilesIn(const GlobeMeshes::Ground& ground)
 {
     const auto is_tiled = [&](std::size_t i) { return ground.surfaces[i].tiled != nullptr; };
@@ -75,10 +75,11 @@ Piles pilesIn(const GlobeMeshes::Ground& ground)
     }
     Piles piles;
     for (std::vector<std::size_t>& pile : pilesOf(ground.scene, all)) {
-        const std::size_t top = pile.front();
-        const bool has_rim =
-            is_tiled(top) && TiledRim::canRead(*tileHeightsOf(*ground.surfaces[top].map));
-        if (std::none_of(pile.begin() + (has_rim ? 1 : 0), pile.end(), is_tiled)) {
+        const auto count = std::count_if(pile.begin(), pile.end(), is_tiled);
+        const auto in_tiles = std::find_if(pile.begin(), pile.end(), is_tiled);
+        if (count == 0 ||
+            (count == 1 && (in_tiles + 1 == pile.end() || LayeredMesh::canBeCutOut(*tileHeightsOf(
+                                                              *ground.surfaces[*in_tiles].map))))) {
             piles.joined.push_back(std::move(pile));
             continue;
         }
@@ -91,36 +92,26 @@ Piles pilesIn(const GlobeMeshes::Ground& ground)
     return piles;
 }
 
-// With a rim, if the map is in tiles. To touch it, each user puts it over a terrain of its own.
-Result<std::shared_ptr<const BodyMesh>> meshToJoin(const BodyStylus::Surface& surface,
-                                                   JobMonitor& monitor)
-{
-    if (!surface.tiled) {
-        return surface.mesh;
-    }
-    constexpr std::size_t kTiles = 4;
-    const auto terrain = std::make_shared<const WaitingTerrain>(
-        surface.map->heightfield().tiles()->raster(), tileHeightsOf(*surface.map), kTiles);
-    const auto rim = TiledRim::read(surface.tiled->grid()->positions(), *terrain, monitor);
-    if (!rim) {
-        return rim.error();
-    }
-    return surface.tiled->over(terrain, *rim);
-}
-
+// To touch a map in tiles, each user puts it over a terrain of its own.
 Result<std::shared_ptr<const LayeredMesh>> joinedOf(const std::vector<std::size_t>& pile,
                                                     const GlobeMeshes::Ground& ground,
                                                     JobMonitor& monitor)
 {
     std::vector<std::shared_ptr<const BodyMesh>> meshes;
+    std::shared_ptr<const WaitingTerrain> terrain;
     for (const std::size_t i : pile) {
-        auto mesh = meshToJoin(ground.surfaces[i], monitor);
-        if (!mesh) {
-            return std::move(mesh).error();
+        const BodyStylus::Surface& surface = ground.surfaces[i];
+        if (surface.tiled) {
+            terrain = std::make_shared<const WaitingTerrain>(
+                surface.map->heightfield().tiles()->raster(), tileHeightsOf(*surface.map));
         }
-        meshes.push_back(std::move(mesh).value());
+        meshes.push_back(surface.tiled ? surface.tiled->over(terrain) : surface.mesh);
     }
-    return LayeredMesh::build(meshes, monitor);
+    auto joined = LayeredMesh::build(meshes, monitor);
+    if (terrain && terrain->error()) {
+        return *terrain->error();
+    }
+    return joined;
 }
 
 // Each pile that can be joined becomes one surface.
@@ -132,10 +123,11 @@ void join(GlobeMeshes::Ground& ground, Piles piles, JobMonitor& monitor)
         const auto joined = joinedOf(pile, ground, monitor);
         if (!joined) {
             ground.why_apart = QString::fromStdString(joined.error().message);
-            if (ground.surfaces[pile.front()].tiled && !monitor.isCanceled()) {
-                pile.erase(pile.begin()); // what lies below it may be joined without it
-                for (std::vector<std::size_t>& below : pilesOf(ground.scene, pile)) {
-                    piles.joined.push_back(std::move(below));
+            const auto erased = std::erase_if(
+                pile, [&](std::size_t i) { return ground.surfaces[i].tiled != nullptr; });
+            if (erased > 0 && !monitor.isCanceled()) { // the others may be joined without it
+                for (std::vector<std::size_t>& in_memory : pilesOf(ground.scene, pile)) {
+                    piles.joined.push_back(std::move(in_memory));
                 }
             }
             continue;
@@ -254,8 +246,8 @@ void GlobeMeshes::prepare()
         const Piles piles = problem.isEmpty() ? pilesIn(ground) : Piles();
         if (piles.is_tiled_apart) {
             ground.why_apart =
-                tr("A map larger than memory is joined only with layers in memory "
-                   "that lie below it, and only without nodata");
+                tr("Of layers on top of each other, only one may be larger than memory, and with "
+                   "nodata only the lowest");
         }
         // At another exaggeration the earlier surface is touched until the maps are joined again.
         const bool is_whole =

@@ -115,40 +115,44 @@ NestedMaps levelStep()
     return {"LevelStep", {{fine(41, 33, 1000, 0.0), 200.0}, {lower}}};
 }
 
+std::shared_ptr<const FilledHeightfield> heightsOf(const NestedMap& nested)
+{
+    const BodyMap& map = nested.map;
+    std::vector<float> heights = fractalHeights(map.columns, map.rows, 7);
+    const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
+    const float middle = 0.5F * (*low + *high);
+    const float scale = static_cast<float>(map.relief_m) / std::max(*high - *low, 1e-6F);
+    for (std::size_t i = 0; i < heights.size(); ++i) {
+        const std::size_t column = i % map.columns;
+        const std::size_t row = i / map.columns;
+        if (nested.is_plain) {
+            // Of the sample's center.
+            const double longitude =
+                map.terms[0] + map.terms[1] * (static_cast<double>(column) + 0.5);
+            const double latitude = map.terms[3] + map.terms[5] * (static_cast<double>(row) + 0.5);
+            heights[i] = static_cast<float>(
+                std::round(1000.0 * std::sin(0.7 * longitude) * std::cos(1.1 * latitude)));
+        } else {
+            heights[i] = (heights[i] - middle) * scale + static_cast<float>(nested.raised_m);
+        }
+        // Single ones, groups, at the border, and two that touch at a corner only.
+        if (nested.has_voids &&
+            ((column == 3 && row == 3) || (column == 6 && row == 5) || (column == 0 && row == 6) ||
+             (column + 2 > map.columns && row > 4 && row < 8) ||
+             (column > 5 && column < 9 && row > 5 && row < 8) || (column == 4 && row == 5))) {
+            heights[i] = kVoid;
+        }
+    }
+    return filledTerrain(map.columns, heights);
+}
+
 std::vector<std::shared_ptr<const BodyMesh>> meshesOf(const NestedMaps& maps, double exaggeration)
 {
     std::vector<std::shared_ptr<const BodyMesh>> meshes;
     for (const NestedMap& nested : maps.maps) {
-        const BodyMap& map = nested.map;
-        std::vector<float> heights = fractalHeights(map.columns, map.rows, 7);
-        const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
-        const float middle = 0.5F * (*low + *high);
-        const float scale = static_cast<float>(map.relief_m) / std::max(*high - *low, 1e-6F);
-        for (std::size_t i = 0; i < heights.size(); ++i) {
-            const std::size_t column = i % map.columns;
-            const std::size_t row = i / map.columns;
-            if (nested.is_plain) {
-                // Of the sample's center.
-                const double longitude =
-                    map.terms[0] + map.terms[1] * (static_cast<double>(column) + 0.5);
-                const double latitude =
-                    map.terms[3] + map.terms[5] * (static_cast<double>(row) + 0.5);
-                heights[i] = static_cast<float>(
-                    std::round(1000.0 * std::sin(0.7 * longitude) * std::cos(1.1 * latitude)));
-            } else {
-                heights[i] = (heights[i] - middle) * scale + static_cast<float>(nested.raised_m);
-            }
-            // Single ones, groups, at the border, and two that touch at a corner only.
-            if (nested.has_voids &&
-                ((column == 3 && row == 3) || (column == 6 && row == 5) ||
-                 (column == 0 && row == 6) || (column + 2 > map.columns && row > 4 && row < 8) ||
-                 (column > 5 && column < 9 && row > 5 && row < 8) || (column == 4 && row == 5))) {
-                heights[i] = kVoid;
-            }
-        }
         JobMonitor monitor;
-        auto mesh = BodyMesh::build(filledTerrain(map.columns, heights), georeferenceOf(map),
-                                    exaggeration, monitor, Ellipsoid{3396190.0, 3376200.0});
+        auto mesh = BodyMesh::build(heightsOf(nested), georeferenceOf(nested.map), exaggeration,
+                                    monitor, Ellipsoid{3396190.0, 3376200.0});
         EXPECT_TRUE(mesh) << (mesh ? "" : mesh.error().message);
         meshes.push_back(std::move(mesh).value());
     }

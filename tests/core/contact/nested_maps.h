@@ -39,6 +39,7 @@ NestedMaps crossingMaps();
 NestedMaps beyondMaps();
 /// Without relief, the upper one 200 m above the lower one.
 NestedMaps levelStep();
+std::shared_ptr<const FilledHeightfield> heightsOf(const NestedMap& nested);
 std::vector<std::shared_ptr<const BodyMesh>> meshesOf(const NestedMaps& maps,
                                                       double exaggeration = 1.0);
 

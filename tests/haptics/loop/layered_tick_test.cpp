@@ -424,15 +424,44 @@ TEST(LayeredTickOnMars, AStrokeOntoAFinerMapAndBackChangesTheForceNoFasterThanIt
     EXPECT_EQ(stroke.allocations(), 0U);
 }
 
-// The upper map in tiles, about 200 m above the lower one; a millimeter is 100 m.
-class LayeredTickInTiles : public testing::Test {
+// The upper map is about 200 m above the lower one; a millimeter is 100 m. One of them is in tiles.
+struct InTiles {
+    std::string name;
+    NestedMaps maps;
+    std::size_t in_tiles;
+    GridPoint middle; // of the window of tiles
+    friend std::ostream& operator<<(std::ostream& out, const InTiles& tested)
+    {
+        return out << tested.name;
+    }
+};
+
+std::vector<InTiles> inTiles()
+{
+    const NestedMap fine{{"Fine", kTransverse, 300, 280, {-75000, 500, 0, 70000, 0, -500}, 100.0}};
+    const NestedMap coarse{
+        {"Coarse", "+proj=longlat +R=3396190", 81, 81, {224, 0.05, 0, 20, 0, -0.05}, 100.0},
+        -kStepM};
+    // Four tiles meet next to the middle of the eastern border.
+    const NestedMap below{{"Below",
+                           "+proj=longlat +R=3396190",
+                           300,
+                           360,
+                           {227.36 - 256 * 0.03, 0.03, 0, 18.02 + 256 * 0.03, 0, -0.03},
+                           100.0},
+                          -kStepM};
+    return {{"TheUpper", {"Upper", {fine, coarse}}, 0, {150.0, 140.0}},
+            {"TheLower", {"Lower", {fine, below}}, 1, {256.0, 256.0}}};
+}
+
+class LayeredTickInTiles : public testing::TestWithParam<InTiles> {
 protected:
     enum class Tiles { Coarsest, All };
 
     std::shared_ptr<Clipmap> window(Tiles tiles) const
     {
         const TiledMap& map = layers_.map;
-        auto window = std::make_shared<Clipmap>(map.window({150.0, 140.0}));
+        auto window = std::make_shared<Clipmap>(map.window(GetParam().middle));
         for (const bool has_coarser : {false, true}) {
             for (const TileId& id : tilesOf(*window)) {
                 if (tiles == Tiles::All && id.level < map.layout().topLevel()) {
@@ -445,14 +474,13 @@ protected:
     }
     std::shared_ptr<ServoMap> servoMap(const std::shared_ptr<ClipmapExchange>& exchange) const
     {
-        const auto& maps = layers_.georeferences;
-        return makeServoMap(maps[0], {maps[1]}, *layers_.joined, *layers_.tiled,
+        return makeServoMap(layers_.georeferences, *layers_.joined, *layers_.tiled,
                             std::make_shared<ServoTerrain>(exchange, layers_.map.heights), {});
     }
     Stroke strokeOver(std::shared_ptr<ServoMap> map) const
     {
         // In the middle of the eastern border.
-        return {layers_.lower->ellipsoid(), std::move(map),
+        return {layers_.ellipsoid(), std::move(map),
                 *layers_.georeferences[0]->toGeographic({299.0, 139.5}), 1e5};
     }
     static void overTheBorderAndBack(Stroke& stroke)
@@ -462,14 +490,15 @@ protected:
         }
     }
 
-    const TiledLayers layers_{
-        {"Fine", kTransverse, 300, 280, {-75000, 500, 0, 70000, 0, -500}, 100.0},
-        {{"Coarse", "+proj=longlat +R=3396190", 81, 81, {224, 0.05, 0, 20, 0, -0.05}, 100.0},
-         -kStepM},
-        1.0};
+    const TiledLayers layers_{GetParam().maps, GetParam().in_tiles, 1.0};
 };
 
-TEST_F(LayeredTickInTiles, AStrokeOverTheBorderHasTheForcesOfTheMapsInMemory)
+INSTANTIATE_TEST_SUITE_P(Maps,
+                         LayeredTickInTiles,
+                         testing::ValuesIn(inTiles()),
+                         [](const auto& tested) { return tested.param.name; });
+
+TEST_P(LayeredTickInTiles, AStrokeOverTheBorderHasTheForcesOfTheMapsInMemory)
 {
     Stroke tiles = strokeOver(servoMap(std::make_shared<ClipmapExchange>(window(Tiles::All))));
     Stroke memory =
@@ -497,7 +526,7 @@ TEST_F(LayeredTickInTiles, AStrokeOverTheBorderHasTheForcesOfTheMapsInMemory)
     EXPECT_LE(tiles.stepMaxN(), tiles.rateNPerS() * kTickS + 1e-9);
 }
 
-TEST_F(LayeredTickInTiles, TilesThatArriveDuringAStrokeChangeTheForceNoFasterThanItMay)
+TEST_P(LayeredTickInTiles, TilesThatArriveDuringAStrokeChangeTheForceNoFasterThanItMay)
 {
     const auto exchange = std::make_shared<ClipmapExchange>(window(Tiles::Coarsest));
     Stroke stroke = strokeOver(servoMap(exchange));
@@ -516,8 +545,8 @@ TEST_F(LayeredTickInTiles, TilesThatArriveDuringAStrokeChangeTheForceNoFasterTha
     EXPECT_LE(stroke.stepMaxN(), stroke.rateNPerS() * kTickS + 1e-9);
 }
 
-// A recording states both maps and the tiles of the upper one.
-TEST_F(LayeredTickInTiles, ARecordingHasBothMapsAndTheTiles)
+// A recording states both maps and the tiles of the one that is in tiles.
+TEST_P(LayeredTickInTiles, ARecordingHasBothMapsAndTheTiles)
 {
     const auto map = servoMap(std::make_shared<ClipmapExchange>(window(Tiles::All)));
     GroundLog log;

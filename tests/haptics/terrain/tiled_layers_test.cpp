@@ -1,6 +1,7 @@
-// Contact over a map in tiles that is joined with a map below it: whichever tiles are in memory,
-// that over both maps in memory with the same heights, which other tests prove by brute force.
-#include "core/body/tiled_rim.h"
+// Contact over a map in tiles that is joined with maps above or below it: whichever tiles are in
+// memory, that over all maps in memory with the same heights, which other tests prove by brute
+// force.
+#include "core/body/pinned_samples.h"
 #include "core/contact/contact_model.h"
 #include "core/contact/layered_surface.h"
 #include "core/levels/waiting_terrain.h"
@@ -29,12 +30,13 @@ namespace {
 using test::Arriving;
 using test::BodyMap;
 using test::NestedMap;
+using test::NestedMaps;
 using test::Random;
 using test::TiledLayers;
 
 struct Layers {
-    BodyMap fine;
-    NestedMap coarse;
+    NestedMaps maps;
+    std::size_t in_tiles;
 };
 
 NestedMap wholeMars(std::size_t columns, std::size_t rows, double raised_m)
@@ -44,27 +46,96 @@ NestedMap wholeMars(std::size_t columns, std::size_t rows, double raised_m)
     return {map, raised_m};
 }
 
+const char* const kTransverse = "+proj=tmerc +lat_0=18 +lon_0=226 +R=3396190 +units=m";
+const char* const kPolar = "+proj=stere +lat_0=90 +lon_0=0 +R=3396190 +units=m";
+const char* const kPlate = "+proj=longlat +R=3396190";
+
 // Of four tiles each: above, below and across the surface of a coarse map, in a cell of it, over a
 // pole, mirrored, and around the body, where a belt ends at two circles.
+std::vector<Layers> uppermostInTiles()
+{
+    const GeoTransform::Terms kilometers{-150000, 1000, 0, 140000, 0, -1000};
+    const auto layers = [](const BodyMap& fine, const NestedMap& coarse) {
+        return Layers{{fine.name, {{fine}, coarse}}, 0};
+    };
+    return {
+        layers({"Above", kTransverse, 300, 280, kilometers, 500.0}, wholeMars(72, 36, -6000.0)),
+        layers({"Below", kTransverse, 300, 280, kilometers, 500.0}, wholeMars(72, 36, 6000.0)),
+        layers({"Across", kTransverse, 300, 280, kilometers, 5000.0}, wholeMars(360, 180, 0.0)),
+        layers({"InACell", kTransverse, 300, 280, {-15000, 100, 0, 14000, 0, -100}, 50.0},
+               wholeMars(36, 18, -3000.0)),
+        layers({"OverThePole", kPolar, 300, 280, {-150000, 1000, 0, 130000, 0, -1000}, 500.0},
+               wholeMars(72, 36, -100.0)),
+        layers({"Mirrored", kTransverse, 300, 280, {-150000, 1000, 0, -140000, 0, 1000}, 500.0},
+               wholeMars(72, 36, -6000.0)),
+        layers({"Belt", kPlate, 480, 270, {-180, 0.75, 0, 70, 0, -0.25}, 3000.0},
+               wholeMars(36, 18, -500.0)),
+    };
+}
+
+// All of Mars in six tiles, below a map in memory: across the corner of four tiles, below it and
+// above it, with voids, in a cell, over a pole, across the first column, with samples at the same
+// places, coarser than the map below it; in between two maps; and with voids of its own.
+std::vector<Layers> lowerInTiles()
+{
+    const NestedMap planet = wholeMars(520, 270, 0.0);
+    const auto tmerc = [](double longitude, double latitude) {
+        return "+proj=tmerc +lat_0=" + std::to_string(latitude) +
+               " +lon_0=" + std::to_string(longitude) + " +R=3396190 +units=m";
+    };
+    // Column 256 and row 256 are the first of other tiles.
+    const std::string at_corner = tmerc(256.5 * 360.0 / 520.0, 90.0 - 256.5 * 180.0 / 270.0);
+    const GeoTransform::Terms tens{-205000, 10000, 0, 165000, 0, -10000};
+    const auto fine = [&](const std::string& crs, double relief_m) {
+        return BodyMap{"Fine", crs, 41, 33, tens, relief_m};
+    };
+    NestedMap planet_with_voids = planet;
+    planet_with_voids.has_voids = true;
+    const double column = 360.0 / 520.0;
+    const double row = 180.0 / 270.0;
+    const BodyMap aligned{"Aligned",
+                          kPlate,
+                          11,
+                          9,
+                          {254.0 * column, 2.0 * column, 0, 90.0 - 250.0 * row, 0, -2.0 * row},
+                          2000.0};
+    return {
+        {{"AboveTiles", {{fine(at_corner, 500.0), 6000.0}, planet}}, 1},
+        {{"BelowTiles", {{fine(at_corner, 500.0), -6000.0}, planet}}, 1},
+        {{"AcrossTiles", {{fine(at_corner, 5000.0), 0.0}, planet}}, 1},
+        {{"WithVoids", {{fine(at_corner, 500.0), 200.0, true}, planet}}, 1},
+        {{"InACellOfTiles",
+          {{{"Fine", at_corner, 23, 21, {-2300, 200, 0, 2100, 0, -200}, 50.0}, 3000.0}, planet}},
+         1},
+        {{"OverThePoleOfTiles",
+          {{{"Polar", kPolar, 31, 27, {-150000, 10000, 0, 130000, 0, -10000}, 2000.0}, 200.0},
+           planet}},
+         1},
+        {{"OverTheFirstColumn", {{fine(tmerc(0.0, 20.0), 500.0), 200.0}, planet}}, 1},
+        {{"AlignedWithTiles", {{aligned, 200.0}, planet}}, 1},
+        {{"TheSameHeights", {{aligned, 0.0, true, true}, {planet.map, 0.0, false, true}}}, 1},
+        {{"CoarseOverTiles",
+          {{{"Coarse", at_corner, 5, 4, {-1250000, 500000, 0, 1000000, 0, -500000}, 500.0}, 900.0},
+           planet}},
+         1},
+        {{"InBetween",
+          {{{"Finest", kTransverse, 41, 33, {-20500, 1000, 0, 16500, 0, -1000}, 300.0},
+            200.0,
+            true},
+           {{"Middle", kTransverse, 300, 280, {-150000, 1000, 0, 140000, 0, -1000}, 500.0}, -500.0},
+           wholeMars(72, 36, 0.0)}},
+         1},
+        {{"VoidsInTiles", {{fine(tmerc(5.0, 86.0), 500.0), 200.0}, planet_with_voids}}, 1},
+    };
+}
+
 std::vector<Layers> layers()
 {
-    const char* const transverse = "+proj=tmerc +lat_0=18 +lon_0=226 +R=3396190 +units=m";
-    const char* const polar = "+proj=stere +lat_0=90 +lon_0=0 +R=3396190 +units=m";
-    const char* const plate = "+proj=longlat +R=3396190";
-    const GeoTransform::Terms kilometers{-150000, 1000, 0, 140000, 0, -1000};
-    return {
-        {{"Above", transverse, 300, 280, kilometers, 500.0}, wholeMars(72, 36, -6000.0)},
-        {{"Below", transverse, 300, 280, kilometers, 500.0}, wholeMars(72, 36, 6000.0)},
-        {{"Across", transverse, 300, 280, kilometers, 5000.0}, wholeMars(360, 180, 0.0)},
-        {{"InACell", transverse, 300, 280, {-15000, 100, 0, 14000, 0, -100}, 50.0},
-         wholeMars(36, 18, -3000.0)},
-        {{"OverThePole", polar, 300, 280, {-150000, 1000, 0, 130000, 0, -1000}, 500.0},
-         wholeMars(72, 36, -100.0)},
-        {{"Mirrored", transverse, 300, 280, {-150000, 1000, 0, -140000, 0, 1000}, 500.0},
-         wholeMars(72, 36, -6000.0)},
-        {{"Belt", plate, 480, 270, {-180, 0.75, 0, 70, 0, -0.25}, 3000.0},
-         wholeMars(36, 18, -500.0)},
-    };
+    std::vector<Layers> all = uppermostInTiles();
+    for (Layers& more : lowerInTiles()) {
+        all.push_back(std::move(more));
+    }
+    return all;
 }
 
 void expectSameTriangles(const LayeredMesh& mesh, const LayeredMesh& expected)
@@ -96,7 +167,10 @@ class TiledLayersOf : public testing::TestWithParam<Layers> {};
 
 TEST_P(TiledLayersOf, HaveTheTrianglesOfTheSameHeightsInMemoryWhicheverTilesHaveArrived)
 {
-    const TiledLayers on(GetParam().fine, GetParam().coarse, 3.0);
+    const TiledLayers on(GetParam().maps, GetParam().in_tiles, 3.0);
+    // Those around the borders, and no other samples.
+    EXPECT_GT(on.pins().size(), 4U);
+    EXPECT_LT(on.pins().size(), on.map.layout().columns * on.map.layout().rows / 10);
     Random random(3);
     Arriving arriving(random, on.map, 1e9);
     const auto mesh = on.over(arriving.terrain());
@@ -123,7 +197,7 @@ INSTANTIATE_TEST_SUITE_P(AllLayers,
                          TiledLayersOf,
                          testing::ValuesIn(layers()),
                          [](const testing::TestParamInfo<Layers>& tested) {
-                             return tested.param.fine.name;
+                             return tested.param.maps.name;
                          });
 
 using Case = std::tuple<ContactModelKind, Layers>;
@@ -133,7 +207,7 @@ class TiledLayersContact : public testing::TestWithParam<Case> {};
 TEST_P(TiledLayersContact, HasTheProxiesOfTheSameHeightsInMemoryWhileTilesArrive)
 {
     const auto& [kind, tested] = GetParam();
-    const TiledLayers on(tested.fine, tested.coarse, 2.0);
+    const TiledLayers on(tested.maps, tested.in_tiles, 2.0);
     Random random(5);
     Arriving arriving(random, on.map, 1e9);
     const auto mesh = on.over(arriving.terrain());
@@ -201,7 +275,8 @@ std::vector<Case> cases()
     }
     for (const ContactModelKind kind : kContactModelKinds) {
         if (kind != kContactModelDefault) {
-            cases.emplace_back(kind, layers().front());
+            cases.emplace_back(kind, uppermostInTiles().front());
+            cases.emplace_back(kind, lowerInTiles().front());
         }
     }
     return cases;
@@ -213,52 +288,158 @@ INSTANTIATE_TEST_SUITE_P(AllModels,
                          [](const testing::TestParamInfo<Case>& tested) {
                              std::string name(contactModelName(std::get<0>(tested.param)));
                              std::replace(name.begin(), name.end(), '-', '_');
-                             return name + "_" + std::get<1>(tested.param).fine.name;
+                             return name + "_" + std::get<1>(tested.param).maps.name;
                          });
 
-TEST(TiledLayersRefused, AMapInTilesBelowOthersOrWithoutARim)
+// The samples of tiles that were read once, whatever is in memory later.
+TEST(TiledLayersPins, AreTheSamplesAroundTheBorderOfTheUpperMap)
 {
-    const TiledLayers on(layers().front().fine, layers().front().coarse, 1.0);
-    const auto waiting = std::make_shared<const WaitingTerrain>(
-        TiledRaster(on.cache, on.map.source), on.map.heights);
-    JobMonitor monitor;
-    for (const auto& maps : {std::vector{on.tiled->over(waiting), on.lower},
-                             std::vector{on.lower, on.joined->map(0)}}) {
-        const auto refused = LayeredMesh::build(maps, monitor);
-        ASSERT_FALSE(refused);
-        EXPECT_EQ(refused.error().code, ErrorCode::Unsupported);
+    const Layers layers = lowerInTiles().front();
+    const TiledLayers on(layers.maps, layers.in_tiles, 1.0);
+    const BodyPositions& positions = on.tiled->grid()->positions();
+    const auto cell_m = test::cellOf(*on.joined->tiledMap());
+    // All samples of the upper map's border, on the ellipsoid.
+    std::vector<ScenePoint> border;
+    on.meshes[0]->eachVertexAtBorder([&](BodyIndex vertex) {
+        const ScenePoint at = on.meshes[0]->vertex(vertex);
+        const BodyVertical vertical = verticalAt(on.ellipsoid(), at);
+        border.push_back(at - vertical.up * vertical.height_m);
+    });
+    ASSERT_EQ(border.size(), 2U * (41 + 33) - 4);
+    for (const ScenePoint& point : border) {
+        const auto at = on.tiled->locator()->find(point, std::nullopt);
+        ASSERT_TRUE(at);
+        const auto column = static_cast<std::size_t>(at->column);
+        const auto row = static_cast<std::size_t>(at->row) - positions.firstRow();
+        for (const std::size_t corner : {0U, 1U, 2U, 3U}) {
+            ASSERT_TRUE(on.pins().find(column + corner % 2, row + corner / 2))
+                << at->column << " " << at->row;
+        }
+    }
+    std::size_t pinned = 0;
+    for (std::size_t row = 0; row < positions.rows(); ++row) {
+        for (std::size_t column = 0; column < positions.columns(); ++column) {
+            const double* height_m = on.pins().find(column, row);
+            if (height_m == nullptr) {
+                continue;
+            }
+            ++pinned;
+            ASSERT_EQ(*height_m, on.map.filled->sample(column, row + positions.firstRow()));
+            const ScenePoint at = positions.at(column, row, 0.0);
+            double nearest_m = std::numeric_limits<double>::infinity();
+            for (const ScenePoint& point : border) {
+                nearest_m = std::min(nearest_m, length(at - point));
+            }
+            ASSERT_LT(nearest_m, 4.5 * cell_m) << column << " " << row;
+        }
+    }
+    EXPECT_EQ(pinned, on.pins().size());
+}
+
+// More than a table's places: none is lost, and no others are found.
+TEST(TiledLayersPins, FindTheirSamplesAndNoOthers)
+{
+    Random random(23);
+    for (const std::size_t columns : {std::size_t{7}, std::size_t{4096}, std::size_t{106'694}}) {
+        std::vector<PinnedSamples::Sample> samples;
+        // The border of a rectangle, two samples wide.
+        const auto width = static_cast<std::uint32_t>(std::min<std::size_t>(columns, 3000));
+        for (std::uint32_t row = 50'000; row < 51'000; ++row) {
+            for (std::uint32_t column = 0; column < width; ++column) {
+                if (row < 50'002 || row > 50'997 || column < 2 || column + 2 >= width) {
+                    samples.push_back({column, row, random.uniform(-1.0, 1.0)});
+                }
+            }
+        }
+        const PinnedSamples pins(columns, samples);
+        EXPECT_EQ(pins.size(), samples.size());
+        std::size_t next = 0;
+        for (std::uint32_t row = 49'990; row < 51'010; ++row) {
+            for (std::uint32_t column = 0; column < width; ++column) {
+                const double* found = pins.find(column, row);
+                if (next < samples.size() && samples[next].column == column &&
+                    samples[next].row == row) {
+                    ASSERT_TRUE(found) << column << " " << row;
+                    ASSERT_EQ(*found, samples[next++].height_m);
+                } else {
+                    ASSERT_FALSE(found) << column << " " << row;
+                }
+            }
+        }
+        EXPECT_EQ(next, samples.size());
     }
 }
 
-TEST(TiledLayersRefused, ABorderThatCannotBeRead)
+TEST(TiledLayersRefused, AMapInTilesWithVoidsAboveOthers)
 {
-    const TiledLayers on(layers().front().fine, layers().front().coarse, 1.0);
-    const BodyPositions& positions = on.tiled->grid()->positions();
-    const test::TiledMap damaged =
-        test::tiledMap(on.map.filled->heightfield(), {.before_read = [](const TileId& id) {
-                           return id == test::samplesTile(0, 1, 0)
-                                      ? std::optional(Error{ErrorCode::Invalid, "a damaged tile"})
-                                      : std::nullopt;
-                       }});
-    JobMonitor monitor;
-    const WaitingTerrain missing(TiledRaster(on.cache, damaged.source), on.map.heights);
-    const auto failed = TiledRim::read(positions, missing, monitor);
-    ASSERT_FALSE(failed);
-    EXPECT_EQ(failed.error().message, "a damaged tile");
-    monitor.cancel();
-    const WaitingTerrain whole(TiledRaster(on.cache, on.map.source), on.map.heights);
-    const auto canceled = TiledRim::read(positions, whole, monitor);
-    ASSERT_FALSE(canceled);
-    EXPECT_EQ(canceled.error().code, ErrorCode::Canceled);
-    // A map with voids has no rim.
-    EXPECT_TRUE(TiledRim::canRead(*on.map.heights));
     SampleGrid samples = SampleGrid::create(SampleType::Float32, 4, 4).value();
     const float nan = std::numeric_limits<float>::quiet_NaN();
     std::memcpy(samples.rowData(1), &nan, sizeof nan);
     const SampleStatistics statistics = samples.applyRule({}, 0, 4);
     const test::TiledMap with_void = test::tiledMap(
         Heightfield(std::make_shared<const SampleGrid>(std::move(samples)), statistics, {}));
-    EXPECT_FALSE(TiledRim::canRead(*with_void.heights));
+    EXPECT_FALSE(LayeredMesh::canBeCutOut(*with_void.heights));
+    const Layers layers = lowerInTiles().back(); // with voids in tiles
+    const TiledLayers on(layers.maps, layers.in_tiles, 1.0);
+    EXPECT_FALSE(LayeredMesh::canBeCutOut(*on.map.heights));
+    const auto waiting = std::make_shared<const WaitingTerrain>(
+        TiledRaster(on.cache, on.map.source), on.map.heights);
+    auto maps = on.meshesOver(waiting);
+    std::swap(maps[0], maps[1]);
+    JobMonitor monitor;
+    const auto refused = LayeredMesh::build(maps, monitor);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::Unsupported);
+}
+
+TEST(TiledLayersRefused, MoreThanTheLimitsOfMapsInTiles)
+{
+    const Layers layers = lowerInTiles().front();
+    const TiledLayers on(layers.maps, layers.in_tiles, 1.0);
+    const auto waiting = std::make_shared<const WaitingTerrain>(
+        TiledRaster(on.cache, on.map.source), on.map.heights);
+    const auto maps = on.meshesOver(waiting);
+    JobMonitor monitor;
+    std::size_t covered = 0;
+    for (BodyIndex face = 0; face < on.joined->firstCutFace(); ++face) {
+        covered += on.joined->isGone(face) ? 1U : 0U;
+    }
+    EXPECT_TRUE(LayeredMesh::build(maps, monitor, {.covered_faces_max = 10 * covered}));
+    for (const LayerLimits& limits :
+         {LayerLimits{.covered_faces_max = covered / 10}, LayerLimits{.cut_faces_max = 100}}) {
+        const auto refused = LayeredMesh::build(maps, monitor, limits);
+        ASSERT_FALSE(refused);
+        EXPECT_EQ(refused.error().code, ErrorCode::TooLarge);
+        // Maps in memory have no such limits.
+        EXPECT_TRUE(LayeredMesh::build(test::meshesOf(layers.maps), monitor, limits));
+    }
+    monitor.cancel();
+    const auto canceled = LayeredMesh::build(maps, monitor);
+    ASSERT_FALSE(canceled);
+    EXPECT_EQ(canceled.error().code, ErrorCode::Canceled);
+}
+
+// A tile that cannot be read is the error of the terrain that the maps are joined over.
+TEST(TiledLayersRefused, ABorderThatCannotBeRead)
+{
+    const Layers layers = lowerInTiles().front();
+    const TiledLayers on(layers.maps, layers.in_tiles, 1.0);
+    for (const std::size_t column : {std::size_t{0}, std::size_t{2}}) {
+        const test::TiledMap damaged = test::tiledMap(
+            on.map.filled->heightfield(), {.before_read = [column](const TileId& id) {
+                return id == test::samplesTile(0, column, 1)
+                           ? std::optional(Error{ErrorCode::Invalid, "a damaged tile"})
+                           : std::nullopt;
+            }});
+        TileCache cache({.bytes_max = std::size_t{8} << 20, .loader_threads = 1});
+        const auto missing = std::make_shared<const WaitingTerrain>(
+            TiledRaster(cache, damaged.source), on.map.heights);
+        JobMonitor monitor;
+        const auto built = LayeredMesh::build(on.meshesOver(missing), monitor);
+        // The tile at the seam is far from the border.
+        EXPECT_EQ(missing->error().has_value(), column == 0);
+        EXPECT_TRUE(built);
+    }
 }
 
 } // namespace

@@ -89,11 +89,15 @@ TEST_F(GlobeTiledTouchTest, ADeviceTouchesTheTerrainOfTheMapInMemory)
     device.disconnectDevice();
 }
 
-// Cells of 400 m in tiles, 2 km above all of Mars, which is in memory.
+enum class InTiles { Fine, Mars, Both };
+
+// Cells of 400 m, 2 km above all of Mars.
 class GlobeNestedTilesTest : public GlobeTest {
 protected:
-    void SetUp() override
+    void open(InTiles in_tiles)
     {
+        is_fine_in_tiles_ = in_tiles != InTiles::Mars;
+        is_mars_in_tiles_ = in_tiles != InTiles::Fine;
         mars_ = test::loadedMap(test::bundledMars());
         const test::MapMaker::Place place{
             300,
@@ -109,11 +113,13 @@ protected:
         });
         WindowOptions options = testWindowOptions();
         options.opener = large_.opener();
-        options.opener.open = [large = options.opener.open](const RasterSpec& spec,
-                                                            const MapResources& resources,
-                                                            JobMonitor& monitor) {
-            return spec.path == test::bundledMars() ? openMapOrPreview(spec, resources, monitor)
-                                                    : large(spec, resources, monitor);
+        options.opener.open = [this, large = options.opener.open](const RasterSpec& spec,
+                                                                  const MapResources& resources,
+                                                                  JobMonitor& monitor) {
+            const bool is_large =
+                spec.path == test::bundledMars() ? is_mars_in_tiles_ : is_fine_in_tiles_;
+            return is_large ? large(spec, resources, monitor)
+                            : openMapOrPreview(spec, resources, monitor);
         };
         options.make_drivers = testDrivers(hand_);
         makeWindow(kSmall, options);
@@ -122,7 +128,9 @@ protected:
         ASSERT_TRUE(openAndWait(*window_, QString::fromStdString(fine_->spec().path)));
         ASSERT_TRUE(waitFor([this] {
             const auto& layers = window_->session().layers;
-            return layers.size() == 2 && layers.front().map->heightfield().isTiled() &&
+            return layers.size() == 2 &&
+                   layers.front().map->heightfield().isTiled() == is_fine_in_tiles_ &&
+                   layers.back().map->heightfield().isTiled() == is_mars_in_tiles_ &&
                    !window_->controller().isBusy();
         }));
         ASSERT_TRUE(showGlobe());
@@ -137,7 +145,9 @@ protected:
         return waitFor([this] {
             const auto& ground = globe().meshes().ground();
             return globe().meshes().isComplete() && ground->surfaces.size() == 2 &&
-                   ground->surfaces[0].tiled && ground->surfaces[0].joined &&
+                   (ground->surfaces[0].tiled != nullptr) == is_fine_in_tiles_ &&
+                   (ground->surfaces[1].tiled != nullptr) == is_mars_in_tiles_ &&
+                   ground->surfaces[0].joined &&
                    ground->surfaces[1].joined == ground->surfaces[0].joined;
         });
     }
@@ -158,9 +168,24 @@ protected:
     std::shared_ptr<const Map> mars_;
     std::shared_ptr<const Map> fine_;
     GeographicPoint border_;
+    bool is_fine_in_tiles_ = true;
+    bool is_mars_in_tiles_ = false;
 };
 
-TEST_F(GlobeNestedTilesTest, TheMousePressesIntoBothAsOneSurface)
+class GlobeJoinedTilesTest : public GlobeNestedTilesTest,
+                             public testing::WithParamInterface<InTiles> {
+protected:
+    void SetUp() override { open(GetParam()); }
+};
+
+INSTANTIATE_TEST_SUITE_P(Maps,
+                         GlobeJoinedTilesTest,
+                         testing::Values(InTiles::Fine, InTiles::Mars),
+                         [](const auto& tested) {
+                             return tested.param == InTiles::Fine ? "TheUpper" : "TheLower";
+                         });
+
+TEST_P(GlobeJoinedTilesTest, TheMousePressesIntoBothAsOneSurface)
 {
     window_->actionSet().tools->actions().at(static_cast<int>(Tool::Touch))->trigger();
     ASSERT_TRUE(waitFor([this] { return globe().isTouchReady(); }));
@@ -182,7 +207,7 @@ TEST_F(GlobeNestedTilesTest, TheMousePressesIntoBothAsOneSurface)
     send(QEvent::MouseButtonRelease, west, Qt::NoButton);
 }
 
-TEST_F(GlobeNestedTilesTest, ADeviceStrokesOverTheBorderOnOneSurface)
+TEST_P(GlobeJoinedTilesTest, ADeviceStrokesOverTheBorderOnOneSurface)
 {
     DeviceSession& device = window_->haptics().device();
     device.connectTo(QStringLiteral("hand:"));
@@ -221,14 +246,15 @@ TEST_F(GlobeNestedTilesTest, ADeviceStrokesOverTheBorderOnOneSurface)
     window_->controller().setVisible(window_->session().layers.front().id, false);
     EXPECT_TRUE(waitFor([&] {
         const auto& map = device.settings().map;
-        return map->below.empty() && !map->terrain && map->map_id != id;
+        return map->below.empty() && (map->terrain != nullptr) == is_mars_in_tiles_ &&
+               map->map_id != id;
     }));
     device.disconnectDevice();
 }
 
-// The reason is stated.
-TEST_F(GlobeNestedTilesTest, AMapInTilesBelowAnotherOneIsTouchedByItself)
+TEST_F(GlobeNestedTilesTest, AMapInTilesThatIsCoveredIsJoinedToo)
 {
+    open(InTiles::Fine);
     const auto& layers = window_->session().layers;
     window_->controller().move(layers.back().id, 0);
     window_->actionSet().tools->actions().at(static_cast<int>(Tool::Touch))->trigger();
@@ -236,6 +262,21 @@ TEST_F(GlobeNestedTilesTest, AMapInTilesBelowAnotherOneIsTouchedByItself)
         const auto& ground = globe().meshes().ground();
         return globe().meshes().isComplete() && ground->surfaces.size() == 2 &&
                ground->surfaces[1].tiled;
+    }));
+    const auto& ground = globe().meshes().ground();
+    EXPECT_TRUE(ground->why_apart.isEmpty());
+    EXPECT_TRUE(ground->surfaces[0].joined);
+    EXPECT_EQ(ground->surfaces[0].joined, ground->surfaces[1].joined);
+}
+
+// The reason is stated.
+TEST_F(GlobeNestedTilesTest, TwoMapsInTilesAreTouchedOneByOne)
+{
+    open(InTiles::Both);
+    window_->actionSet().tools->actions().at(static_cast<int>(Tool::Touch))->trigger();
+    ASSERT_TRUE(waitFor([this] {
+        const auto& ground = globe().meshes().ground();
+        return globe().meshes().isComplete() && ground->surfaces.size() == 2;
     }));
     const auto& ground = globe().meshes().ground();
     EXPECT_FALSE(ground->why_apart.isEmpty());
