@@ -5800,7 +5800,7 @@ Bewegen Sie die Karte zu einer Ansicht, die Sie behalten wollen, und drücken Si
     <message>
         <source>All layers are hidden; check one in the list of layers</source>
         <extracomment>Shown in the middle of the window while no layer has a check mark</extracomment>
-        <translation>Alle Ebenen sind ausgeblendet; setzen Sie in der Ebenenliste ein Häkchen</translation>
+        <translation>Alle Layer sind ausgeblendet; setzen Sie in der Liste der Layer ein Häkchen</translation>
     </message>
     <message>
         <source>Drop a DEM here or press Ctrl+O</source>

@@ -169,8 +169,14 @@ TEST_F(RenderCommand, LooksAtTheGivenPosition)
         EXPECT_EQ(output.exit_status, 0) << output.err;
         const std::string bytes = pixels(png);
         const std::size_t middle = 50 * 101 + 50;
-        return std::array<char, 3>{bytes.at(middle), bytes.at(101 * 101 + middle),
-                                   bytes.at(2 * 101 * 101 + middle)};
+        const auto level = [&](std::size_t at) {
+            return static_cast<int>(static_cast<unsigned char>(bytes.at(at)));
+        };
+        return std::array<int, 3>{level(middle), level(101 * 101 + middle),
+                                  level(2 * 101 * 101 + middle)};
+    };
+    const auto distance = [](const std::array<int, 3>& a, const std::array<int, 3>& b) {
+        return std::max({std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])});
     };
     // The map coordinates of the middle of pixel (210, 50), and of points 10 pixels away from it.
     const auto place = [](double column, double row) {
@@ -183,9 +189,9 @@ TEST_F(RenderCommand, LooksAtTheGivenPosition)
              {220.0, 50.0},
              {210.0, 60.0},
          }) {
-        EXPECT_NE(middleOf(place(column, row)), mountain) << column << ", " << row;
+        EXPECT_GT(distance(middleOf(place(column, row)), mountain), 16) << column << ", " << row;
     }
-    EXPECT_EQ(middleOf(place(214, 54)), mountain);
+    EXPECT_LE(distance(middleOf(place(214, 54)), mountain), 2) << "shading apart";
 }
 
 TEST_F(RenderCommand, RefusesPositionsOutsideTheMap)

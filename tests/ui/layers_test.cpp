@@ -76,7 +76,7 @@ TEST_F(LayersTest, AreAddedOnTopAndShown)
 
 TEST_F(LayersTest, AViewWithoutVisibleLayersSaysThatTheyAreHidden)
 {
-    ASSERT_EQ(layers().size(), 1U);
+    ASSERT_TRUE(openAndWait(*window_, maps_.hill()));
     const auto* hint = window_->view()->findChild<QLabel*>(QStringLiteral("emptyHint"));
     EXPECT_FALSE(hint->isVisible());
     controller().setVisible(id(0), false);

@@ -373,6 +373,11 @@ void TerrainCanvas::drawFiner()
     if (!finer_) {
         return;
     }
+    if (scene_.isTouching()) {
+        finer_.reset(); // the smooth picture stays
+        finishStage();
+        return;
+    }
     view_.makeCurrent();
     const Result<bool> drawn = finer_->drawNext();
     if (drawn && finer_->isDone()) {
@@ -380,7 +385,7 @@ void TerrainCanvas::drawFiner()
     }
     view_.doneCurrent();
     if (!drawn) {
-        finer_.reset(); // the smooth picture stays
+        finer_.reset();
         finishStage();
     } else if (finer_->isDone()) {
         finer_.reset();

@@ -100,7 +100,10 @@ void PlaceDialog::fitFacts()
         facts->hasHeightForWidth() ? facts->heightForWidth(wanted.width()) : wanted.height();
     const int height_max =
         static_cast<int>(kScreenShareMax * screen()->availableGeometry().height());
-    const int bar = height > height_max ? scroll_->verticalScrollBar()->sizeHint().width() : 0;
+    const bool is_scrolled = height > height_max;
+    scroll_->setVerticalScrollBarPolicy(is_scrolled ? Qt::ScrollBarAsNeeded
+                                                    : Qt::ScrollBarAlwaysOff);
+    const int bar = is_scrolled ? scroll_->verticalScrollBar()->sizeHint().width() : 0;
     scroll_->setFixedSize(wanted.width() + bar, std::min(height, height_max));
 }
 
