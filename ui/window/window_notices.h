@@ -21,6 +21,7 @@ class TileDiskCache;
 struct CrsSuggestion;
 struct Layer;
 struct RasterInfo;
+struct UnitSuggestion;
 
 /// What the buttons of notices do outside the session.
 struct NoticeCommands {
