@@ -2,8 +2,8 @@
 // between x0 - 1/2 and x1 - 1/2 sum up to the difference of the heights there, each the mean of its
 // two neighbors. So only the samples on either side of texel borders count along a row, and
 // likewise along a column; beyond the map and in voids the next valid sample replaces them. For the
-// mean elevation all samples count. Where the sides of a map meet, its rows go on with the samples
-// of the other side, for as many texels as a tile's border has.
+// mean elevation all samples count. Where the sides of a map meet, its rows continue with the
+// samples of the other side, for as many texels as a tile's border has.
 
 #include "core/terrain/relief_tile.h"
 
@@ -133,7 +133,7 @@ private:
 class WindowRows {
 public:
     // The level's samples [first_column, first_column + columns) × likewise. A window that reaches
-    // beyond the last column goes on with the first one.
+    // beyond the last column continues with the first one.
     static Result<WindowRows>
     load(const Heightfield& heightfield, TileKind kind, std::size_t level, const GridWindow& window)
     {

@@ -53,7 +53,7 @@ struct ReliefTile {
     double height_reach_m = 1.0; // > 0
 };
 
-/// What lies beyond a map's first and last column: nothing, or the other one.
+/// Whether the terrain ends at a map's first and last column, or continues at the other side.
 enum class MapSides : std::uint8_t { End, Meet };
 
 /// Makes a tile from samples in memory, reading each of them once. Any thread. `slope_max` > 0:

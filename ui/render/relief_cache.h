@@ -35,7 +35,7 @@ public:
 
     /// Uploads a tile that is already loaded.
     void keep(const LayerNode& key, const ReliefTile& tile) { upload(key, tile); }
-    /// The same until the tile itself is made: it is missing when it is found.
+    /// The same only until the tile for that key has been made, which find() asks for.
     void keepInPlaceOf(const LayerNode& key, const ReliefTile& tile);
     /// Uploads at most `upload_max` finished tiles and begins to collect requests for missing ones.
     /// Tiles found from now on stay until the next call.
@@ -70,7 +70,7 @@ private:
     std::vector<std::optional<GlTexture>> pages_; // created when their first tile arrives
     std::vector<Heights> heights_;                // by slot
     std::vector<ReliefRequest> missing_;
-    std::vector<LayerNode> replaced_; // for now, by others
+    std::vector<LayerNode> replaced_; // by others until they are made
     ReliefLoader loader_;
 };
 

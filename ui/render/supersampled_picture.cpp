@@ -1,16 +1,15 @@
 #include "ui/render/supersampled_picture.h"
 
-#include "ui/render/offscreen_picture.h"
-
 #include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <numeric>
+#include <vector>
 
 namespace marsview {
 namespace {
 
-// Half a pixel, where there is room for so many texels beside those of the next picture in motion.
+// Half a pixel, if the store has room for that many texels and for those of the next picture.
 constexpr double kTexelSamples = 0.5 * kSamplesPerSide;
 
 // Of the picture, per side: some 600 samples.
@@ -40,6 +39,44 @@ private:
 int blocksAlong(int pixels)
 {
     return (pixels + kBlockSide - 1) / kBlockSide;
+}
+
+PixelArea areaOfSamples(const PixelArea& area)
+{
+    return {.left = area.left * kSamplesPerSide,
+            .bottom = area.bottom * kSamplesPerSide,
+            .width = area.width * kSamplesPerSide,
+            .height = area.height * kSamplesPerSide};
+}
+
+// The means of the samples of each of width × height pixels, rounded.
+void mergeSamples(const std::vector<std::uint8_t>& samples,
+                  int width,
+                  int height,
+                  const PartTarget& target)
+{
+    constexpr auto kSide = static_cast<std::size_t>(kSamplesPerSide);
+    constexpr unsigned kSamples = kSamplesPerSide * kSamplesPerSide;
+    const auto columns = static_cast<std::size_t>(width);
+    const std::size_t sample_row = 3 * kSide * columns;
+    std::vector<unsigned> sums(3 * columns);
+    for (std::ptrdiff_t y = 0; y < height; ++y) {
+        std::fill(sums.begin(), sums.end(), 0U);
+        for (std::size_t line = 0; line < kSide; ++line) {
+            const std::uint8_t* from =
+                samples.data() + (static_cast<std::size_t>(y) * kSide + line) * sample_row;
+            for (std::size_t x = 0; x < kSide * columns; ++x, from += 3) {
+                unsigned* sum = sums.data() + 3 * (x / kSide);
+                sum[0] += from[0];
+                sum[1] += from[1];
+                sum[2] += from[2];
+            }
+        }
+        std::transform(sums.begin(), sums.end(), target.first + y * target.line_length,
+                       [](unsigned sum) {
+                           return static_cast<std::uint8_t>((2 * sum + kSamples) / (2 * kSamples));
+                       });
+    }
 }
 
 } // namespace
@@ -73,8 +110,7 @@ int contrastOf(const Picture& picture)
                        .line_length = std::ptrdiff_t{3} * picture.width});
 }
 
-DrawRequest
-supersampled(const DrawRequest& request, TerrainRenderer& renderer, double exaggeration)
+DrawRequest supersampled(const DrawRequest& request, TerrainRenderer& renderer, double exaggeration)
 {
     DrawRequest samples = request;
     samples.viewport.width *= kSamplesPerSide;
@@ -83,49 +119,32 @@ supersampled(const DrawRequest& request, TerrainRenderer& renderer, double exagg
     samples.samples = 1;
     samples.scale = 1.0;
     samples.is_kept = false;
-    samples.part.reset();
+    samples.part.reset(); // the same texels in all parts
     samples.detail.texel_px = kTexelSamples * request.detail.texel_px;
     if (!renderer.hasRoomFor(samples, exaggeration)) {
         samples.detail.texel_px = kSamplesPerSide * request.detail.texel_px; // the same relief
     }
+    if (request.part) {
+        samples.part = areaOfSamples(*request.part);
+    }
     return samples;
 }
 
-PixelArea areaOfSamples(const PixelArea& area)
+Result<DrawReport> drawSupersampledPart(TerrainRenderer& renderer,
+                                        const DrawRequest& samples,
+                                        const DrawStyle& style,
+                                        const PartTarget& target,
+                                        const std::function<void()>& draw_over)
 {
-    return {.left = area.left * kSamplesPerSide,
-            .bottom = area.bottom * kSamplesPerSide,
-            .width = area.width * kSamplesPerSide,
-            .height = area.height * kSamplesPerSide};
-}
-
-void mergeSamples(const std::vector<std::uint8_t>& samples,
-                  int width,
-                  int height,
-                  const PartTarget& target)
-{
-    constexpr auto kSide = static_cast<std::size_t>(kSamplesPerSide);
-    constexpr unsigned kSamples = kSamplesPerSide * kSamplesPerSide;
-    const auto columns = static_cast<std::size_t>(width);
-    const std::size_t sample_row = 3 * kSide * columns;
-    std::vector<unsigned> sums(3 * columns);
-    for (std::ptrdiff_t y = 0; y < height; ++y) {
-        std::fill(sums.begin(), sums.end(), 0U);
-        for (std::size_t line = 0; line < kSide; ++line) {
-            const std::uint8_t* from =
-                samples.data() + (static_cast<std::size_t>(y) * kSide + line) * sample_row;
-            for (std::size_t x = 0; x < kSide * columns; ++x, from += 3) {
-                unsigned* sum = sums.data() + 3 * (x / kSide);
-                sum[0] += from[0];
-                sum[1] += from[1];
-                sum[2] += from[2];
-            }
-        }
-        std::transform(sums.begin(), sums.end(), target.first + y * target.line_length,
-                       [](unsigned sum) {
-                           return static_cast<std::uint8_t>((2 * sum + kSamples) / (2 * kSamples));
-                       });
+    const PixelArea& part = *samples.part;
+    const auto row = std::ptrdiff_t{3} * part.width;
+    std::vector<std::uint8_t> rgb(static_cast<std::size_t>(row * part.height));
+    Result<DrawReport> drawn =
+        drawPart(renderer, samples, style, {.first = rgb.data(), .line_length = row}, draw_over);
+    if (drawn && drawn->is_complete) {
+        mergeSamples(rgb, part.width / kSamplesPerSide, part.height / kSamplesPerSide, target);
     }
+    return drawn;
 }
 
 SupersampledPicture::SupersampledPicture(TerrainRenderer& renderer,
@@ -157,23 +176,18 @@ Result<bool> SupersampledPicture::drawNext()
 {
     const PixelArea area = block(next_);
     request_.part = areaOfSamples(area);
-    const auto row = static_cast<std::size_t>(request_.part->width) * 3;
-    std::vector<std::uint8_t> samples(row * static_cast<std::size_t>(request_.part->height));
-    const Result<DrawReport> drawn =
-        drawPart(renderer_, request_, style_,
-                 {.first = samples.data(), .line_length = static_cast<std::ptrdiff_t>(row)});
+    const auto line_length = std::ptrdiff_t{3} * colors_.width;
+    const Result<DrawReport> drawn = drawSupersampledPart(
+        renderer_, request_, style_,
+        {.first = colors_.rgb.data() + (colors_.height - area.bottom - area.height) * line_length +
+                  std::ptrdiff_t{3} * area.left,
+         .line_length = line_length});
     if (!drawn) {
         return drawn.error();
     }
     if (!drawn->is_complete) {
         return false;
     }
-    const auto line_length = std::ptrdiff_t{3} * colors_.width;
-    mergeSamples(samples, area.width, area.height,
-                 {.first = colors_.rgb.data() +
-                           (colors_.height - area.bottom - area.height) * line_length +
-                           std::ptrdiff_t{3} * area.left,
-                  .line_length = line_length});
     report_.triangle_count += drawn->triangle_count;
     report_.node_count += drawn->node_count;
     report_.error_px = std::max(report_.error_px, drawn->error_px / kSamplesPerSide);

@@ -8,7 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
+#include <functional>
 
 namespace marsview {
 
@@ -33,18 +33,16 @@ int contrastOf(const Picture& picture);
 /// (tests/bench/VIEW.md).
 inline constexpr int kSmoothContrastMax = 16;
 
-/// The request for the samples of a picture that `request` draws, without its part.
-DrawRequest supersampled(const DrawRequest& request,
-                         TerrainRenderer& renderer,
-                         double exaggeration);
-/// The samples of an area of the picture.
-PixelArea areaOfSamples(const PixelArea& area);
-/// The means of the samples of each of width × height pixels, rounded. `samples` has rows of 3 ×
-/// kSamplesPerSide × width bytes.
-void mergeSamples(const std::vector<std::uint8_t>& samples,
-                  int width,
-                  int height,
-                  const PartTarget& target);
+/// The request for the samples of the picture that `request` draws, or of its part.
+DrawRequest
+supersampled(const DrawRequest& request, TerrainRenderer& renderer, double exaggeration);
+/// As drawPart() with a request from supersampled(), whose part must be set. The target gets the
+/// mean of each pixel's samples, rounded.
+Result<DrawReport> drawSupersampledPart(TerrainRenderer& renderer,
+                                        const DrawRequest& samples,
+                                        const DrawStyle& style,
+                                        const PartTarget& target,
+                                        const std::function<void()>& draw_over = {});
 
 /// Draws a picture of any size block by block, each within some 50 ms in software. Use with the
 /// renderer's context current; must not outlive the renderer. No frame buffer is kept between

@@ -297,6 +297,15 @@ std::size_t reliefCount(const DetailSelection& selection)
     return seen.size();
 }
 
+DetailView viewOf(const DrawRequest& request, double exaggeration)
+{
+    return {.camera = request.camera,
+            .viewport = request.viewport,
+            .exaggeration = exaggeration,
+            .part = request.part,
+            .pose = request.body_pose};
+}
+
 // In pixels that are drawn.
 Viewport drawnSize(const DrawRequest& request)
 {
@@ -492,12 +501,7 @@ TerrainRenderer::Impl::select(Layer& layer, const DrawRequest& request, double e
         target.texel_px *= kRemoteTexel;
     }
     for (int i = 0;; ++i) {
-        DetailSelection selection = layer.selector.select({.camera = request.camera,
-                                                           .viewport = request.viewport,
-                                                           .exaggeration = exaggeration,
-                                                           .part = request.part,
-                                                           .pose = request.body_pose},
-                                                          target);
+        DetailSelection selection = layer.selector.select(viewOf(request, exaggeration), target);
         if (reliefCount(selection) <= room || i == kCoarserMax) {
             layer.texel_px = target.texel_px;
             return selection;
@@ -1131,13 +1135,8 @@ std::size_t TerrainRenderer::countTriangles(const DrawRequest& request, double e
 {
     std::size_t count = 0;
     for (const auto& layer : impl_->layers) {
-        count += layer->selector
-                     .select({.camera = request.camera,
-                              .viewport = request.viewport,
-                              .exaggeration = exaggeration,
-                              .pose = request.body_pose},
-                             request.detail)
-                     .triangle_count;
+        count +=
+            layer->selector.select(viewOf(request, exaggeration), request.detail).triangle_count;
     }
     return count;
 }
@@ -1146,12 +1145,8 @@ bool TerrainRenderer::hasRoomFor(const DrawRequest& request, double exaggeration
 {
     std::size_t relief_count = 0;
     for (const auto& layer : impl_->layers) {
-        relief_count += reliefCount(layer->selector.select({.camera = request.camera,
-                                                            .viewport = request.viewport,
-                                                            .exaggeration = exaggeration,
-                                                            .part = request.part,
-                                                            .pose = request.body_pose},
-                                                           request.detail));
+        relief_count +=
+            reliefCount(layer->selector.select(viewOf(request, exaggeration), request.detail));
     }
     return 2 * relief_count <= impl_->reliefs.size();
 }

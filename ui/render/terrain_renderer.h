@@ -27,7 +27,7 @@ struct DrawStyle {
     Rgb8 sky_bottom{34, 40, 50};
 };
 
-/// A pixel, for smooth edges.
+/// Samples per pixel for smooth edges.
 inline constexpr int kSmoothSamples = 4;
 
 /// One picture: from where, how large, how fine.
@@ -46,7 +46,7 @@ struct DrawRequest {
     std::optional<PixelArea> part{};
     /// A better picture follows at once: in software, colors are those of the mesh's place.
     bool is_interim = false;
-    /// Pixels along a side of those that are shown as one: contour lines are as many wide.
+    /// Drawn pixels along the side of one that is shown; contour lines are that wide.
     int pixels_shown_as_one = 1;
     std::optional<CameraPose> body_pose{}; // replaces `camera` where layers lie on their body
 
@@ -100,7 +100,7 @@ public:
     /// The load of draw(). Cheap: nothing is drawn.
     std::size_t countTriangles(const DrawRequest& request, double exaggeration);
 
-    /// Whether the shading of a picture leaves room in store for that of another one. Cheap too.
+    /// True if the shading of a picture leaves room for that of another one. Cheap too.
     bool hasRoomFor(const DrawRequest& request, double exaggeration);
 
     /// Draws into the frame buffer object `target` with what there is. Its depth buffer has 24 bits
