@@ -36,12 +36,19 @@ public:
             wanted_ = hand_->position;
         }
         // As a hand moves, 0.2 m/s: one that jumps slips (see PanOptions::grip_rate_n_per_s_max).
-        constexpr double kStepM = 2e-4;
+        // While the machine does other work, the hand waits: a tick lasts at most 10 ms for the
+        // loop.
+        constexpr double kSpeedMPerS = 0.2;
+        constexpr std::chrono::duration<double> kPauseMax(0.01);
+        const auto now = std::chrono::steady_clock::now();
+        const double step_m =
+            kSpeedMPerS *
+            std::min<std::chrono::duration<double>>(now - read_at_, kPauseMax).count();
+        read_at_ = now;
         const Vec3 way = wanted_ - at_;
         const double far_m = length(way);
-        at_ = far_m > kStepM ? at_ + way * (kStepM / far_m) : wanted_;
-        sample = {
-            .position = at_, .buttons = hand_->buttons, .time = std::chrono::steady_clock::now()};
+        at_ = far_m > step_m ? at_ + way * (step_m / far_m) : wanted_;
+        sample = {.position = at_, .buttons = hand_->buttons, .time = now};
         return DeviceStatus::Fine;
     }
     DeviceStatus write(const Vec3& force_n) noexcept override
@@ -57,6 +64,7 @@ private:
     DeviceCapabilities capabilities_;
     WorkspacePoint wanted_{};
     WorkspacePoint at_{};
+    std::chrono::steady_clock::time_point read_at_ = std::chrono::steady_clock::now();
 };
 
 class HandDriver final : public DeviceDriver {
