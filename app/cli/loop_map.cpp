@@ -47,7 +47,7 @@ Status putOnBody(const MapOptions& map,
     result.touch = std::make_unique<TouchMap>(
         SceneMap{.map = result.opened, .frame = georeference.sceneFrame()}, MapEnds::Meet);
     result.map = result.touch->make(options.kind, *tiled, radius_m);
-    result.mesh = (*tiled)->over(result.map->terrain->terrain());
+    result.mesh = (*tiled)->over(result.map->tiles.front().terrain->terrain());
     return Done{};
 }
 

@@ -22,6 +22,9 @@ public:
     /// than 30° from the nearest sample. About 1 µs, less if `start` is near.
     std::optional<GridPoint> find(const Vec3& point, const std::optional<GridPoint>& start) const;
 
+    /// The radius of a circle on the body around all of the grid, in meters along the surface; a
+    /// circle around all of the body for a grid that goes around it.
+    double reachM() const noexcept { return reach_ * grid_->ellipsoid().equatorial_m; }
     /// False only if the point is further than this from all of the grid.
     bool isNear(const Vec3& point, double margin_m) const noexcept;
 

@@ -66,6 +66,14 @@ LayeredMesh::build(const std::vector<std::shared_ptr<const BodyMesh>>& maps,
                      fmt::format("{} maps lie on top of each other; up to {} can be joined",
                                  maps.size(), kMapsMax)};
     }
+    const auto in_tiles = static_cast<std::size_t>(
+        std::count_if(maps.begin(), maps.end(), [](const auto& map) { return map->isTiled(); }));
+    if (in_tiles > kTiledMax) {
+        return Error{
+            ErrorCode::TooLarge,
+            fmt::format("{} maps in tiles lie on top of each other; up to {} can be joined",
+                        in_tiles, kTiledMax)};
+    }
     for (std::size_t i = 0; i + 1 < maps.size(); ++i) {
         if (const TileHeights* heights = maps[i]->tileHeights();
             heights != nullptr && !canBeCutOut(*heights)) {
@@ -177,15 +185,29 @@ LayeredMesh::build(const std::vector<std::shared_ptr<const BodyMesh>>& maps,
 }
 
 std::shared_ptr<const LayeredMesh>
-LayeredMesh::over(const std::shared_ptr<const BodyMesh>& tiled) const
+LayeredMesh::over(const std::vector<std::shared_ptr<const BodyMesh>>& tiled) const
 {
     std::shared_ptr<LayeredMesh> mesh(new LayeredMesh(*this));
-    const auto map = std::find_if(mesh->maps_.begin(), mesh->maps_.end(), [&tiled](const Map& own) {
-        return own.mesh->pins() && own.mesh->pins() == tiled->pins();
-    });
-    MARSVIEW_CHECK(map != mesh->maps_.end());
-    map->mesh = tiled;
+    for (const auto& one : tiled) {
+        const auto map =
+            std::find_if(mesh->maps_.begin(), mesh->maps_.end(), [&one](const Map& own) {
+                return own.mesh->pins() && own.mesh->pins() == one->pins();
+            });
+        MARSVIEW_CHECK(map != mesh->maps_.end());
+        map->mesh = one;
+    }
     return mesh;
+}
+
+std::vector<std::size_t> LayeredMesh::tiledMaps() const
+{
+    std::vector<std::size_t> tiled;
+    for (std::size_t i = 0; i < maps_.size(); ++i) {
+        if (maps_[i].mesh->isTiled()) {
+            tiled.push_back(i);
+        }
+    }
+    return tiled;
 }
 
 BodyIndex LayeredMesh::across(BodyIndex corner) const noexcept

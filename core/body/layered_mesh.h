@@ -48,9 +48,9 @@ private:
 /// border to a few thousandths of how far a cell lies below the curved surface: c² / 8R. All other
 /// triangles are those of BodyMesh, which stores none of them.
 ///
-/// Maps may be in tiles. Their samples along the borders of the maps are pinned, so that the stored
-/// triangles do not depend on the tiles in memory. Such a mesh is as constant as the terrains of
-/// these maps, and for the thread that has them: each user gets one by over().
+/// Several maps may be in tiles. Their samples along the borders of the maps are pinned, so that
+/// the stored triangles do not depend on the tiles in memory. Such a mesh is as constant as the
+/// terrains of these maps, and for the thread that has them: each user gets one by over().
 ///
 /// The same queries as TriangleMesh. Otherwise immutable, any thread; allocates nothing after
 /// construction. About 150 bytes per edge of a border, up to two bits per face that is covered, and
@@ -61,12 +61,14 @@ public:
     static constexpr Index kNone = BodyMesh::kNone;
     static constexpr double kCoordinateMaxM = BodyMesh::kCoordinateMaxM;
     static constexpr std::size_t kMapsMax = 32;
+    /// Of these, in tiles: a thread loads the tiles of each while they are touched.
+    static constexpr std::size_t kTiledMax = 8;
 
     /// The uppermost map first; all with the same ellipsoid and exaggeration. Maps in tiles are
     /// over a WaitingTerrain, whose error() makes the result worthless; only tiles along borders
     /// are read. Errors: Unsupported where the border of a map leads beyond the maps below it, or
     /// cannot be cut out of them, and for maps in tiles that cannot be cut out; TooLarge above
-    /// kMapsMax maps and beyond the limits; Canceled.
+    /// kMapsMax maps or kTiledMax in tiles, and beyond the limits; Canceled.
     static Result<std::shared_ptr<const LayeredMesh>>
     build(const std::vector<std::shared_ptr<const BodyMesh>>& maps,
           JobMonitor& monitor,
@@ -78,9 +80,10 @@ public:
         return heights.filledMaxima().empty();
     }
 
-    /// The same with a map in tiles over another terrain: `tiled` has the pins of one of the maps.
-    /// The stored triangles are shared.
-    std::shared_ptr<const LayeredMesh> over(const std::shared_ptr<const BodyMesh>& tiled) const;
+    /// The same with maps in tiles over other terrains: each of `tiled` has the pins of one of the
+    /// maps. The stored triangles are shared.
+    std::shared_ptr<const LayeredMesh>
+    over(const std::vector<std::shared_ptr<const BodyMesh>>& tiled) const;
 
     /// Faces that are cut or covered are counted, but none of the queries finds them.
     std::size_t faceCount() const noexcept { return map_faces_ + cut_->faces.size(); }
@@ -90,13 +93,8 @@ public:
     {
         return maps_[index].mesh;
     }
-    /// The uppermost of the maps in tiles; null without any.
-    std::shared_ptr<const BodyMesh> tiledMap() const noexcept
-    {
-        const auto found = std::find_if(maps_.begin(), maps_.end(),
-                                        [](const Map& map) { return map.mesh->isTiled(); });
-        return found == maps_.end() ? nullptr : found->mesh;
-    }
+    /// The indices of the maps in tiles, the uppermost first.
+    std::vector<std::size_t> tiledMaps() const;
     double exaggeration() const noexcept { return maps_.front().mesh->exaggeration(); }
     const Ellipsoid& ellipsoid() const noexcept
     {

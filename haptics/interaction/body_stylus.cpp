@@ -99,31 +99,35 @@ void BodyStylus::deepen(double factor)
         std::clamp(reach_.depth_points * factor, kStylusDepthMin, kStylusDepthMax);
 }
 
-// The map in tiles that a surface has or is joined with; null without one.
-const BodyStylus::Surface* BodyStylus::tilesOf(const Surface& surface) const
+// The maps in tiles that a surface has or is joined with, the uppermost first.
+std::vector<const BodyStylus::Surface*> BodyStylus::tilesOf(const Surface& surface) const
 {
-    if (!surface.joined) {
-        return surface.tiled ? &surface : nullptr;
+    std::vector<const Surface*> tiles;
+    for (const Surface& other : surfaces_) {
+        const bool is_part =
+            &other == &surface || (surface.joined && other.joined == surface.joined);
+        if (is_part && other.tiled) {
+            tiles.push_back(&other);
+        }
     }
-    const auto found =
-        std::find_if(surfaces_.begin(), surfaces_.end(), [&surface](const Surface& other) {
-            return other.joined == surface.joined && other.tiled;
-        });
-    return found != surfaces_.end() ? &*found : nullptr;
+    return tiles;
 }
 
 void BodyStylus::makeModel()
 {
     const Surface& surface = surfaces_[at_.index];
-    if (const Surface* tiles = tilesOf(surface)) {
-        if (!touch_) {
-            touch_ = std::make_unique<TouchMap>(
-                SceneMap{.map = tiles->map, .frame = tiles->map->georeference().sceneFrame()},
-                MapEnds::Meet);
+    if (const std::vector<const Surface*> tiles = tilesOf(surface); !tiles.empty()) {
+        std::vector<std::shared_ptr<const Map>> maps;
+        std::vector<std::shared_ptr<const TiledBodyMesh>> tiled;
+        for (const Surface* one : tiles) {
+            maps.push_back(one->map);
+            tiled.push_back(one->tiled);
         }
-        made_ = surface.joined
-                    ? touch_->make(kind_, *tiles->tiled, *surface.joined, {}, surface.radius_m)
-                    : touch_->make(kind_, surface.tiled, surface.radius_m);
+        if (!touch_) {
+            touch_ = std::make_unique<TouchMap>(maps);
+        }
+        made_ = surface.joined ? touch_->make(kind_, tiled, *surface.joined, {}, surface.radius_m)
+                               : touch_->make(kind_, surface.tiled, surface.radius_m);
         model_ = {made_, made_->model.get()};
         return;
     }

@@ -34,7 +34,7 @@ public:
         std::shared_ptr<const TiledBodyMesh> tiled{};
         std::shared_ptr<const Map> map{};
         /// The map joined with others, which is pressed in place of the mesh; null for a map by
-        /// itself. Surfaces that share it are one. At most one of them is in tiles.
+        /// itself. Surfaces that share it are one.
         std::shared_ptr<const LayeredMesh> joined{};
         double radius_m = 1.0; // of the sphere of a VirtualProxy
 
@@ -72,7 +72,7 @@ public:
     const Vec3& up() const noexcept { return at_.up; }
 
 private:
-    const Surface* tilesOf(const Surface& surface) const;
+    std::vector<const Surface*> tilesOf(const Surface& surface) const;
     void makeModel();
     void releaseModel();
     void press(const ScenePoint& goal);

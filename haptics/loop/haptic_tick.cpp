@@ -484,36 +484,46 @@ private:
 
     void refreshTerrain(double stiffness) noexcept
     {
-        if (map_->terrain == nullptr || is_rehearsal_) {
+        if (is_rehearsal_) {
             return;
         }
-        ServoTerrain& terrain = *map_->terrain;
-        const auto [at, column_share] = map_->surface->onGrid(
-            state_.has_touched ? state_.contact.proxy : state_.frame.toScene(state_.hand));
-        const double per_s = dt_s_ > 0.0 && state_.has_touched ? 1.0 / dt_s_ : 0.0;
-        const double turn = map_->surface->columnsPerTurn();
-        const double columns = at.column - state_.at.column;
-        const HandMotion motion{.at = at,
-                                .columns_per_s =
-                                    (turn > 0.0 ? std::remainder(columns, turn) : columns) * per_s,
-                                .rows_per_s = (at.row - state_.at.row) * per_s,
-                                .column_share = column_share,
-                                .time_ns = input_.now.time_since_epoch() / nanoseconds(1),
-                                .is_active = true};
-        state_.at = at;
         // Newly arrived terrain may change the force at most at this rate.
         constexpr double kForceRateNPerS = 20.0;
-        terrain.resident().setRate(
+        const double rate_m_per_s =
             std::max(1e-3, kForceRateNPerS * state_.frame.scene_per_meter /
-                               (std::max(stiffness, 1.0) * map_->frame.exaggeration())));
-        terrain.resident().resetMisses();
-        if (terrain.refresh(motion, dt_s_)) {
+                               (std::max(stiffness, 1.0) * map_->frame.exaggeration()));
+        for (std::size_t i = 0; i < map_->tiles.size(); ++i) {
+            ServoTerrain& terrain = *map_->tiles[i].terrain;
+            terrain.resident().setRate(rate_m_per_s);
+            terrain.resident().resetMisses();
+            result_.has_ground_changed =
+                terrain.refresh(motionOver(i), dt_s_) || result_.has_ground_changed;
+            if (terrain.silence(input_.now) > options_.terrain_age_max) {
+                note(ForceOffReason::TerrainStale);
+            }
+        }
+        if (result_.has_ground_changed) {
             map_->model->terrainChanged();
-            result_.has_ground_changed = true;
         }
-        if (terrain.silence(input_.now) > options_.terrain_age_max) {
-            note(ForceOffReason::TerrainStale);
-        }
+    }
+
+    // Of the proxy over a map in tiles.
+    HandMotion motionOver(std::size_t tiles) noexcept
+    {
+        const auto [at, column_share, is_near] = map_->surface->onGrid(
+            state_.has_touched ? state_.contact.proxy : state_.frame.toScene(state_.hand), tiles);
+        std::optional<GridPoint>& last = state_.at[tiles];
+        const double per_s = dt_s_ > 0.0 && state_.has_touched && last ? 1.0 / dt_s_ : 0.0;
+        const double turn = map_->surface->columnsPerTurn(tiles);
+        const GridPoint before = last.value_or(at);
+        const double columns = at.column - before.column;
+        last = is_near ? std::optional(at) : std::nullopt;
+        return {.at = at,
+                .columns_per_s = (turn > 0.0 ? std::remainder(columns, turn) : columns) * per_s,
+                .rows_per_s = (at.row - before.row) * per_s,
+                .column_share = column_share,
+                .time_ns = input_.now.time_since_epoch() / nanoseconds(1),
+                .is_active = is_near};
     }
 
     // Whether there is terrain below the hand. From inside, the edge of the map is a wall; beside
@@ -566,11 +576,12 @@ private:
         if (!is_rehearsal_) {
             map_->is_touched = true;
         }
-        if (map_->terrain != nullptr) {
-            const auto missed = map_->terrain->resident().misses().count;
-            result_.missed_samples =
-                static_cast<std::uint32_t>(std::min<std::uint64_t>(missed, UINT32_MAX));
+        std::uint64_t missed = 0;
+        for (const ServoTiles& tiles : map_->tiles) {
+            missed += tiles.terrain->resident().misses().count;
         }
+        result_.missed_samples =
+            static_cast<std::uint32_t>(std::min<std::uint64_t>(missed, UINT32_MAX));
         constexpr double kBelowM = 1e-5;
         state_.is_lost = isOnBody() && !state_.contact.is_in_contact && clearance() < -kBelowM;
         if (state_.contact.counters.refused != 0) {

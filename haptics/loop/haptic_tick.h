@@ -127,7 +127,8 @@ struct TickState {
     ContactState contact;      // the last
     TracePoint proxy{};        // the same as in recordings
     ScenePoint goal{};
-    GridPoint at{}; // of the proxy, in the last tick
+    /// Of the proxy, in the last tick, on each of ServoMap::tiles; empty away from it.
+    std::array<std::optional<GridPoint>, LayeredMesh::kTiledMax> at{};
     ModeState modes;
     BodyModeState body_modes;   // of a map on its body
     Vec3 surface_force_n{};     // the last, on the hand

@@ -62,8 +62,10 @@ void ServoCore::begin()
 void ServoCore::end()
 {
     rested_at_ = steady_clock::now();
-    if (const auto& map = settings_.front().map; map && map->terrain) {
-        map->terrain->leave();
+    if (const auto& map = settings_.front().map) {
+        for (const ServoTiles& tiles : map->tiles) {
+            tiles.terrain->leave();
+        }
     }
 }
 

@@ -13,12 +13,21 @@ GroundPart partOf(std::uint64_t serial, const Georeference& georeference, const 
             .frame = frame};
 }
 
+std::optional<std::uint32_t> indexOf(const ServoMap& map, std::size_t tiles) noexcept
+{
+    return map.below.empty() ? std::nullopt
+                             : std::optional(static_cast<std::uint32_t>(map.tiles[tiles].map));
+}
+
 } // namespace
 
 std::optional<std::uint32_t>
 GroundLog::record(const ServoMap& map, bool was_notified, Queue& queue) noexcept
 {
-    if (queue.room() < kMax) {
+    const std::size_t most =
+        2 + map.below.size() +
+        map.tiles.size() * (ResidentTerrain::kLevelsMax + ClipmapBlend::kTilesMax);
+    if (queue.room() < most) {
         return std::nullopt;
     }
     std::uint32_t count = 0;
@@ -38,28 +47,30 @@ GroundLog::record(const ServoMap& map, bool was_notified, Queue& queue) noexcept
         shown_ = {};
         is_blending_ = false;
     }
-    if (map.terrain == nullptr) {
-        return count; // a map in memory is always complete
-    }
-    const ResidentTerrain& terrain = map.terrain->resident();
     bool has_changed = was_notified;
-    for (std::size_t k = 0; k < terrain.window().levelCount(); ++k) {
-        const ShownTiles& shown = terrain.shown(k);
-        if (shown != shown_[k]) {
-            shown_[k] = shown;
-            has_changed = true;
-            put(GroundLevel{k, shown});
+    bool is_blending = false;
+    for (std::size_t i = 0; i < map.tiles.size(); ++i) {
+        const ResidentTerrain& terrain = map.tiles[i].terrain->resident();
+        is_blending = is_blending || !terrain.blend().isEmpty();
+        for (std::size_t k = 0; k < terrain.window().levelCount(); ++k) {
+            const ShownTiles& shown = terrain.shown(k);
+            if (shown != shown_[i][k]) {
+                shown_[i][k] = shown;
+                has_changed = true;
+                put(GroundLevel{k, shown, indexOf(map, i)});
+            }
         }
     }
-    const bool was_blending = is_blending_;
-    is_blending_ = !terrain.blend().isEmpty();
     // A changing blend is reported again.
-    if (has_changed || is_blending_ != was_blending) {
-        terrain.blend().eachTile([&put](const TileId& id, double weight) {
-            put(GroundTile{id, weight});
-        });
+    if (has_changed || is_blending != is_blending_) {
+        for (std::size_t i = 0; i < map.tiles.size(); ++i) {
+            map.tiles[i].terrain->resident().blend().eachTile([&](const TileId& id, double weight) {
+                put(GroundTile{id, weight, indexOf(map, i)});
+            });
+        }
         put(GroundFelt{was_notified ? map.serial : 0});
     }
+    is_blending_ = is_blending;
     return count;
 }
 

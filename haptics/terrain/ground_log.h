@@ -16,7 +16,8 @@ namespace marsview {
 /// Reports only changes since the last report. Servo thread only; does not allocate or wait.
 class GroundLog {
 public:
-    /// Room for 212 ticks with the maximum number of records. A recorder polls every 20 ms.
+    /// Room for 214 ticks with the maximum number of records where one map is in tiles, and for 33
+    /// where eight are. A recorder polls every 20 ms.
     using Queue = SpscQueue<GroundRecord, 1U << 15>;
 
     /// The next report starts from the beginning.
@@ -28,12 +29,11 @@ public:
     record(const ServoMap& map, bool was_notified, Queue& queue) noexcept;
 
 private:
-    static constexpr std::size_t kMax = // per tick
-        2 + LayeredMesh::kMapsMax + ResidentTerrain::kLevelsMax + ClipmapBlend::kTilesMax;
+    using ShownLevels = std::array<ShownTiles, ResidentTerrain::kLevelsMax>;
 
     std::uint64_t serial_ = 0;
     std::uint64_t map_id_ = 0;
-    std::array<ShownTiles, ResidentTerrain::kLevelsMax> shown_{};
+    std::array<ShownLevels, LayeredMesh::kTiledMax> shown_{}; // by ServoMap::tiles
     bool is_blending_ = false;
 };
 

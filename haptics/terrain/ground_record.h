@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <type_traits>
 #include <variant>
 
@@ -35,6 +36,9 @@ struct GroundBelow {
 struct GroundLevel {
     std::size_t level = 0;
     ShownTiles shown;
+    /// Of joined maps, whose tiles: 0 is the uppermost. Empty for a map by itself, and in older
+    /// recordings, where only one of the maps was in tiles.
+    std::optional<std::uint32_t> map{};
 
     bool operator==(const GroundLevel&) const = default;
 };
@@ -43,12 +47,13 @@ struct GroundLevel {
 /// weight.
 struct GroundTile {
     TileId id;
-    double weight = 1.0; // in [0, 1), ClipmapBlend's
+    double weight = 1.0;                // in [0, 1), ClipmapBlend's
+    std::optional<std::uint32_t> map{}; // as in GroundLevel
 
     bool operator==(const GroundTile&) const = default;
 };
 
-/// Applies the records before this one.
+/// Applies the records before this one, of all maps.
 struct GroundFelt {
     std::uint64_t changed_part = 0; // part whose model got ContactModel::terrainChanged(); 0: none
 

@@ -57,7 +57,10 @@ public:
     {
         return point.z - surface_.height(below(point));
     }
-    OnGrid onGrid(const ScenePoint& point) const noexcept override { return {below(point)}; }
+    OnGrid onGrid(const ScenePoint& point, std::size_t /*tiles*/) const noexcept override
+    {
+        return {below(point)};
+    }
     HighWay highWay(const ScenePoint& proxy, const TracePoint& goal) const noexcept override
     {
         constexpr double kAboveAllM = 1e6;
@@ -108,11 +111,14 @@ class BodyTouch final : public TouchSurface {
 public:
     BodyTouch(const BodyGoalFrame& frame,
               Surface surface,
-              std::shared_ptr<const BodyLocator> locator)
+              const std::vector<std::shared_ptr<const BodyLocator>>& locators)
         : frame_(frame)
         , surface_(std::move(surface))
-        , locator_(std::move(locator))
-    {}
+    {
+        for (const auto& locator : locators) {
+            tiles_.push_back({.locator = locator});
+        }
+    }
 
     ScenePoint toScene(const TracePoint& goal) const noexcept override
     {
@@ -136,32 +142,37 @@ public:
     {
         return below(point).clearance_m;
     }
-    OnGrid onGrid(const ScenePoint& point) const noexcept override
+    OnGrid onGrid(const ScenePoint& point, std::size_t tiles) const noexcept override
     {
-        if (!locator_) {
-            return {};
+        const BodyLocator& locator = *tiles_[tiles].locator;
+        std::optional<GridPoint>& at = tiles_[tiles].at;
+        const BodyGrid& grid = locator.grid();
+        if constexpr (isJoined()) {
+            const double radius_m = grid.ellipsoid().equatorial_m;
+            if (!locator.isNear(point * (radius_m / length(point)), locator.reachM())) {
+                at.reset();
+                return {.at = {}, .is_near = false};
+            }
         }
-        const BodyGrid& grid = locator_->grid();
         const BodyVertical vertical = verticalAt(grid.ellipsoid(), point);
-        const auto found = locator_->find(point - vertical.up * vertical.height_m, at_);
-        at_ = found ? found : at_.value_or(GridPoint{});
-        const double turn = columnsPerTurn();
+        const auto found = locator.find(point - vertical.up * vertical.height_m, at);
+        at = found ? found : at.value_or(GridPoint{});
+        const double turn = columnsPerTurn(tiles);
         if (turn > 0.0) {
-            at_->column -= turn * std::floor(at_->column / turn);
+            at->column -= turn * std::floor(at->column / turn);
         }
         const auto along = [](double value, std::size_t count) {
             return std::clamp(value, 0.0, static_cast<double>(count - 1));
         };
-        at_ = {along(at_->column, grid.columns()), along(at_->row, grid.rows())};
+        at = {along(at->column, grid.columns()), along(at->row, grid.rows())};
         const BodyGrid::Steps steps =
-            grid.steps(static_cast<std::size_t>(at_->column), static_cast<std::size_t>(at_->row));
-        return {*at_, length(steps.column) / length(steps.row)};
+            grid.steps(static_cast<std::size_t>(at->column), static_cast<std::size_t>(at->row));
+        return {*at, length(steps.column) / length(steps.row)};
     }
-    double columnsPerTurn() const noexcept override
+    double columnsPerTurn(std::size_t tiles) const noexcept override
     {
-        return locator_ && locator_->grid().closes()
-                   ? static_cast<double>(locator_->grid().positions().columns())
-                   : 0.0;
+        const BodyGrid& grid = tiles_[tiles].locator->grid();
+        return grid.closes() ? static_cast<double>(grid.positions().columns()) : 0.0;
     }
     // Between two points three radii from the center, less than a right angle apart, a straight
     // path stays more than two radii from it.
@@ -188,7 +199,7 @@ public:
     }
     bool isHeldByWall(const ScenePoint& proxy, const TracePoint& goal) const noexcept override
     {
-        if constexpr (std::is_same_v<Surface, LayeredSurface>) {
+        if constexpr (isJoined()) {
             const ScenePoint to = frame_.toScene(goal);
             return isAgainstWall(*surface_.mesh(), proxy, to - proxy) &&
                    -clearanceOver(surface_, to) < length(to - proxy);
@@ -199,6 +210,12 @@ public:
     const Ellipsoid* body() const noexcept override { return &frame_.ellipsoid(); }
 
 private:
+    struct Tiles {
+        std::shared_ptr<const BodyLocator> locator;
+        std::optional<GridPoint> at{}; // found last
+    };
+
+    static constexpr bool isJoined() noexcept { return std::is_same_v<Surface, LayeredSurface>; }
     // A tick asks several times for the same point.
     const BodyBelow& below(const ScenePoint& point) const noexcept
     {
@@ -211,8 +228,7 @@ private:
 
     BodyGoalFrame frame_;
     Surface surface_;
-    std::shared_ptr<const BodyLocator> locator_; // of a map in tiles
-    mutable std::optional<GridPoint> at_;        // found last
+    mutable std::vector<Tiles> tiles_; // of the maps in tiles
     mutable ScenePoint asked_{std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0};
     mutable BodyBelow below_; // of asked_
 };
@@ -226,16 +242,19 @@ std::shared_ptr<ServoMap> madeOf(const GoalFrame& frame,
     std::unique_ptr<MapContactModel> model =
         makeContactModel(options.kind, surface, options.contact);
     MapContactModel* const map_model = model.get();
-    return std::make_shared<ServoMap>(
+    auto map = std::make_shared<ServoMap>(
         ServoMap{.frame = frame,
                  .model = std::move(model),
                  .map_model = map_model,
                  .surface = std::make_unique<FlatTouch<Surface>>(frame, surface),
-                 .terrain = std::move(terrain),
                  .kind = options.kind,
                  .radius_m = options.contact.radius_m,
                  .map_id = options.map_id,
                  .serial = nextSerial()});
+    if (terrain) {
+        map->tiles.push_back({.map = 0, .terrain = std::move(terrain)});
+    }
+    return map;
 }
 
 // A BodyMesh, or maps that are joined to one.
@@ -243,19 +262,19 @@ template <typename Surface, typename Mesh>
 std::shared_ptr<ServoMap> bodyMapOf(const std::shared_ptr<const Georeference>& georeference,
                                     const std::shared_ptr<const Mesh>& mesh,
                                     const ServoMapOptions& options,
-                                    std::shared_ptr<const BodyLocator> locator = nullptr)
+                                    const std::vector<std::shared_ptr<const BodyLocator>>& locators)
 {
     const Surface surface(mesh);
     const BodyGoalFrame frame =
         bodyGoalFrame(*georeference, mesh->ellipsoid(), mesh->exaggeration());
-    return std::make_shared<ServoMap>(ServoMap{
-        .frame = GoalFrame(georeference, mesh->exaggeration()),
-        .model = makeContactModel(options.kind, surface, options.contact),
-        .surface = std::make_unique<BodyTouch<Surface>>(frame, surface, std::move(locator)),
-        .kind = options.kind,
-        .radius_m = options.contact.radius_m,
-        .map_id = options.map_id,
-        .serial = nextSerial()});
+    return std::make_shared<ServoMap>(
+        ServoMap{.frame = GoalFrame(georeference, mesh->exaggeration()),
+                 .model = makeContactModel(options.kind, surface, options.contact),
+                 .surface = std::make_unique<BodyTouch<Surface>>(frame, surface, locators),
+                 .kind = options.kind,
+                 .radius_m = options.contact.radius_m,
+                 .map_id = options.map_id,
+                 .serial = nextSerial()});
 }
 
 } // namespace
@@ -286,7 +305,7 @@ std::shared_ptr<ServoMap> makeServoMap(const std::shared_ptr<const Georeference>
                                        const std::shared_ptr<const BodyMesh>& mesh,
                                        const ServoMapOptions& options)
 {
-    return bodyMapOf<BodySurface>(georeference, mesh, options);
+    return bodyMapOf<BodySurface>(georeference, mesh, options, {});
 }
 
 std::shared_ptr<ServoMap> makeServoMap(const std::shared_ptr<const Georeference>& georeference,
@@ -295,8 +314,8 @@ std::shared_ptr<ServoMap> makeServoMap(const std::shared_ptr<const Georeference>
                                        const ServoMapOptions& options)
 {
     auto map = bodyMapOf<BodySurface>(georeference, mesh->over(terrain->terrain()), options,
-                                      mesh->locator());
-    map->terrain = std::move(terrain);
+                                      {mesh->locator()});
+    map->tiles.push_back({.map = 0, .terrain = std::move(terrain)});
     return map;
 }
 
@@ -305,22 +324,30 @@ std::shared_ptr<ServoMap> makeServoMap(const std::vector<std::shared_ptr<const G
                                        const ServoMapOptions& options)
 {
     MARSVIEW_CHECK(maps.size() == mesh->mapCount());
-    auto map = bodyMapOf<LayeredSurface>(maps.front(), mesh, options);
+    auto map = bodyMapOf<LayeredSurface>(maps.front(), mesh, options, {});
     map->below.assign(maps.begin() + 1, maps.end());
     return map;
 }
 
 std::shared_ptr<ServoMap> makeServoMap(const std::vector<std::shared_ptr<const Georeference>>& maps,
                                        const LayeredMesh& mesh,
-                                       const TiledBodyMesh& tiled,
-                                       std::shared_ptr<ServoTerrain> terrain,
+                                       const std::vector<TiledLayer>& tiled,
                                        const ServoMapOptions& options)
 {
+    const std::vector<std::size_t> in_tiles = mesh.tiledMaps();
     MARSVIEW_CHECK(maps.size() == 1 || maps.size() == mesh.mapCount());
-    auto map = bodyMapOf<LayeredSurface>(
-        maps.front(), mesh.over(tiled.over(terrain->terrain(), mesh.tiledMap()->pins())), options,
-        tiled.locator());
-    map->terrain = std::move(terrain);
+    MARSVIEW_CHECK(tiled.size() == in_tiles.size());
+    std::vector<std::shared_ptr<const BodyMesh>> meshes;
+    std::vector<std::shared_ptr<const BodyLocator>> locators;
+    std::vector<ServoTiles> tiles;
+    for (std::size_t i = 0; i < tiled.size(); ++i) {
+        const auto& [shape, terrain] = tiled[i];
+        meshes.push_back(shape->over(terrain->terrain(), mesh.map(in_tiles[i])->pins()));
+        locators.push_back(shape->locator());
+        tiles.push_back({.map = in_tiles[i], .terrain = terrain});
+    }
+    auto map = bodyMapOf<LayeredSurface>(maps.front(), mesh.over(meshes), options, locators);
+    map->tiles = std::move(tiles);
     map->below.assign(maps.begin() + 1, maps.end());
     return map;
 }

@@ -18,13 +18,19 @@
 
 namespace marsview {
 
+/// A map in tiles of a ServoMap.
+struct ServoTiles {
+    std::size_t map = 0; // 0 is that of ServoMap::frame, the next ones are those of `below`
+    std::shared_ptr<ServoTerrain> terrain;
+};
+
 /// Created and destroyed by any thread except the servo thread; used only by the servo thread.
 struct ServoMap {
     GoalFrame frame; // in the plane; a recording on the body takes from it which map this is
     std::unique_ptr<ContactModel> model;
     MapContactModel* map_model = nullptr; // the same model; null on the body
     std::unique_ptr<const TouchSurface> surface;
-    std::shared_ptr<ServoTerrain> terrain{};      // null if the map is in memory
+    std::vector<ServoTiles> tiles{};              // the uppermost first; none if all is in memory
     ContactModelKind kind = kContactModelDefault; // of the model
     double radius_m = 1.0;                        // of the model's sphere, if it has one
     std::uint64_t map_id = 0;                     // identifies the touched map
@@ -78,12 +84,16 @@ std::shared_ptr<ServoMap> makeServoMap(const std::shared_ptr<const Georeference>
 std::shared_ptr<ServoMap> makeServoMap(const std::vector<std::shared_ptr<const Georeference>>& maps,
                                        const std::shared_ptr<const LayeredMesh>& mesh,
                                        const ServoMapOptions& options);
-/// The same with one of the maps in tiles: that which `tiled` was made for, from which `mesh` has
-/// been built. If there will be no recording, `maps` may be only one of them.
+/// A map in tiles that is joined with others.
+struct TiledLayer {
+    std::shared_ptr<const TiledBodyMesh> mesh;
+    std::shared_ptr<ServoTerrain> terrain;
+};
+/// The same with maps in tiles: one of `tiled` for each of those in `mesh`, in its order, from
+/// which it has been built. If there will be no recording, `maps` may be only one of them.
 std::shared_ptr<ServoMap> makeServoMap(const std::vector<std::shared_ptr<const Georeference>>& maps,
                                        const LayeredMesh& mesh,
-                                       const TiledBodyMesh& tiled,
-                                       std::shared_ptr<ServoTerrain> terrain,
+                                       const std::vector<TiledLayer>& tiled,
                                        const ServoMapOptions& options);
 
 } // namespace marsview

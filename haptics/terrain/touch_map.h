@@ -27,11 +27,15 @@ enum class MapEnds : std::uint8_t { Apart, Meet };
 class TouchMap {
 public:
     explicit TouchMap(const SceneMap& map, MapEnds ends = MapEnds::Apart);
+    /// Maps in tiles on one body, which are touched as one surface, or one of them. The uppermost
+    /// first.
+    explicit TouchMap(const std::vector<std::shared_ptr<const Map>>& in_tiles);
 
+    /// The uppermost.
     const SceneMap& map() const noexcept { return map_; }
     bool isOf(const SceneMap& map) const { return map.map == map_.map && map.frame == map_.frame; }
     /// Whether the map's surface may change by itself while it is touched.
-    bool isTiled() const noexcept { return terrain_ != nullptr; }
+    bool isTiled() const noexcept { return !streams_.empty(); }
 
     /// The map with a new model, from now on with tiles around the hand. `radius_m` is that of the
     /// model's sphere, half a cell if empty. Null for a map in memory whose voids have not been
@@ -41,10 +45,11 @@ public:
     /// The same of a map in tiles on its body; the mesh is that of the map.
     std::shared_ptr<ServoMap>
     make(ContactModelKind kind, const std::shared_ptr<const TiledBodyMesh>& mesh, double radius_m);
-    /// The same, joined with other maps: `mesh` has been made from `tiled`. `maps` are all of them,
-    /// the uppermost first, or nothing if there will be no recording.
+    /// The maps in tiles joined, also with others: `mesh` has been made from `tiled`, one for each
+    /// map in tiles. `maps` are all of them, the uppermost first, or nothing if there will be no
+    /// recording.
     std::shared_ptr<ServoMap> make(ContactModelKind kind,
-                                   const TiledBodyMesh& tiled,
+                                   const std::vector<std::shared_ptr<const TiledBodyMesh>>& tiled,
                                    const LayeredMesh& mesh,
                                    std::vector<std::shared_ptr<const Georeference>> maps,
                                    double radius_m);
@@ -57,16 +62,21 @@ public:
     /// an update.
     bool follow(ServoMap& made, const ScenePoint& hand);
 
-    /// Of loading tiles; empty for a map in memory.
+    /// Of loading tiles of the uppermost map in tiles; empty without one.
     std::optional<ClipmapStreamerStatistics> statistics() const;
 
 private:
+    struct Stream {
+        std::unique_ptr<ClipmapStreamer> streamer;
+        std::shared_ptr<ServoTerrain> terrain;
+    };
+
+    static Stream streamOf(const Map& map, MapEnds ends);
     void stream();
 
     SceneMap map_;
     std::uint64_t map_id_;
-    std::unique_ptr<ClipmapStreamer> streamer_; // for a tiled map
-    std::shared_ptr<ServoTerrain> terrain_;     // for a tiled map
+    std::vector<Stream> streams_; // one per map in tiles
     bool is_streaming_ = false;
 };
 

@@ -42,14 +42,17 @@ public:
     virtual double clearance(const ScenePoint& point) const noexcept = 0;
 
     /// The nearest position on the grid of a map in tiles, and there, of the way to the next row,
-    /// that to the next column.
+    /// that to the next column. Of several maps, one that is further away than it is large needs no
+    /// tiles.
     struct OnGrid {
         GridPoint at;
         double column_share = 1.0;
+        bool is_near = true;
     };
-    virtual OnGrid onGrid(const ScenePoint& point) const noexcept = 0;
-    /// Where the grid goes around the body, its columns per turn; otherwise 0.
-    virtual double columnsPerTurn() const noexcept { return 0.0; }
+    /// `tiles` is the index of the map in ServoMap::tiles.
+    virtual OnGrid onGrid(const ScenePoint& point, std::size_t tiles) const noexcept = 0;
+    /// Where its grid goes around the body, the columns per turn; otherwise 0.
+    virtual double columnsPerTurn(std::size_t /*tiles*/) const noexcept { return 0.0; }
 
     /// Leads from a proxy, above all of the terrain, to straight above a goal.
     virtual HighWay highWay(const ScenePoint& proxy, const TracePoint& goal) const noexcept = 0;

@@ -29,13 +29,18 @@ struct Writer {
     std::string operator()(const GroundLevel& level) const
     {
         const ShownTiles& shown = level.shown;
-        return fmt::format("level/{}/{}/{}/{}/{}/{:x}", level.level, shown.first_column,
-                           shown.first_row, shown.columns, shown.rows, shown.is_there);
+        return fmt::format("level/{}/{}/{}/{}/{}/{:x}{}", level.level, shown.first_column,
+                           shown.first_row, shown.columns, shown.rows, shown.is_there,
+                           indexText(level.map));
     }
     std::string operator()(const GroundTile& tile) const
     {
-        return fmt::format("tile/{}/{}/{}/{}", tile.id.level, tile.id.column, tile.id.row,
-                           asText(tile.weight));
+        return fmt::format("tile/{}/{}/{}/{}{}", tile.id.level, tile.id.column, tile.id.row,
+                           asText(tile.weight), indexText(tile.map));
+    }
+    static std::string indexText(const std::optional<std::uint32_t>& map)
+    {
+        return map ? fmt::format("/{}", *map) : std::string();
     }
     std::string operator()(const GroundFelt& felt) const
     {
@@ -76,6 +81,13 @@ public:
             is_fine_ = is_fine_ && error == std::errc() && end == word.data() + word.size();
         }
     }
+    template <typename T>
+    void takeLast(std::optional<T>& value)
+    {
+        if (!is_at_end_) {
+            take(value.emplace());
+        }
+    }
     bool isDone() const { return is_fine_ && is_at_end_; }
 
 private:
@@ -110,6 +122,7 @@ std::optional<GroundRecord> parseRecord(std::string_view word)
         reader.take(level.shown.columns);
         reader.take(level.shown.rows);
         reader.take(level.shown.is_there, 16);
+        reader.takeLast(level.map);
         record = level;
     } else if (kind == "tile") {
         GroundTile tile;
@@ -117,6 +130,7 @@ std::optional<GroundRecord> parseRecord(std::string_view word)
         reader.take(tile.id.column);
         reader.take(tile.id.row);
         reader.take(tile.weight);
+        reader.takeLast(tile.map);
         const bool is_weight = tile.weight >= 0.0 && tile.weight < 1.0;
         record = tile;
         return reader.isDone() && is_weight ? std::optional(record) : std::nullopt;

@@ -18,7 +18,9 @@ inline constexpr std::string_view kGroundColumn = "ground";
 ///     part/PART/COLUMNS/ROWS/EQUATORIAL_M/POLAR_M/COLUMN/ROW/E_COLUMN/E_ROW/N_COLUMN/N_ROW
 ///     below/ and the same
 ///     level/LEVEL/FIRST_COLUMN/FIRST_ROW/COLUMNS/ROWS/BITS     BITS in hexadecimal
+///     level/LEVEL/FIRST_COLUMN/FIRST_ROW/COLUMNS/ROWS/BITS/MAP     of joined maps
 ///     tile/LEVEL/COLUMN/ROW/WEIGHT
+///     tile/LEVEL/COLUMN/ROW/WEIGHT/MAP     of joined maps
 ///     felt/PART
 ///
 /// as GroundPart (with SceneFrame's terms), GroundBelow, GroundLevel, GroundTile and GroundFelt.

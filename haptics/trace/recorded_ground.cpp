@@ -16,8 +16,8 @@ Error notThere()
 
 } // namespace
 
-Result<std::shared_ptr<RecordedGround>>
-RecordedGround::make(const TiledRaster& raster, std::shared_ptr<const TileHeights> heights)
+Result<std::shared_ptr<RecordedGround>> RecordedGround::make(
+    const TiledRaster& raster, std::shared_ptr<const TileHeights> heights, std::uint32_t map)
 {
     const std::size_t top_level = raster.layout().topLevel();
     auto top = raster.get({TileKind::Samples, static_cast<std::uint8_t>(top_level), 0, 0});
@@ -25,15 +25,17 @@ RecordedGround::make(const TiledRaster& raster, std::shared_ptr<const TileHeight
         return std::move(top).error();
     }
     return std::shared_ptr<RecordedGround>(
-        new RecordedGround(raster, std::move(heights), std::move(top).value()));
+        new RecordedGround(raster, std::move(heights), std::move(top).value(), map));
 }
 
 RecordedGround::RecordedGround(const TiledRaster& raster,
                                std::shared_ptr<const TileHeights> heights,
-                               std::shared_ptr<const Tile> top)
+                               std::shared_ptr<const Tile> top,
+                               std::uint32_t map)
     : raster_(raster)
     , heights_(std::move(heights))
     , top_(std::move(top))
+    , map_(map)
 {
     const std::vector<GridPoint> centers(raster_.layout().topLevel() + 1);
     window_ = std::make_shared<const Clipmap>(heights_, top_, centers);
@@ -47,6 +49,9 @@ Status RecordedGround::follow(const GroundRecord& record)
 {
     const TileLayout& layout = heights_->layout();
     if (const auto* level = std::get_if<GroundLevel>(&record)) {
+        if (level->map.value_or(map_) != map_) {
+            return Done{};
+        }
         const ShownTiles& shown = level->shown;
         if (level->level >= shown_.size() || !Clipmap::fits(layout, level->level, shown) ||
             std::bit_width(shown.is_there) > shown.columns * shown.rows) {
@@ -55,6 +60,9 @@ Status RecordedGround::follow(const GroundRecord& record)
         shown_[level->level] = shown;
         is_other_window_ = true;
     } else if (const auto* tile = std::get_if<GroundTile>(&record)) {
+        if (tile->map.value_or(map_) != map_) {
+            return Done{};
+        }
         // The coarsest tile always has full weight.
         if (tile->id.level >= layout.topLevel() || !layout.contains(tile->id)) {
             return notThere();

@@ -2872,8 +2872,8 @@ y %2</translation>
 <context>
     <name>marsview::GlobeMeshes</name>
     <message>
-        <source>Of layers on top of each other, only one may be larger than memory, and with nodata only the lowest</source>
-        <translation>Von übereinanderliegenden Ebenen darf nur eine größer als der Speicher sein, mit Nodata nur die unterste</translation>
+        <source>Of layers on top of each other, only the lowest may be larger than memory and have nodata</source>
+        <translation>Von übereinanderliegenden Ebenen darf nur die unterste größer als der Speicher sein und Nodata enthalten</translation>
     </message>
 </context>
 <context>

@@ -25,6 +25,21 @@ SampleStatistics statisticsOf(const Heightfield& heightfield)
     return statistics;
 }
 
+// As the level file of a map with nodata has them.
+std::vector<std::vector<float>> filledMaximaOf(const FilledHeightfield& filled,
+                                               const MinMaxPyramid& bounds)
+{
+    std::vector<std::vector<float>> maxima_m;
+    for (std::size_t level = 0; level < filled.levelCount(); ++level) {
+        const std::size_t columns = bounds.columns(level);
+        std::vector<float>& maxima = maxima_m.emplace_back();
+        for (std::size_t i = 0; i < columns * bounds.rows(level); ++i) {
+            maxima.push_back(static_cast<float>(filled.maximum(level, i % columns, i / columns)));
+        }
+    }
+    return maxima_m;
+}
+
 } // namespace
 
 MapOpener LargeMaps::opener()
@@ -186,6 +201,9 @@ LargeMaps::openTiled(const RasterSpec& spec, const MapResources& resources, JobM
     levels.layout = source->layout();
     levels.statistics = statisticsOf(heightfield);
     levels.analysis = (*whole)->analysis();
+    if (heightfield.samples().hasVoids()) {
+        levels.filled_maxima_m = filledMaximaOf(*(*whole)->filled(), levels.analysis->bounds);
+    }
     const SampleStatistics statistics = levels.statistics;
     return tiledMap(
         {.spec = spec,

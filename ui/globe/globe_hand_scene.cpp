@@ -67,43 +67,44 @@ std::optional<std::size_t> GlobeHandScene::mapAt(const ScenePoint& hand) const
 std::vector<BodyTerrain> GlobeHandScene::surfaceOf(std::size_t index) const
 {
     const GlobeMeshes::Ground& ground = *globe_.meshes().ground();
-    const auto& joined = ground.surfaces[index].joined;
     std::vector<BodyTerrain> maps;
-    for (std::size_t i = 0; i < ground.surfaces.size(); ++i) {
-        if (i == index || (joined && ground.surfaces[i].joined == joined)) {
-            maps.push_back(ground.scene.maps()[i]);
-        }
+    for (const std::size_t i : ground.joinedWith(index)) {
+        maps.push_back(ground.scene.maps()[i]);
     }
     return maps;
 }
 
 void GlobeHandScene::touch(std::size_t index)
 {
-    const auto& surfaces = globe_.meshes().ground()->surfaces;
-    const BodyStylus::Surface& surface = surfaces[index];
+    const GlobeMeshes::Ground& ground = *globe_.meshes().ground();
+    const BodyStylus::Surface& surface = ground.surfaces[index];
     touched_ = Touched{.maps = surfaceOf(index),
                        .map_id = nextMapId(),
                        .joined = surface.joined,
-                       .radius_m = surface.radius_m};
-    if (const BodyStylus::Surface* in_tiles = tilesOf(index)) {
-        touched_->tiled = in_tiles->tiled;
-        touched_->tiles = std::make_unique<TouchMap>(
-            SceneMap{.map = in_tiles->map, .frame = in_tiles->map->georeference().sceneFrame()},
-            MapEnds::Meet);
+                       .radius_m = surface.radius_m,
+                       .tiled = tiledOf(index)};
+    std::vector<std::shared_ptr<const Map>> in_tiles;
+    for (const std::size_t i : ground.joinedWith(index)) {
+        if (ground.surfaces[i].tiled) {
+            in_tiles.push_back(ground.surfaces[i].map);
+        }
+    }
+    if (!in_tiles.empty()) {
+        touched_->tiles = std::make_unique<TouchMap>(in_tiles);
     }
 }
 
-// Of the map with that index or those that it is joined with: the one in tiles, or null.
-const BodyStylus::Surface* GlobeHandScene::tilesOf(std::size_t index) const
+// Of the map with that index and those that it is joined with, those in tiles.
+std::vector<std::shared_ptr<const TiledBodyMesh>> GlobeHandScene::tiledOf(std::size_t index) const
 {
-    const auto& surfaces = globe_.meshes().ground()->surfaces;
-    const auto& joined = surfaces[index].joined;
-    const auto found =
-        std::find_if(surfaces.begin(), surfaces.end(), [&](const BodyStylus::Surface& surface) {
-            return surface.tiled &&
-                   (&surface == &surfaces[index] || (joined && surface.joined == joined));
-        });
-    return found != surfaces.end() ? &*found : nullptr;
+    const GlobeMeshes::Ground& ground = *globe_.meshes().ground();
+    std::vector<std::shared_ptr<const TiledBodyMesh>> tiled;
+    for (const std::size_t i : ground.joinedWith(index)) {
+        if (ground.surfaces[i].tiled) {
+            tiled.push_back(ground.surfaces[i].tiled);
+        }
+    }
+    return tiled;
 }
 
 // Of several maps, the uppermost, as long as all are shown in their order.
@@ -164,8 +165,8 @@ std::shared_ptr<ServoMap> GlobeHandScene::make(ContactModelKind kind) const
         if (maps.size() == 1) {
             return touched_->tiles->make(kind, surface.tiled, touched_->radius_m);
         }
-        const auto& tiled = is_joined ? tilesOf(index)->tiled : touched_->tiled;
-        return touched_->tiles->make(kind, *tiled, *joined, maps, touched_->radius_m);
+        const auto tiled = is_joined ? tiledOf(index) : touched_->tiled;
+        return touched_->tiles->make(kind, tiled, *joined, maps, touched_->radius_m);
     }
     const ServoMapOptions options{
         .kind = kind, .contact = {.radius_m = touched_->radius_m}, .map_id = touched_->map_id};

@@ -64,12 +64,12 @@ private:
         std::uint64_t map_id = 0;
         std::shared_ptr<const LayeredMesh> joined{}; // the latest
         double radius_m = 1.0;
-        std::shared_ptr<const TiledBodyMesh> tiled{}; // of which it has been made, or null
-        std::unique_ptr<TouchMap> tiles{};            // of this map
+        std::vector<std::shared_ptr<const TiledBodyMesh>> tiled{}; // of which it has been made
+        std::unique_ptr<TouchMap> tiles{};                         // of these maps, or null
     };
 
     std::vector<BodyTerrain> surfaceOf(std::size_t index) const;
-    const BodyStylus::Surface* tilesOf(std::size_t index) const;
+    std::vector<std::shared_ptr<const TiledBodyMesh>> tiledOf(std::size_t index) const;
 
     BodyGround ground() const;
 

@@ -62,54 +62,61 @@ struct Piles {
     bool is_tiled_apart = false; // some map in tiles lies on top of others or below them
 };
 
-// A pile is joined as a whole if its maps are in memory, except for one, which has to be the lowest
-// if it cannot be cut out. Of other piles, the maps in memory are joined.
+// A pile is joined as a whole if all of its maps in tiles, except for the lowest map, can be cut
+// out. Of other piles, all other maps are joined.
 Piles pilesIn(const GlobeMeshes::Ground& ground)
 {
-    const auto is_tiled = [&](std::size_t i) { return ground.surfaces[i].tiled != nullptr; };
     std::vector<std::size_t> all;
     for (std::size_t i = 0; i < ground.surfaces.size(); ++i) {
         if (ground.surfaces[i].canBePressed()) {
             all.push_back(i);
         }
     }
+    const auto can_be_above = [&](std::size_t i) {
+        const BodyStylus::Surface& surface = ground.surfaces[i];
+        return !surface.tiled || LayeredMesh::canBeCutOut(*tileHeightsOf(*surface.map));
+    };
     Piles piles;
-    for (std::vector<std::size_t>& pile : pilesOf(ground.scene, all)) {
-        const auto count = std::count_if(pile.begin(), pile.end(), is_tiled);
-        const auto in_tiles = std::find_if(pile.begin(), pile.end(), is_tiled);
-        if (count == 0 ||
-            (count == 1 && (in_tiles + 1 == pile.end() || LayeredMesh::canBeCutOut(*tileHeightsOf(
-                                                              *ground.surfaces[*in_tiles].map))))) {
+    std::vector<std::vector<std::size_t>> rest = pilesOf(ground.scene, all);
+    while (!rest.empty()) {
+        std::vector<std::size_t> pile = std::move(rest.back());
+        rest.pop_back();
+        const auto apart = std::find_if_not(pile.begin(), pile.end() - 1, can_be_above);
+        if (apart == pile.end() - 1) {
             piles.joined.push_back(std::move(pile));
             continue;
         }
         piles.is_tiled_apart = true;
-        std::erase_if(pile, is_tiled);
-        for (std::vector<std::size_t>& in_memory : pilesOf(ground.scene, pile)) {
-            piles.joined.push_back(std::move(in_memory));
+        pile.erase(apart);
+        for (std::vector<std::size_t>& without : pilesOf(ground.scene, pile)) {
+            rest.push_back(std::move(without));
         }
     }
     return piles;
 }
 
-// To touch a map in tiles, each user puts it over a terrain of its own.
+// To touch maps in tiles, each user puts them over terrains of its own.
 Result<std::shared_ptr<const LayeredMesh>> joinedOf(const std::vector<std::size_t>& pile,
                                                     const GlobeMeshes::Ground& ground,
                                                     JobMonitor& monitor)
 {
     std::vector<std::shared_ptr<const BodyMesh>> meshes;
-    std::shared_ptr<const WaitingTerrain> terrain;
+    std::vector<std::shared_ptr<const WaitingTerrain>> terrains;
     for (const std::size_t i : pile) {
         const BodyStylus::Surface& surface = ground.surfaces[i];
-        if (surface.tiled) {
-            terrain = std::make_shared<const WaitingTerrain>(
-                surface.map->heightfield().tiles()->raster(), tileHeightsOf(*surface.map));
+        if (!surface.tiled) {
+            meshes.push_back(surface.mesh);
+            continue;
         }
-        meshes.push_back(surface.tiled ? surface.tiled->over(terrain) : surface.mesh);
+        terrains.push_back(std::make_shared<const WaitingTerrain>(
+            surface.map->heightfield().tiles()->raster(), tileHeightsOf(*surface.map)));
+        meshes.push_back(surface.tiled->over(terrains.back()));
     }
     auto joined = LayeredMesh::build(meshes, monitor);
-    if (terrain && terrain->error()) {
-        return *terrain->error();
+    for (const auto& terrain : terrains) {
+        if (terrain->error()) {
+            return *terrain->error();
+        }
     }
     return joined;
 }
@@ -144,6 +151,18 @@ void join(GlobeMeshes::Ground& ground, Piles piles, JobMonitor& monitor)
 }
 
 } // namespace
+
+std::vector<std::size_t> GlobeMeshes::Ground::joinedWith(std::size_t index) const
+{
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+        if (i == index ||
+            (surfaces[index].joined && surfaces[i].joined == surfaces[index].joined)) {
+            found.push_back(i);
+        }
+    }
+    return found;
+}
 
 bool isSameMap(const BodyTerrain& a, const BodyTerrain& b)
 {
@@ -246,8 +265,8 @@ void GlobeMeshes::prepare()
         const Piles piles = problem.isEmpty() ? pilesIn(ground) : Piles();
         if (piles.is_tiled_apart) {
             ground.why_apart =
-                tr("Of layers on top of each other, only one may be larger than memory, and with "
-                   "nodata only the lowest");
+                tr("Of layers on top of each other, only the lowest may be larger than memory and "
+                   "have nodata");
         }
         // At another exaggeration the earlier surface is touched until the maps are joined again.
         const bool is_whole =

@@ -34,6 +34,9 @@ public:
         /// Why maps on top of each other are touched one by one; empty while they are being joined,
         /// and afterwards if they are.
         QString why_apart{};
+
+        /// The surface with that index and those that it is joined with, the uppermost first.
+        std::vector<std::size_t> joinedWith(std::size_t index) const;
     };
 
     explicit GlobeMeshes(QObject* parent = nullptr);

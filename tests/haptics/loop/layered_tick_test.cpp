@@ -1,5 +1,7 @@
 // A hand that strokes over maps on top of each other on a body: the simulated hand, tick, frame and
 // camera together.
+#include "core/base/plain_number.h"
+#include "core/contact/layered_surface.h"
 #include "haptics/drivers/simulated/simulated_hand.h"
 #include "haptics/interaction/body_frame.h"
 #include "haptics/loop/camera_link.h"
@@ -8,6 +10,7 @@
 #include "haptics/terrain/ground_log.h"
 #include "haptics/trace/goal_file.h"
 #include "haptics/trace/ground_text.h"
+#include "haptics/trace/recorded_ground.h"
 #include "haptics/trace/replay_check.h"
 #include "tests/core/contact/nested_maps.h"
 #include "tests/haptics/loop/tick_fixture.h"
@@ -23,6 +26,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <variant>
@@ -424,12 +428,13 @@ TEST(LayeredTickOnMars, AStrokeOntoAFinerMapAndBackChangesTheForceNoFasterThanIt
     EXPECT_EQ(stroke.allocations(), 0U);
 }
 
-// The upper map is about 200 m above the lower one; a millimeter is 100 m. One of them is in tiles.
+// The upper map is about 200 m above the lower one; a millimeter is 100 m. One of them or both are
+// in tiles.
 struct InTiles {
     std::string name;
     NestedMaps maps;
-    std::size_t in_tiles;
-    GridPoint middle; // of the window of tiles
+    std::vector<std::size_t> in_tiles;
+    std::vector<GridPoint> middles; // of the windows of tiles
     friend std::ostream& operator<<(std::ostream& out, const InTiles& tested)
     {
         return out << tested.name;
@@ -450,32 +455,53 @@ std::vector<InTiles> inTiles()
                            {227.36 - 256 * 0.03, 0.03, 0, 18.02 + 256 * 0.03, 0, -0.03},
                            100.0},
                           -kStepM};
-    return {{"TheUpper", {"Upper", {fine, coarse}}, 0, {150.0, 140.0}},
-            {"TheLower", {"Lower", {fine, below}}, 1, {256.0, 256.0}}};
+    return {{"TheUpper", {"Upper", {fine, coarse}}, {0}, {{150.0, 140.0}}},
+            {"TheLower", {"Lower", {fine, below}}, {1}, {{256.0, 256.0}}},
+            {"Both", {"Both", {fine, below}}, {0, 1}, {{150.0, 140.0}, {256.0, 256.0}}}};
 }
 
 class LayeredTickInTiles : public testing::TestWithParam<InTiles> {
 protected:
     enum class Tiles { Coarsest, All };
+    using Exchanges = std::vector<std::shared_ptr<ClipmapExchange>>;
 
-    std::shared_ptr<Clipmap> window(Tiles tiles) const
+    // Of a map in tiles. Bounds of their differences from coarser ones that are so many times too
+    // large make blending take so much longer.
+    std::shared_ptr<Clipmap> window(std::size_t i, Tiles tiles, double slowness = 1.0) const
     {
-        const TiledMap& map = layers_.map;
-        auto window = std::make_shared<Clipmap>(map.window(GetParam().middle));
+        const TiledMap& map = layers_.tiles[i].map;
+        auto window = std::make_shared<Clipmap>(map.window(GetParam().middles[i]));
         for (const bool has_coarser : {false, true}) {
             for (const TileId& id : tilesOf(*window)) {
                 if (tiles == Tiles::All && id.level < map.layout().topLevel()) {
                     window->put(map.tile(id),
-                                has_coarser ? window->differenceFromCoarser(id) : 0.0);
+                                has_coarser ? slowness * window->differenceFromCoarser(id) : 0.0);
                 }
             }
         }
         return window;
     }
-    std::shared_ptr<ServoMap> servoMap(const std::shared_ptr<ClipmapExchange>& exchange) const
+    Exchanges exchanges(Tiles tiles) const
     {
-        return makeServoMap(layers_.georeferences, *layers_.joined, *layers_.tiled,
-                            std::make_shared<ServoTerrain>(exchange, layers_.map.heights), {});
+        Exchanges exchanges;
+        for (std::size_t i = 0; i < layers_.tiles.size(); ++i) {
+            exchanges.push_back(std::make_shared<ClipmapExchange>(window(i, tiles)));
+        }
+        return exchanges;
+    }
+    void publish(ClipmapExchange& exchange, std::size_t i, double slowness = 1.0) const
+    {
+        exchange.windows.back() = window(i, Tiles::All, slowness);
+        exchange.windows.publish();
+    }
+    std::shared_ptr<ServoMap> servoMap(const Exchanges& exchanges) const
+    {
+        std::vector<TiledLayer> tiled;
+        for (std::size_t i = 0; i < layers_.tiles.size(); ++i) {
+            const auto& [index, map, mesh] = layers_.tiles[i];
+            tiled.push_back({mesh, std::make_shared<ServoTerrain>(exchanges[i], map.heights)});
+        }
+        return makeServoMap(layers_.georeferences, *layers_.joined, tiled, {});
     }
     Stroke strokeOver(std::shared_ptr<ServoMap> map) const
     {
@@ -500,9 +526,9 @@ INSTANTIATE_TEST_SUITE_P(Maps,
 
 TEST_P(LayeredTickInTiles, AStrokeOverTheBorderHasTheForcesOfTheMapsInMemory)
 {
-    Stroke tiles = strokeOver(servoMap(std::make_shared<ClipmapExchange>(window(Tiles::All))));
+    Stroke tiles = strokeOver(servoMap(exchanges(Tiles::All)));
     Stroke memory =
-        strokeOver(makeServoMap(layers_.georeferences, layers_.inMemory(layers_.map.filled), {}));
+        strokeOver(makeServoMap(layers_.georeferences, layers_.inMemory(layers_.filled()), {}));
     std::vector<Vec3> forces_n;
     tiles.each_tick = [&](const Stroke& now) { forces_n.push_back(now.last().force_n); };
     std::size_t tick = 0;
@@ -526,50 +552,171 @@ TEST_P(LayeredTickInTiles, AStrokeOverTheBorderHasTheForcesOfTheMapsInMemory)
     EXPECT_LE(tiles.stepMaxN(), tiles.rateNPerS() * kTickS + 1e-9);
 }
 
+// Those of one map after those of the other.
 TEST_P(LayeredTickInTiles, TilesThatArriveDuringAStrokeChangeTheForceNoFasterThanItMay)
 {
-    const auto exchange = std::make_shared<ClipmapExchange>(window(Tiles::Coarsest));
-    Stroke stroke = strokeOver(servoMap(exchange));
+    const Exchanges windows = exchanges(Tiles::Coarsest);
+    Stroke stroke = strokeOver(servoMap(windows));
     overTheBorderAndBack(stroke);
     stroke.across(-0.01, 0.0075);
     EXPECT_EQ(stroke.groundChanges(), 0);
     const double before_n = stroke.newtons();
     EXPECT_GT(before_n, 0.1);
-    exchange->windows.back() = window(Tiles::All);
-    exchange->windows.publish();
-    overTheBorderAndBack(stroke);
-    EXPECT_GT(stroke.groundChanges(), 0);
+    int changes = 0;
+    for (std::size_t i = 0; i < windows.size(); ++i) {
+        publish(*windows[i], i);
+        overTheBorderAndBack(stroke);
+        EXPECT_GT(stroke.groundChanges(), changes) << i;
+        changes = stroke.groundChanges();
+    }
     EXPECT_EQ(stroke.mapChanges(), 1);
     EXPECT_EQ(stroke.last().missed_samples, 0U);
     EXPECT_EQ(stroke.allocations(), 0U);
     EXPECT_LE(stroke.stepMaxN(), stroke.rateNPerS() * kTickS + 1e-9);
 }
 
-// A recording states both maps and the tiles of the one that is in tiles.
-TEST_P(LayeredTickInTiles, ARecordingHasBothMapsAndTheTiles)
+// Each streamer learns where the hand is on the grid of its own map.
+TEST_P(LayeredTickInTiles, EachMapHasTheMotionOfTheHandOnItsGrid)
 {
-    const auto map = servoMap(std::make_shared<ClipmapExchange>(window(Tiles::All)));
+    const Exchanges windows = exchanges(Tiles::All);
+    Stroke stroke = strokeOver(servoMap(windows));
+    int checked = 0;
+    stroke.each_tick = [&](const Stroke& now) {
+        if (!now.last().contact.is_in_contact) {
+            return;
+        }
+        for (std::size_t i = 0; i < windows.size(); ++i) {
+            const HandMotion motion = windows[i]->motion.read();
+            const Georeference& map = *layers_.georeferences[layers_.tiles[i].index];
+            const auto at = map.toGrid(placeOf(now.last().contact.proxy, layers_.ellipsoid()).foot);
+            ASSERT_TRUE(motion.is_active);
+            ASSERT_TRUE(at);
+            const GridPoint on_grid = onGrid(map, *at); // a tick earlier the proxy was 5 m away
+            ASSERT_NEAR(motion.at.column, on_grid.column, 2.0) << i;
+            ASSERT_NEAR(motion.at.row, on_grid.row, 2.0) << i;
+            ++checked;
+        }
+    };
+    overTheBorderAndBack(stroke);
+    EXPECT_GT(checked, 500);
+}
+
+// North of the middle of the upper map, whose corners are 103 km from there.
+TEST_P(LayeredTickInTiles, TilesOfAMapThatIsFurtherAwayThanItIsLargeAreNotLoaded)
+{
+    const GeographicPoint middle = *layers_.georeferences[0]->toGeographic({149.5, 139.5});
+    for (const auto& [distance_m, is_near] :
+         {std::pair(0.0, true), std::pair(1e5, true), std::pair(2e5, true), std::pair(2.5e5, false),
+          std::pair(1.5e5, true)}) {
+        const GeographicPoint site{.longitude = middle.longitude,
+                                   .latitude =
+                                       middle.latitude + Angle::radians(distance_m / 3396190.0)};
+        const Exchanges windows = exchanges(Tiles::All);
+        Stroke stroke{layers_.ellipsoid(), servoMap(windows), site, 1e5};
+        stroke.rest(3);
+        for (std::size_t i = 0; i < windows.size(); ++i) {
+            const HandMotion motion = windows[i]->motion.read();
+            const bool is_upper = layers_.tiles[i].index == 0;
+            EXPECT_EQ(motion.is_active, !is_upper || is_near) << distance_m << " " << i;
+            EXPECT_LT(std::abs(motion.rows_per_s), 1e4) << distance_m << " " << i;
+        }
+        EXPECT_EQ(stroke.allocations(), 0U);
+    }
+}
+
+// A recording names both maps and whose tiles were there: on the same maps, joined again, each with
+// its recorded tiles, the goals give the same proxies to the bit, while tiles of either arrive.
+TEST_P(LayeredTickInTiles, ARecordingGivesTheSameProxiesWhileTilesOfEitherMapArrive)
+{
+    const Exchanges windows = exchanges(Tiles::Coarsest);
+    const auto map = servoMap(windows);
+    Stroke stroke = strokeOver(map);
     GroundLog log;
     const auto records = std::make_unique<GroundLog::Queue>();
-    ASSERT_TRUE(log.record(*map, false, *records));
-    std::string ground;
-    GroundRecord record;
-    while (records->take(record)) {
-        ground += (ground.empty() ? "" : " ") + groundText(record);
+    std::string file =
+        "lon,lat,z,map,part,model,radius_m,exaggeration,ground,contact,proxy_x,proxy_y,proxy_z\n";
+    const std::string part = std::to_string(map->serial);
+    std::size_t next_goal = 0;
+    std::string cell;
+    stroke.each_tick = [&](const Stroke& now) {
+        ASSERT_TRUE(log.record(*map, now.last().has_ground_changed, *records));
+        GroundRecord record;
+        while (records->take(record)) {
+            cell += (cell.empty() ? "" : " ") + groundText(record);
+        }
+        for (; next_goal < now.goals().size(); ++next_goal) {
+            const Stroke::Goal& goal = now.goals()[next_goal];
+            file += asText(goal.goal.x) + "," + asText(goal.goal.y) + "," + asText(goal.goal.z) +
+                    ",1," + part + ",continuous-walk,1,1," + std::exchange(cell, {}) + ",0," +
+                    asText(goal.proxy.x) + "," + asText(goal.proxy.y) + "," + asText(goal.proxy.z) +
+                    "\n";
+        }
+    };
+    overTheBorderAndBack(stroke);
+    for (std::size_t i = windows.size(); i-- > 0;) {
+        publish(*windows[i], i, 100.0);
+        overTheBorderAndBack(stroke);
     }
-    const auto recording = readGoalRecording(
-        "lon,lat,z,map,part,model,radius_m,exaggeration,ground,contact,proxy_x,proxy_y,proxy_z\n"
-        "0,0,0,1," +
-            std::to_string(map->serial) + ",continuous-walk,1,1," + ground + ",0,0,0,0\n",
-        "tiles.csv", GoalColumns::Geographic);
+    const auto recording = readGoalRecording(file, "tiles.csv", GoalColumns::Geographic);
     ASSERT_TRUE(recording) << recording.error().message;
     EXPECT_EQ(mapsOf(recording->parts.front(), layers_.georeferences),
               (std::vector<std::size_t>{0, 1}));
-    ASSERT_EQ(recording->ground.size(), 1U);
-    const auto levels = std::count_if(
-        recording->ground.front().records.begin(), recording->ground.front().records.end(),
-        [](const GroundRecord& one) { return std::holds_alternative<GroundLevel>(one); });
-    EXPECT_GT(levels, 0);
+
+    std::vector<std::shared_ptr<RecordedGround>> grounds;
+    TiledLayers::Terrains terrains;
+    for (const TiledLayerMap& one : layers_.tiles) {
+        grounds.push_back(RecordedGround::make(TiledRaster(layers_.cache, one.map.source),
+                                               one.map.heights,
+                                               static_cast<std::uint32_t>(one.index))
+                              .value());
+        terrains.push_back(grounds.back()->terrain());
+    }
+    const auto model =
+        makeContactModel(kContactModelDefault, LayeredSurface(layers_.over(terrains)));
+    auto ground = recording->ground.begin();
+    std::size_t in_contact = 0;
+    std::size_t changes = 0;
+    for (std::size_t i = 0; i < recording->goals.size(); ++i) {
+        for (; ground != recording->ground.end() && ground->goal == i; ++ground) {
+            for (const GroundRecord& record : ground->records) {
+                for (const auto& one : grounds) {
+                    ASSERT_TRUE(one->follow(record));
+                }
+                const auto* felt = std::get_if<GroundFelt>(&record);
+                if (felt != nullptr && felt->changed_part != 0) {
+                    model->terrainChanged();
+                    ++changes;
+                }
+            }
+        }
+        const TracePoint& goal = recording->goals[i];
+        const ContactState state = model->update(map->surface->toScene(goal));
+        ASSERT_EQ(state.is_in_contact ? map->surface->fromScene(state.proxy) : goal,
+                  recording->updates[i].proxy)
+            << i;
+        in_contact += state.is_in_contact ? 1U : 0U;
+    }
+    EXPECT_GT(in_contact, 1000U);
+    EXPECT_EQ(changes, static_cast<std::size_t>(stroke.groundChanges()));
+    EXPECT_GT(changes, 10 * windows.size());
+    // Of each map in tiles.
+    std::set<std::optional<std::uint32_t>> resident;
+    std::set<std::optional<std::uint32_t>> blended;
+    for (const GoalGround& one : recording->ground) {
+        for (const GroundRecord& record : one.records) {
+            if (const auto* level = std::get_if<GroundLevel>(&record)) {
+                resident.insert(level->map);
+            } else if (const auto* tile = std::get_if<GroundTile>(&record)) {
+                blended.insert(tile->map);
+            }
+        }
+    }
+    std::set<std::optional<std::uint32_t>> expected;
+    for (const TiledLayerMap& one : layers_.tiles) {
+        expected.insert(static_cast<std::uint32_t>(one.index));
+    }
+    EXPECT_EQ(resident, expected);
+    EXPECT_EQ(blended, expected);
 }
 
 // The upper map in cells of 10 km around the pole, the lower one in cells of half a degree: the

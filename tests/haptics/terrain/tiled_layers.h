@@ -1,4 +1,4 @@
-// Maps on top of each other on a body, one of them in tiles.
+// Maps on top of each other on a body, some of them in tiles.
 #pragma once
 
 #include "core/body/layered_mesh.h"
@@ -13,31 +13,43 @@
 
 namespace marsview::test {
 
-/// The samples of the map in tiles are also in memory, to compare the two.
-struct TiledLayers {
-    TiledLayers(const NestedMaps& nested, std::size_t index, double exaggeration);
-
-    /// With a terrain of its own.
-    std::shared_ptr<const LayeredMesh> over(std::shared_ptr<const TiledTerrain> terrain) const;
-    /// The same maps, all in memory, that in tiles with these heights.
-    std::shared_ptr<const LayeredMesh>
-    inMemory(std::shared_ptr<const FilledHeightfield> heights) const;
-    /// What a joined map in tiles has for some tiles: the heights of the terrain, and those of the
-    /// samples where they are pinned.
-    std::shared_ptr<const FilledHeightfield> felt(const TiledTerrain& terrain) const;
-    /// The maps as they are joined, the one in tiles over that terrain.
-    std::vector<std::shared_ptr<const BodyMesh>>
-    meshesOver(std::shared_ptr<const TiledTerrain> terrain) const;
-
-    const PinnedSamples& pins() const { return *joined->tiledMap()->pins(); }
-    const Ellipsoid& ellipsoid() const { return tiled->grid()->ellipsoid(); }
-
-    std::size_t in_tiles;                                           // index of that map
-    std::vector<std::shared_ptr<const Georeference>> georeferences; // the uppermost first
+/// A map in tiles whose samples are also in memory, to compare the two.
+struct TiledLayerMap {
+    std::size_t index; // among all maps
     TiledMap map;
-    TileCache cache{{.bytes_max = std::size_t{8} << 20, .loader_threads = 1}};
-    std::vector<std::shared_ptr<const BodyMesh>> meshes; // null for that in tiles
     std::shared_ptr<const TiledBodyMesh> tiled;
+};
+
+struct TiledLayers {
+    using Terrains = std::vector<std::shared_ptr<const TiledTerrain>>;
+    using Heights = std::vector<std::shared_ptr<const FilledHeightfield>>;
+
+    /// `in_tiles`: the indices of those maps, the uppermost first.
+    TiledLayers(const NestedMaps& nested,
+                const std::vector<std::size_t>& in_tiles,
+                double exaggeration);
+
+    /// With terrains of its own, one per map in tiles.
+    std::shared_ptr<const LayeredMesh> over(const Terrains& terrains) const;
+    /// The same maps, all in memory, those in tiles with these heights.
+    std::shared_ptr<const LayeredMesh> inMemory(const Heights& heights) const;
+    /// What joined maps in tiles have for some tiles: the heights of the terrains, and those of the
+    /// samples where they are pinned.
+    Heights felt(const Terrains& terrains) const;
+    /// All samples.
+    Heights filled() const;
+    /// The maps as they are joined, those in tiles over these terrains.
+    std::vector<std::shared_ptr<const BodyMesh>> meshesOver(const Terrains& terrains) const;
+    /// All tiles of these maps, read as needed.
+    Terrains waiting() const;
+
+    const PinnedSamples& pins(std::size_t i) const { return *joined->map(tiles[i].index)->pins(); }
+    const Ellipsoid& ellipsoid() const { return joined->ellipsoid(); }
+
+    std::vector<std::shared_ptr<const Georeference>> georeferences; // the uppermost first
+    TileCache cache{{.bytes_max = std::size_t{16} << 20, .loader_threads = 1}};
+    std::vector<std::shared_ptr<const BodyMesh>> meshes; // null for those in tiles
+    std::vector<TiledLayerMap> tiles;
     std::shared_ptr<const LayeredMesh> joined; // as it is shared
 };
 

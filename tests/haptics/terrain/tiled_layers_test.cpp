@@ -1,6 +1,6 @@
-// Contact over a map in tiles that is joined with maps above or below it: whichever tiles are in
-// memory, that over all maps in memory with the same heights, which other tests prove by brute
-// force.
+// Contact over maps in tiles that are joined with each other and with maps in memory: whichever
+// tiles are in memory, that over all maps in memory with the same heights, which other tests prove
+// by brute force.
 #include "core/body/pinned_samples.h"
 #include "core/contact/contact_model.h"
 #include "core/contact/layered_surface.h"
@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -36,7 +37,7 @@ using test::TiledLayers;
 
 struct Layers {
     NestedMaps maps;
-    std::size_t in_tiles;
+    std::vector<std::size_t> in_tiles;
 };
 
 NestedMap wholeMars(std::size_t columns, std::size_t rows, double raised_m)
@@ -56,7 +57,7 @@ std::vector<Layers> uppermostInTiles()
 {
     const GeoTransform::Terms kilometers{-150000, 1000, 0, 140000, 0, -1000};
     const auto layers = [](const BodyMap& fine, const NestedMap& coarse) {
-        return Layers{{fine.name, {{fine}, coarse}}, 0};
+        return Layers{{fine.name, {{fine}, coarse}}, {0}};
     };
     return {
         layers({"Above", kTransverse, 300, 280, kilometers, 500.0}, wholeMars(72, 36, -6000.0)),
@@ -100,40 +101,79 @@ std::vector<Layers> lowerInTiles()
                           {254.0 * column, 2.0 * column, 0, 90.0 - 250.0 * row, 0, -2.0 * row},
                           2000.0};
     return {
-        {{"AboveTiles", {{fine(at_corner, 500.0), 6000.0}, planet}}, 1},
-        {{"BelowTiles", {{fine(at_corner, 500.0), -6000.0}, planet}}, 1},
-        {{"AcrossTiles", {{fine(at_corner, 5000.0), 0.0}, planet}}, 1},
-        {{"WithVoids", {{fine(at_corner, 500.0), 200.0, true}, planet}}, 1},
+        {{"AboveTiles", {{fine(at_corner, 500.0), 6000.0}, planet}}, {1}},
+        {{"BelowTiles", {{fine(at_corner, 500.0), -6000.0}, planet}}, {1}},
+        {{"AcrossTiles", {{fine(at_corner, 5000.0), 0.0}, planet}}, {1}},
+        {{"WithVoids", {{fine(at_corner, 500.0), 200.0, true}, planet}}, {1}},
         {{"InACellOfTiles",
           {{{"Fine", at_corner, 23, 21, {-2300, 200, 0, 2100, 0, -200}, 50.0}, 3000.0}, planet}},
-         1},
+         {1}},
         {{"OverThePoleOfTiles",
           {{{"Polar", kPolar, 31, 27, {-150000, 10000, 0, 130000, 0, -10000}, 2000.0}, 200.0},
            planet}},
-         1},
-        {{"OverTheFirstColumn", {{fine(tmerc(0.0, 20.0), 500.0), 200.0}, planet}}, 1},
-        {{"AlignedWithTiles", {{aligned, 200.0}, planet}}, 1},
-        {{"TheSameHeights", {{aligned, 0.0, true, true}, {planet.map, 0.0, false, true}}}, 1},
+         {1}},
+        {{"OverTheFirstColumn", {{fine(tmerc(0.0, 20.0), 500.0), 200.0}, planet}}, {1}},
+        {{"AlignedWithTiles", {{aligned, 200.0}, planet}}, {1}},
+        {{"TheSameHeights", {{aligned, 0.0, true, true}, {planet.map, 0.0, false, true}}}, {1}},
         {{"CoarseOverTiles",
           {{{"Coarse", at_corner, 5, 4, {-1250000, 500000, 0, 1000000, 0, -500000}, 500.0}, 900.0},
            planet}},
-         1},
+         {1}},
         {{"InBetween",
           {{{"Finest", kTransverse, 41, 33, {-20500, 1000, 0, 16500, 0, -1000}, 300.0},
             200.0,
             true},
            {{"Middle", kTransverse, 300, 280, {-150000, 1000, 0, 140000, 0, -1000}, 500.0}, -500.0},
            wholeMars(72, 36, 0.0)}},
-         1},
-        {{"VoidsInTiles", {{fine(tmerc(5.0, 86.0), 500.0), 200.0}, planet_with_voids}}, 1},
+         {1}},
+        {{"VoidsInTiles", {{fine(tmerc(5.0, 86.0), 500.0), 200.0}, planet_with_voids}}, {1}},
+    };
+}
+
+// In pairs and threes, of different projections: the upper one far above, far below and across the
+// lower one, around the body, over a pole with voids below it, with a map in memory between them
+// whose border is apart from theirs or crosses them, and with borders that cross, in both orders.
+std::vector<Layers> severalInTiles()
+{
+    const GeoTransform::Terms kilometers{-150000, 1000, 0, 140000, 0, -1000};
+    const NestedMap planet = wholeMars(520, 270, 0.0);
+    const auto fine = [&](double relief_m, double raised_m) {
+        return NestedMap{{"Fine", kTransverse, 300, 280, kilometers, relief_m}, raised_m};
+    };
+    const NestedMap crossing{
+        {"Crossing", kPlate, 280, 300, {226.5, 0.02, 0, 19.5, 0, -0.02}, 3000.0}, 700.0};
+    const auto middle = [](double left_m) {
+        return NestedMap{
+            {"Middle", kTransverse, 41, 33, {left_m, 10000, 0, 165000, 0, -10000}, 500.0},
+            -300.0,
+            true};
+    };
+    NestedMap planet_with_voids = planet;
+    planet_with_voids.has_voids = true;
+    const NestedMap polar{{"Polar", kPolar, 300, 280, {-150000, 1000, 0, 130000, 0, -1000}, 500.0},
+                          -400.0};
+    return {
+        {{"BothFarAbove", {fine(500.0, 6000.0), planet}}, {0, 1}},
+        {{"BothFarBelow", {fine(500.0, -2000.0), planet}}, {0, 1}},
+        {{"BothAcross", {fine(5000.0, 0.0), planet}}, {0, 1}},
+        {{"BeltOverTiles",
+          {{{"Belt", kPlate, 480, 270, {-180, 0.75, 0, 70, 0, -0.25}, 3000.0}, 200.0}, planet}},
+         {0, 1}},
+        {{"PolarOverVoids", {polar, planet_with_voids}}, {0, 1}},
+        {{"MemoryBetween", {fine(500.0, 100.0), middle(-205000.0), planet}}, {0, 2}},
+        {{"MemoryAcross", {fine(500.0, 100.0), middle(-55000.0), planet}}, {0, 2}},
+        {{"Crossing", {fine(500.0, 100.0), crossing, wholeMars(72, 36, 0.0)}}, {0, 1}},
+        {{"CrossingInTheOtherOrder", {crossing, fine(500.0, 100.0), wholeMars(72, 36, 0.0)}},
+         {0, 1}},
+        {{"ThreeInTiles", {fine(500.0, 100.0), crossing, planet}}, {0, 1, 2}},
     };
 }
 
 std::vector<Layers> layers()
 {
     std::vector<Layers> all = uppermostInTiles();
-    for (Layers& more : lowerInTiles()) {
-        all.push_back(std::move(more));
+    for (auto more : {lowerInTiles(), severalInTiles()}) {
+        std::move(more.begin(), more.end(), std::back_inserter(all));
     }
     return all;
 }
@@ -163,34 +203,88 @@ void expectSameTriangles(const LayeredMesh& mesh, const LayeredMesh& expected)
     }
 }
 
+// One per map in tiles.
+class ArrivingOn {
+public:
+    ArrivingOn(const TiledLayers& on, Random& random)
+        : random_(random)
+    {
+        for (const test::TiledLayerMap& one : on.tiles) {
+            maps_.push_back(std::make_unique<Arriving>(random, one.map, 1e9));
+        }
+    }
+
+    TiledLayers::Terrains terrains() const
+    {
+        TiledLayers::Terrains terrains;
+        for (const auto& map : maps_) {
+            terrains.push_back(map->terrain());
+        }
+        return terrains;
+    }
+    bool isAnyMissing() const
+    {
+        return std::any_of(maps_.begin(), maps_.end(),
+                           [](const auto& map) { return map->isAnyMissing(); });
+    }
+    void arrive()
+    {
+        std::size_t i = random_.below(maps_.size());
+        while (!maps_[i]->isAnyMissing()) {
+            i = (i + 1) % maps_.size();
+        }
+        maps_[i]->arrive({0.0, 0.0});
+    }
+    // All tiles of one map.
+    void complete(std::size_t i)
+    {
+        while (maps_[i]->isAnyMissing()) {
+            maps_[i]->arrive({0.0, 0.0});
+        }
+        maps_[i]->terrain()->advance({0.0, 0.0}, 1.0);
+    }
+    void advance(double seconds)
+    {
+        for (const auto& map : maps_) {
+            map->terrain()->advance({0.0, 0.0}, seconds);
+        }
+    }
+
+private:
+    Random& random_;
+    std::vector<std::unique_ptr<Arriving>> maps_;
+};
+
 class TiledLayersOf : public testing::TestWithParam<Layers> {};
 
 TEST_P(TiledLayersOf, HaveTheTrianglesOfTheSameHeightsInMemoryWhicheverTilesHaveArrived)
 {
     const TiledLayers on(GetParam().maps, GetParam().in_tiles, 3.0);
     // Those around the borders, and no other samples.
-    EXPECT_GT(on.pins().size(), 4U);
-    EXPECT_LT(on.pins().size(), on.map.layout().columns * on.map.layout().rows / 10);
+    for (std::size_t i = 0; i < on.tiles.size(); ++i) {
+        const TileLayout& layout = on.tiles[i].map.layout();
+        EXPECT_GT(on.pins(i).size(), 4U);
+        EXPECT_LT(on.pins(i).size(), layout.columns * layout.rows / 10);
+    }
     Random random(3);
-    Arriving arriving(random, on.map, 1e9);
-    const auto mesh = on.over(arriving.terrain());
+    ArrivingOn arriving(on, random);
+    const auto mesh = on.over(arriving.terrains());
     bool is_coarse = true;
     for (int state = 0; is_coarse; ++state) {
         is_coarse = arriving.isAnyMissing();
         // Partly blended in now and then.
-        arriving.terrain()->advance({0.0, 0.0}, state % 2 == 0 || !is_coarse ? 1.0 : 1e-8);
-        const auto felt = on.inMemory(on.felt(*arriving.terrain()));
+        arriving.advance(state % 2 == 0 || !is_coarse ? 1.0 : 1e-8);
+        const auto felt = on.inMemory(on.felt(arriving.terrains()));
         ASSERT_NO_FATAL_FAILURE(expectSameTriangles(*mesh, *felt)) << state;
-        for (int i = 0; i < 3 && arriving.isAnyMissing(); ++i) {
-            arriving.arrive({0.0, 0.0});
+        for (std::size_t i = 0; i < 3 * on.tiles.size() && arriving.isAnyMissing(); ++i) {
+            arriving.arrive();
         }
     }
-    EXPECT_EQ(arriving.terrain()->sample(41, 43), on.map.filled->sample(41, 43));
+    for (std::size_t i = 0; i < on.tiles.size(); ++i) {
+        EXPECT_EQ(arriving.terrains()[i]->sample(41, 43), on.tiles[i].map.filled->sample(41, 43));
+    }
     // At full resolution.
-    const TileCache cache({.bytes_max = std::size_t{8} << 20, .loader_threads = 1});
-    const auto waiting =
-        std::make_shared<const WaitingTerrain>(TiledRaster(cache, on.map.source), on.map.heights);
-    expectSameTriangles(*on.over(waiting), *on.inMemory(on.map.filled));
+    expectSameTriangles(*on.over(on.waiting()), *on.inMemory(on.filled()));
 }
 
 INSTANTIATE_TEST_SUITE_P(AllLayers,
@@ -199,6 +293,86 @@ INSTANTIATE_TEST_SUITE_P(AllLayers,
                          [](const testing::TestParamInfo<Layers>& tested) {
                              return tested.param.maps.name;
                          });
+
+const auto kNameOf = [](const testing::TestParamInfo<Layers>& tested) {
+    return tested.param.maps.name;
+};
+
+class SeveralTiledLayers : public testing::TestWithParam<Layers> {};
+
+INSTANTIATE_TEST_SUITE_P(AllLayers,
+                         SeveralTiledLayers,
+                         testing::ValuesIn(severalInTiles()),
+                         kNameOf);
+
+// The other maps have all of theirs.
+TEST_P(SeveralTiledLayers, HaveTheTrianglesInMemoryWhileTheTilesOfOneMapAreHeldBack)
+{
+    const TiledLayers on(GetParam().maps, GetParam().in_tiles, 3.0);
+    for (std::size_t held = 0; held < on.tiles.size(); ++held) {
+        Random random(7);
+        ArrivingOn arriving(on, random);
+        for (std::size_t i = 0; i < on.tiles.size(); ++i) {
+            if (i != held) {
+                arriving.complete(i);
+            }
+        }
+        const TiledLayers::Terrains terrains = arriving.terrains();
+        std::size_t coarse = 0; // samples of the map that is held back
+        for (std::size_t i = 0; i < on.tiles.size(); ++i) {
+            const TileLayout& layout = on.tiles[i].map.layout();
+            std::size_t other = 0;
+            for (std::size_t row = 0; row < layout.rows; ++row) {
+                for (std::size_t column = 0; column < layout.columns; ++column) {
+                    other += terrains[i]->sample(column, row) !=
+                                     on.tiles[i].map.filled->sample(column, row)
+                                 ? 1U
+                                 : 0U;
+                }
+            }
+            if (i == held) {
+                coarse = other;
+            } else {
+                EXPECT_EQ(other, 0U) << i;
+            }
+        }
+        EXPECT_GT(coarse, 1000U) << held;
+        ASSERT_NO_FATAL_FAILURE(
+            expectSameTriangles(*on.over(terrains), *on.inMemory(on.felt(terrains))))
+            << held;
+    }
+}
+
+// Each map asked by itself, over all of its faces, in long double.
+TEST_P(SeveralTiledLayers, LieAtEachPlaceWhereTheUppermostMapLies)
+{
+    const TiledLayers on(GetParam().maps, GetParam().in_tiles, 1.0);
+    const auto mesh = on.over(on.waiting());
+    const auto maps = test::meshesOf(GetParam().maps);
+    Random random(11);
+    double cell_m = 0.0;
+    for (const auto& map : maps) {
+        cell_m = std::max(cell_m, test::cellOf(*map));
+    }
+    // An edge that is straight in space is not quite one over the ellipsoid: by a share of how far
+    // it lies below that.
+    const double exact_m = 1e-6 * cell_m + 3e-4 * cell_m * cell_m / (8.0 * 3396190.0);
+    std::vector<int> on_map(maps.size());
+    int near_border = 0;
+    constexpr std::size_t kPlaces = 60;
+    for (std::size_t i = 0; i < kPlaces; ++i) {
+        const ScenePoint place = test::placeNear(*maps[i % (maps.size() - 1)], random);
+        const auto found = test::below(*mesh, place);
+        const auto expected = test::uppermostBelow(maps, place);
+        ASSERT_TRUE(found && expected) << i;
+        ++on_map[expected->map];
+        near_border += std::abs(found->height_m - expected->height_m) > exact_m ? 1 : 0;
+    }
+    for (const int count : on_map) {
+        EXPECT_GT(count, 2);
+    }
+    EXPECT_LE(near_border, 1);
+}
 
 using Case = std::tuple<ContactModelKind, Layers>;
 class TiledLayersContact : public testing::TestWithParam<Case> {};
@@ -209,8 +383,8 @@ TEST_P(TiledLayersContact, HasTheProxiesOfTheSameHeightsInMemoryWhileTilesArrive
     const auto& [kind, tested] = GetParam();
     const TiledLayers on(tested.maps, tested.in_tiles, 2.0);
     Random random(5);
-    Arriving arriving(random, on.map, 1e9);
-    const auto mesh = on.over(arriving.terrain());
+    ArrivingOn arriving(on, random);
+    const auto mesh = on.over(arriving.terrains());
     const double cell_m = test::cellOf(*mesh->map(0));
     const ContactModelOptions options{.radius_m = 0.3 * cell_m};
     const auto model = makeContactModel(kind, LayeredSurface(mesh), options);
@@ -221,7 +395,7 @@ TEST_P(TiledLayersContact, HasTheProxiesOfTheSameHeightsInMemoryWhileTilesArrive
     int contacts = 0;
     int on_walls = 0;
     for (int state = 0; state < 4; ++state) {
-        const auto felt = on.inMemory(on.felt(*arriving.terrain()));
+        const auto felt = on.inMemory(on.felt(arriving.terrains()));
         const auto truth = makeContactModel(kind, LayeredSurface(felt), options);
         ScenePoint goal = mesh->vertex(mesh->face(mesh->firstCutFace())[0]);
         goal = mesh->highAbove(goal);
@@ -248,10 +422,10 @@ TEST_P(TiledLayersContact, HasTheProxiesOfTheSameHeightsInMemoryWhileTilesArrive
             });
         }
         // A proxy that rests follows the surface that changes below it.
-        for (int i = 0; i < 2 && arriving.isAnyMissing(); ++i) {
-            arriving.arrive({0.0, 0.0});
+        for (std::size_t i = 0; i < 2 * on.tiles.size() && arriving.isAnyMissing(); ++i) {
+            arriving.arrive();
         }
-        arriving.terrain()->advance({0.0, 0.0}, 1.0);
+        arriving.advance(1.0);
         model->terrainChanged();
         const ContactState after = model->state();
         double distance_m = std::numeric_limits<double>::infinity();
@@ -277,6 +451,7 @@ std::vector<Case> cases()
         if (kind != kContactModelDefault) {
             cases.emplace_back(kind, uppermostInTiles().front());
             cases.emplace_back(kind, lowerInTiles().front());
+            cases.emplace_back(kind, severalInTiles().front());
         }
     }
     return cases;
@@ -296,8 +471,9 @@ TEST(TiledLayersPins, AreTheSamplesAroundTheBorderOfTheUpperMap)
 {
     const Layers layers = lowerInTiles().front();
     const TiledLayers on(layers.maps, layers.in_tiles, 1.0);
-    const BodyPositions& positions = on.tiled->grid()->positions();
-    const auto cell_m = test::cellOf(*on.joined->tiledMap());
+    const test::TiledLayerMap& planet = on.tiles.front();
+    const BodyPositions& positions = planet.tiled->grid()->positions();
+    const auto cell_m = test::cellOf(*on.joined->map(planet.index));
     // All samples of the upper map's border, on the ellipsoid.
     std::vector<ScenePoint> border;
     on.meshes[0]->eachVertexAtBorder([&](BodyIndex vertex) {
@@ -307,24 +483,24 @@ TEST(TiledLayersPins, AreTheSamplesAroundTheBorderOfTheUpperMap)
     });
     ASSERT_EQ(border.size(), 2U * (41 + 33) - 4);
     for (const ScenePoint& point : border) {
-        const auto at = on.tiled->locator()->find(point, std::nullopt);
+        const auto at = planet.tiled->locator()->find(point, std::nullopt);
         ASSERT_TRUE(at);
         const auto column = static_cast<std::size_t>(at->column);
         const auto row = static_cast<std::size_t>(at->row) - positions.firstRow();
         for (const std::size_t corner : {0U, 1U, 2U, 3U}) {
-            ASSERT_TRUE(on.pins().find(column + corner % 2, row + corner / 2))
+            ASSERT_TRUE(on.pins(0).find(column + corner % 2, row + corner / 2))
                 << at->column << " " << at->row;
         }
     }
     std::size_t pinned = 0;
     for (std::size_t row = 0; row < positions.rows(); ++row) {
         for (std::size_t column = 0; column < positions.columns(); ++column) {
-            const double* height_m = on.pins().find(column, row);
+            const double* height_m = on.pins(0).find(column, row);
             if (height_m == nullptr) {
                 continue;
             }
             ++pinned;
-            ASSERT_EQ(*height_m, on.map.filled->sample(column, row + positions.firstRow()));
+            ASSERT_EQ(*height_m, planet.map.filled->sample(column, row + positions.firstRow()));
             const ScenePoint at = positions.at(column, row, 0.0);
             double nearest_m = std::numeric_limits<double>::infinity();
             for (const ScenePoint& point : border) {
@@ -333,7 +509,7 @@ TEST(TiledLayersPins, AreTheSamplesAroundTheBorderOfTheUpperMap)
             ASSERT_LT(nearest_m, 4.5 * cell_m) << column << " " << row;
         }
     }
-    EXPECT_EQ(pinned, on.pins().size());
+    EXPECT_EQ(pinned, on.pins(0).size());
 }
 
 // More than a table's places: none is lost, and no others are found.
@@ -380,11 +556,10 @@ TEST(TiledLayersRefused, AMapInTilesWithVoidsAboveOthers)
         Heightfield(std::make_shared<const SampleGrid>(std::move(samples)), statistics, {}));
     EXPECT_FALSE(LayeredMesh::canBeCutOut(*with_void.heights));
     const Layers layers = lowerInTiles().back(); // with voids in tiles
+    ASSERT_EQ(layers.maps.name, "VoidsInTiles");
     const TiledLayers on(layers.maps, layers.in_tiles, 1.0);
-    EXPECT_FALSE(LayeredMesh::canBeCutOut(*on.map.heights));
-    const auto waiting = std::make_shared<const WaitingTerrain>(
-        TiledRaster(on.cache, on.map.source), on.map.heights);
-    auto maps = on.meshesOver(waiting);
+    EXPECT_FALSE(LayeredMesh::canBeCutOut(*on.tiles.front().map.heights));
+    auto maps = on.meshesOver(on.waiting());
     std::swap(maps[0], maps[1]);
     JobMonitor monitor;
     const auto refused = LayeredMesh::build(maps, monitor);
@@ -396,9 +571,7 @@ TEST(TiledLayersRefused, MoreThanTheLimitsOfMapsInTiles)
 {
     const Layers layers = lowerInTiles().front();
     const TiledLayers on(layers.maps, layers.in_tiles, 1.0);
-    const auto waiting = std::make_shared<const WaitingTerrain>(
-        TiledRaster(on.cache, on.map.source), on.map.heights);
-    const auto maps = on.meshesOver(waiting);
+    const auto maps = on.meshesOver(on.waiting());
     JobMonitor monitor;
     std::size_t covered = 0;
     for (BodyIndex face = 0; face < on.joined->firstCutFace(); ++face) {
@@ -419,6 +592,22 @@ TEST(TiledLayersRefused, MoreThanTheLimitsOfMapsInTiles)
     EXPECT_EQ(canceled.error().code, ErrorCode::Canceled);
 }
 
+// Each has a thread that loads its tiles.
+TEST(TiledLayersRefused, MoreMapsInTilesThanCanBeLoadedAtOnce)
+{
+    const Layers layers = lowerInTiles().front();
+    const TiledLayers on(layers.maps, layers.in_tiles, 1.0);
+    const auto tiled = on.meshesOver(on.waiting()).back();
+    JobMonitor monitor;
+    for (const std::size_t count : {LayeredMesh::kTiledMax, LayeredMesh::kTiledMax + 1}) {
+        // The same map again and again covers all of those below it.
+        const auto built =
+            LayeredMesh::build(std::vector<std::shared_ptr<const BodyMesh>>(count, tiled), monitor);
+        ASSERT_EQ(static_cast<bool>(built), count == LayeredMesh::kTiledMax);
+        EXPECT_TRUE(built || built.error().code == ErrorCode::TooLarge);
+    }
+}
+
 // A tile that cannot be read is the error of the terrain that the maps are joined over.
 TEST(TiledLayersRefused, ABorderThatCannotBeRead)
 {
@@ -426,16 +615,16 @@ TEST(TiledLayersRefused, ABorderThatCannotBeRead)
     const TiledLayers on(layers.maps, layers.in_tiles, 1.0);
     for (const std::size_t column : {std::size_t{0}, std::size_t{2}}) {
         const test::TiledMap damaged = test::tiledMap(
-            on.map.filled->heightfield(), {.before_read = [column](const TileId& id) {
+            on.tiles.front().map.filled->heightfield(), {.before_read = [column](const TileId& id) {
                 return id == test::samplesTile(0, column, 1)
                            ? std::optional(Error{ErrorCode::Invalid, "a damaged tile"})
                            : std::nullopt;
             }});
         TileCache cache({.bytes_max = std::size_t{8} << 20, .loader_threads = 1});
         const auto missing = std::make_shared<const WaitingTerrain>(
-            TiledRaster(cache, damaged.source), on.map.heights);
+            TiledRaster(cache, damaged.source), on.tiles.front().map.heights);
         JobMonitor monitor;
-        const auto built = LayeredMesh::build(on.meshesOver(missing), monitor);
+        const auto built = LayeredMesh::build(on.meshesOver({missing}), monitor);
         // The tile at the seam is far from the border.
         EXPECT_EQ(missing->error().has_value(), column == 0);
         EXPECT_TRUE(built);

@@ -36,6 +36,9 @@ TEST(GroundText, ReadsBackWhatItWritesToTheBit)
         GroundLevel{0, {0, 0, 1, 1, 0}},
         GroundTile{{TileKind::Samples, 9, 3, 70'000}, std::nextafter(1.0, 0.0)},
         GroundTile{{TileKind::Samples, 0, 0, 0}, std::numeric_limits<double>::denorm_min()},
+        GroundLevel{1, {0, 0, 2, 2, 5}, 0},
+        GroundLevel{1, {0, 0, 2, 2, 5}, 31},
+        GroundTile{{TileKind::Samples, 2, 1, 0}, 0.25, 2},
         GroundFelt{0},
         GroundFelt{12}};
     std::string cell;
@@ -45,6 +48,16 @@ TEST(GroundText, ReadsBackWhatItWritesToTheBit)
     EXPECT_EQ(cell.find(','), std::string::npos) << "it is the cell of a table";
     EXPECT_EQ(parseGround(cell), records) << cell;
     EXPECT_EQ(parseGround(""), std::vector<GroundRecord>{});
+}
+
+// Of recordings in which only one of the maps could be in tiles.
+TEST(GroundText, ReadsTilesWithoutTheIndexOfTheirMap)
+{
+    EXPECT_EQ(
+        parseGround("level/1/0/0/2/2/5 tile/2/1/0/0.25"),
+        (std::vector<GroundRecord>{GroundLevel{1, {0, 0, 2, 2, 5}, std::nullopt},
+                                   GroundTile{{TileKind::Samples, 2, 1, 0}, 0.25, std::nullopt}}));
+    EXPECT_EQ(groundText(GroundLevel{1, {0, 0, 2, 2, 5}, std::nullopt}), "level/1/0/0/2/2/5");
 }
 
 TEST(GroundText, RefusesInvalidText)
@@ -60,6 +73,12 @@ TEST(GroundText, RefusesInvalidText)
                              "tile/0/0/0/1",
                              "tile/0/0/0/-0.5",
                              "tile/0/0/0/nan",
+                             "tile/0/0/0/0.5/",
+                             "tile/0/0/0/0.5/-1",
+                             "tile/0/0/0/0.5/1/1",
+                             "level/0/0/0/1/1/1/",
+                             "level/0/0/0/1/1/1/x",
+                             "level/0/0/0/1/1/1/4294967296",
                              "tile/256/0/0/0.5",
                              "part/1/2/3",
                              "below/1/2/3",

@@ -110,6 +110,31 @@ TEST(RecordedGround, RefusesTilesThatTheMapDoesNotHave)
     EXPECT_EQ(ground->terrain()->sample(0, 0), map.window({}).height(0, 0));
 }
 
+// Of joined maps, each shows its own tiles, and those of older recordings, which name no map.
+TEST(RecordedGround, ShowsTheTilesOfItsOwnMap)
+{
+    const TiledMap map = mapWithVoids();
+    const TileCache cache({.bytes_max = std::size_t{64} << 20, .loader_threads = 1});
+    const double coarse_m = map.window({}).height(1, 1);
+    const double fine_m = map.filled->sample(1, 1);
+    ASSERT_NE(coarse_m, fine_m);
+    for (const std::optional<std::uint32_t> named :
+         std::vector<std::optional<std::uint32_t>>{0U, 1U, 2U, std::nullopt}) {
+        const auto ground =
+            RecordedGround::make(TiledRaster(cache, map.source), map.heights, 1).value();
+        EXPECT_TRUE(ground->follow(GroundLevel{0, {0, 0, 2, 2, 1}, named}));
+        EXPECT_TRUE(ground->follow(GroundFelt{}));
+        const bool is_own = named.value_or(1) == 1;
+        EXPECT_EQ(ground->terrain()->sample(1, 1), is_own ? fine_m : coarse_m);
+        EXPECT_TRUE(ground->follow(GroundTile{{TileKind::Samples, 0, 0, 0}, 0.0, named}));
+        EXPECT_TRUE(ground->follow(GroundFelt{}));
+        EXPECT_EQ(ground->terrain()->sample(1, 1), coarse_m);
+        // Invalid tiles of another map are not an error here.
+        EXPECT_EQ(static_cast<bool>(ground->follow(GroundLevel{0, {0, 0, 9, 4, 1}, named})),
+                  !is_own);
+    }
+}
+
 TEST(RecordedGround, NamesTheTileThatCannotBeRead)
 {
     const auto fails = [](const TileId& id) {

@@ -7,6 +7,7 @@
 #include "ui/controllers/haptics/haptics_controller.h"
 
 #include <cmath>
+#include <limits>
 #include <memory>
 
 namespace marsview {
@@ -90,11 +91,12 @@ TEST_F(GlobeTiledTouchTest, ADeviceTouchesTheTerrainOfTheMapInMemory)
 }
 
 enum class InTiles { Fine, Mars, Both };
+enum class FineVoids { None, One };
 
 // Cells of 400 m, 2 km above all of Mars.
 class GlobeNestedTilesTest : public GlobeTest {
 protected:
-    void open(InTiles in_tiles)
+    void open(InTiles in_tiles, FineVoids voids = FineVoids::None)
     {
         is_fine_in_tiles_ = in_tiles != InTiles::Mars;
         is_mars_in_tiles_ = in_tiles != InTiles::Fine;
@@ -108,6 +110,9 @@ protected:
                                         *GeoTransform::fromTerms(place.transform),
                                         *Crs::fromText(place.srs));
         fine_ = maker_.make(place, [&](std::size_t column, std::size_t row) {
+            if (voids == FineVoids::One && column == 100 && row == 100) {
+                return std::numeric_limits<double>::quiet_NaN();
+            }
             const GridPoint at{static_cast<double>(column), static_cast<double>(row)};
             return mars_->height(*georeference.toGeographic(at)) + 2000.0;
         });
@@ -180,9 +185,11 @@ protected:
 
 INSTANTIATE_TEST_SUITE_P(Maps,
                          GlobeJoinedTilesTest,
-                         testing::Values(InTiles::Fine, InTiles::Mars),
+                         testing::Values(InTiles::Fine, InTiles::Mars, InTiles::Both),
                          [](const auto& tested) {
-                             return tested.param == InTiles::Fine ? "TheUpper" : "TheLower";
+                             return tested.param == InTiles::Fine   ? "TheUpper"
+                                    : tested.param == InTiles::Mars ? "TheLower"
+                                                                    : "Both";
                          });
 
 TEST_P(GlobeJoinedTilesTest, TheMousePressesIntoBothAsOneSurface)
@@ -214,7 +221,8 @@ TEST_P(GlobeJoinedTilesTest, ADeviceStrokesOverTheBorderOnOneSurface)
     ASSERT_TRUE(waitFor([&] { return device.isRunning() && globe().shownStylus(); }));
     const auto is_one = [&] {
         const auto& map = device.settings().map;
-        return map && map->below.size() == 1 && map->terrain &&
+        const std::size_t in_tiles = (is_fine_in_tiles_ ? 1U : 0U) + (is_mars_in_tiles_ ? 1U : 0U);
+        return map && map->below.size() == 1 && map->tiles.size() == in_tiles &&
                map->frame.georeference().columns() == 300 &&
                map->frame.exaggeration() == globe().exaggeration();
     };
@@ -246,7 +254,7 @@ TEST_P(GlobeJoinedTilesTest, ADeviceStrokesOverTheBorderOnOneSurface)
     window_->controller().setVisible(window_->session().layers.front().id, false);
     EXPECT_TRUE(waitFor([&] {
         const auto& map = device.settings().map;
-        return map->below.empty() && (map->terrain != nullptr) == is_mars_in_tiles_ &&
+        return map->below.empty() && map->tiles.size() == (is_mars_in_tiles_ ? 1U : 0U) &&
                map->map_id != id;
     }));
     device.disconnectDevice();
@@ -270,9 +278,9 @@ TEST_F(GlobeNestedTilesTest, AMapInTilesThatIsCoveredIsJoinedToo)
 }
 
 // The reason is stated.
-TEST_F(GlobeNestedTilesTest, TwoMapsInTilesAreTouchedOneByOne)
+TEST_F(GlobeNestedTilesTest, AMapInTilesWithNodataAboveOthersIsTouchedByItself)
 {
-    open(InTiles::Both);
+    open(InTiles::Both, FineVoids::One);
     window_->actionSet().tools->actions().at(static_cast<int>(Tool::Touch))->trigger();
     ASSERT_TRUE(waitFor([this] {
         const auto& ground = globe().meshes().ground();
