@@ -2813,12 +2813,20 @@ y %2</translation>
         <translation>Ziehen</translation>
     </message>
     <message>
+        <source>arrow keys</source>
+        <translation>Pfeiltasten</translation>
+    </message>
+    <message>
         <source>move</source>
         <translation>verschieben</translation>
     </message>
     <message>
         <source>Right-drag</source>
         <translation>Rechts ziehen</translation>
+    </message>
+    <message>
+        <source>Q, E, R, F</source>
+        <translation>Q, E, R, F</translation>
     </message>
     <message>
         <source>turn and tilt</source>
@@ -2829,8 +2837,12 @@ y %2</translation>
         <translation>Rad</translation>
     </message>
     <message>
-        <source>zoom to the pointer</source>
-        <translation>zum Zeiger hin vergrößern</translation>
+        <source>Page Up/Down</source>
+        <translation>Bild auf/ab</translation>
+    </message>
+    <message>
+        <source>zoom</source>
+        <translation>vergrößern</translation>
     </message>
     <message>
         <source>Double-click</source>
@@ -2839,6 +2851,11 @@ y %2</translation>
     <message>
         <source>fly there</source>
         <translation>dorthin fliegen</translation>
+    </message>
+    <message>
+        <source>%1 or %2</source>
+        <extracomment>%1 is a gesture of the mouse, %2 keys with the same effect</extracomment>
+        <translation>%1 oder %2</translation>
     </message>
     <message>
         <source>%1. %2: %3</source>

@@ -79,7 +79,8 @@ TEST_F(FirstMinuteTest, TheHintNamesTheGesturesUntilItIsClosed)
     open();
     ASSERT_TRUE(hint().isVisible());
     EXPECT_FALSE(hint().accessibleName().isEmpty());
-    for (const char* word : {"Drag", "Right-drag", "Wheel", "Double-click", "Choose Touch (T)"}) {
+    for (const char* word : {"Drag or arrow keys", "Right-drag or Q, E, R, F", "Wheel or Page Up/Down",
+                             "Double-click", "Choose Touch (T)"}) {
         EXPECT_TRUE(hint().accessibleDescription().contains(QString::fromLatin1(word))) << word;
     }
     for (const QWidget* other : std::initializer_list<const QWidget*>{

@@ -71,6 +71,17 @@ protected:
     }
 };
 
+TEST_F(PictureSaverTest, IsOfferedWhereAMapIsShown)
+{
+    const QAction& save = *window_->actionSet().save_picture;
+    EXPECT_TRUE(save.isEnabled());
+    window_->controller().remove(window_->session().active);
+    ASSERT_TRUE(window_->session().layers.empty());
+    EXPECT_FALSE(save.isEnabled());
+    ASSERT_TRUE(openAndWait(*window_, maps_.hill()));
+    EXPECT_TRUE(save.isEnabled());
+}
+
 TEST_F(PictureSaverTest, WritesEachFormatByItsEnding)
 {
     const struct {

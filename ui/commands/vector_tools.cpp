@@ -24,9 +24,9 @@
 namespace marsview {
 namespace {
 
-// Distinct on every ramp, with the dark border of lines.
-constexpr std::array<Rgb8, 6> kColors{Rgb8{255, 221, 64},  Rgb8{64, 220, 255}, Rgb8{255, 120, 200},
-                                      Rgb8{150, 255, 100}, Rgb8{255, 150, 60}, Rgb8{200, 170, 255}};
+// Distinct on every ramp, with the dark border of lines, and from measurements, which are yellow.
+constexpr std::array<Rgb8, 5> kColors{Rgb8{64, 220, 255}, Rgb8{255, 120, 200}, Rgb8{150, 255, 100},
+                                      Rgb8{255, 150, 60}, Rgb8{200, 170, 255}};
 constexpr int kSwatchSide = 14;
 
 } // namespace

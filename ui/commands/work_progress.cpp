@@ -107,6 +107,9 @@ void WorkProgress::followPreparing()
 
 void WorkProgress::followSaving()
 {
+    connect(&parts_.session, &SessionController::sessionChanged, this,
+            &WorkProgress::showSavePicture);
+    showSavePicture();
     connect(parts_.actions.save_picture, &QAction::triggered, this, [this] {
         const Layer* active = activeLayer(parts_.session.session());
         parts_.pictures.start(
@@ -160,7 +163,13 @@ void WorkProgress::showCancel()
                    : is_at_files ? tr("&Cancel")
                    : is_saving   ? tr("&Cancel Saving")
                                  : tr("&Cancel Loading"));
-    parts_.actions.save_picture->setEnabled(!parts_.pictures.isSaving());
+    showSavePicture();
+}
+
+void WorkProgress::showSavePicture()
+{
+    parts_.actions.save_picture->setEnabled(!parts_.pictures.isSaving() &&
+                                            !shownLayers(parts_.session.session()).empty());
 }
 
 bool WorkProgress::isIdle() const

@@ -56,6 +56,7 @@ private:
     void follow(Saver& saver, const QString& failure_title);
     bool isSaving() const;
     void showCancel();
+    void showSavePicture();
 
     Parts parts_;
 };

@@ -56,39 +56,45 @@ GestureHint::GestureHint(QWidget* parent)
     grid->setContentsMargins(kPlatePadding + 3, kPlatePadding, kPlatePadding, kPlatePadding + 1);
     grid->setHorizontalSpacing(10);
     grid->setVerticalSpacing(3);
-    grid->addWidget(title, 0, 0, 1, 2);
-    grid->addWidget(close, 0, 2, Qt::AlignRight);
+    grid->addWidget(title, 0, 0, 1, 3);
+    grid->addWidget(close, 0, 3, Qt::AlignRight);
     struct Text {
         MapAction action;
         QString gesture;
+        QString keys;
         QString effect;
     };
     const std::array<Text, 4> texts{
-        Text{MapAction::Pan, tr("Drag"), tr("move")},
-        Text{MapAction::Orbit, tr("Right-drag"), tr("turn and tilt")},
-        Text{MapAction::Zoom, tr("Wheel"), tr("zoom to the pointer")},
-        Text{MapAction::FlyThere, tr("Double-click"), tr("fly there")},
+        Text{MapAction::Pan, tr("Drag"), tr("arrow keys"), tr("move")},
+        Text{MapAction::Orbit, tr("Right-drag"), tr("Q, E, R, F"), tr("turn and tilt")},
+        Text{MapAction::Zoom, tr("Wheel"), tr("Page Up/Down"), tr("zoom")},
+        Text{MapAction::FlyThere, tr("Double-click"), {}, tr("fly there")},
     };
     const auto add_mark = [this, grid](std::size_t i, MapAction action, int row) {
         auto* mark = new QLabel(this);
         mark->setFixedSize(kHintIconSide, kHintIconSide);
-        grid->addWidget(mark, row, 2, Qt::AlignRight | Qt::AlignVCenter);
+        grid->addWidget(mark, row, 3, Qt::AlignRight | Qt::AlignVCenter);
         lines_[i] = {.action = action, .mark = mark};
     };
     QString all = title->text();
     int row = 1;
     for (std::size_t i = 0; i < texts.size(); ++i, ++row) {
         grid->addWidget(new QLabel(texts[i].gesture, this), row, 0);
-        grid->addWidget(new QLabel(texts[i].effect, this), row, 1);
+        grid->addWidget(new QLabel(texts[i].keys, this), row, 1);
+        grid->addWidget(new QLabel(texts[i].effect, this), row, 2);
         add_mark(i, texts[i].action, row);
+        const QString ways = texts[i].keys.isEmpty()
+                                 ? texts[i].gesture
+                                 //: %1 is a gesture of the mouse, %2 keys with the same effect
+                                 : tr("%1 or %2").arg(texts[i].gesture, texts[i].keys);
         //: A list for screen readers: %1 is the list so far, %2 a gesture, %3 its effect
-        all = tr("%1. %2: %3").arg(all, texts[i].gesture, texts[i].effect);
+        all = tr("%1. %2: %3").arg(all, ways, texts[i].effect);
     }
     auto* touch = new QLabel(tr("Choose Touch (T) and drag to feel the terrain"), this);
     touch->setFont(bold);
     grid->setRowMinimumHeight(row, 2);
     ++row;
-    grid->addWidget(touch, row, 0, 1, 2);
+    grid->addWidget(touch, row, 0, 1, 3);
     add_mark(texts.size(), MapAction::Touch, row);
     //: A list that is read aloud: %1 is what comes before, %2 a sentence
     setAccessibleDescription(tr("%1. %2").arg(all, touch->text()));

@@ -41,7 +41,7 @@
 namespace marsview {
 namespace {
 
-constexpr int kLines = 15;            // of text, that the panel is high to begin with
+constexpr int kLines = 17;            // of text, that the panel is high to begin with
 constexpr int kResultsWidthMax = 360; // a value stays near its label
 // Of profiles besides the current one; readable on light and on dark.
 constexpr std::array<QRgb, 5> kOtherCurves{0xFF3A86C8, 0xFF3F9E5A, 0xFF9B6BC9, 0xFFB8862B,
@@ -265,7 +265,7 @@ void MeasurePanel::makeProfile()
     save->setObjectName(QStringLiteral("saveProfile"));
     connect(save, &QPushButton::clicked, this, &MeasurePanel::saveProfile);
     stretch_note_ =
-        new QLabel(tr("Drag along the profile to measure a part of it."), profile_side_);
+        new ElidedLabel(tr("Drag along the profile to measure a part of it."), profile_side_);
     stretch_note_->setForegroundRole(QPalette::PlaceholderText);
     stretch_note_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     auto* caption = makeCaption(tr("&Vertical scale"), profile_side_);

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace marsview {
 namespace {
@@ -82,6 +83,8 @@ WindowDocks::WindowDocks(QMainWindow& window, const DockContents& contents)
     window_.tabifyDockWidget(measurements_, annotations_);
     measurements_->hide();
     annotations_->hide();
+    connect(measurements_, &QDockWidget::visibilityChanged, this,
+            &WindowDocks::giveMeasurementsHeight);
     for (Dock* dock : all()) {
         connect(dock->widget, &QDockWidget::topLevelChanged, this, &WindowDocks::fit);
         connect(dock->widget, &QDockWidget::dockLocationChanged, this,
@@ -315,6 +318,7 @@ void WindowDocks::restore(const QSettings& settings)
     {
         const QScopedValueRollback fitting(is_fitting_, true); // panels are restored one by one
         moveHome();
+        has_height_ = settings.contains(QStringLiteral("window/state"));
         window_.restoreState(settings.value(QStringLiteral("window/state")).toByteArray(),
                              kStateVersion);
         for (QDockWidget* dock : {measurements_, annotations_}) {
@@ -331,6 +335,17 @@ void WindowDocks::showRestored(QDockWidget& dock)
 {
     if (held_back_.removeOne(&dock)) {
         dock.show();
+    }
+}
+
+// By itself, the layout gives it the least that it can do with, in which a profile is flat.
+void WindowDocks::giveMeasurementsHeight(bool is_visible)
+{
+    if (is_visible && !std::exchange(has_height_, true)) {
+        const int height_max = window_.height() * 36 / 100;
+        window_.resizeDocks({measurements_},
+                            {std::min(measurements_->sizeHint().height(), height_max)},
+                            Qt::Vertical);
     }
 }
 

@@ -88,6 +88,7 @@ private:
     void gather(const Dock& host, Qt::DockWidgetArea side);
     void moveHome();
     void userMoved(Dock& dock);
+    void giveMeasurementsHeight(bool is_visible);
 
     QMainWindow& window_;
     Dock datasets_;
@@ -101,6 +102,7 @@ private:
     QList<QDockWidget*> for_tool_;  // of those, shown by showForTool()
     int turn_ = 0;
     bool is_fitting_ = false;
+    bool has_height_ = false; // the panel of measurements, from its first showing or the settings
 };
 
 } // namespace marsview
