@@ -753,9 +753,15 @@ TEST_F(HapticsControllerOfTiles, TouchesCoarseGroundWithoutWaitingForATile)
     large_.forgetTiles();
     const int reads = large_.guiReadCount();
     haptics_->device().connectTo(QStringLiteral("hand:"));
-    const WorkspacePoint below{0.01, 0.0, -0.055};
-    EXPECT_TRUE(comesToTouch(below, HUGE_VAL));
-    EXPECT_FALSE(touches(below, kExactM)) << "the tiles that are held back make a difference";
+    const std::array places{WorkspacePoint{0.01, 0.0, -0.055},
+                            WorkspacePoint{-0.013, 0.007, -0.055},
+                            WorkspacePoint{0.021, -0.012, -0.055}};
+    int coarse = 0; // of the places; where the proxy rests at a sample of all levels, all are exact
+    for (const WorkspacePoint& below : places) {
+        EXPECT_TRUE(comesToTouch(below, HUGE_VAL));
+        coarse += touches(below, kExactM) ? 0 : 1;
+    }
+    EXPECT_GT(coarse, 0) << "the tiles that are held back make a difference";
     // The same with the mouse.
     view_->setTool(Tool::Touch);
     QTest::mousePress(view_.get(), Qt::LeftButton, {}, view_->rect().center());
@@ -765,7 +771,9 @@ TEST_F(HapticsControllerOfTiles, TouchesCoarseGroundWithoutWaitingForATile)
     EXPECT_EQ(large_.guiReadCount(), reads) << "the GUI thread read a tile";
     // And when tiles arrive, the contact is exact.
     large_.holdAllTiles(false);
-    EXPECT_TRUE(comesToTouch(below, kExactM));
+    for (const WorkspacePoint& below : places) {
+        EXPECT_TRUE(comesToTouch(below, kExactM));
+    }
 }
 
 } // namespace
