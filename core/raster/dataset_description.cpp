@@ -50,6 +50,10 @@ void readVertical(GDALDataset& dataset,
     int has_offset = 0;
     const double scale = band.GetScale(&has_scale);
     const double offset = band.GetOffset(&has_offset);
+    if (info.driver == "FITS") { // GDAL has applied them to the samples
+        has_scale = 0;
+        has_offset = 0;
+    }
     if (has_scale != 0 && std::isfinite(scale) && scale != 0.0) {
         info.scale = scale;
     } else if (has_scale != 0 && !(label && label->hasScale())) {

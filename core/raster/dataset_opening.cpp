@@ -1,5 +1,6 @@
 #include "core/raster/dataset_opening.h"
 
+#include "core/files/archive_rasters.h"
 #include "core/files/gdal_runtime.h"
 #include "core/files/open_guard.h"
 #include "core/files/raster_path.h"
@@ -115,6 +116,25 @@ Result<OpenedDataset> openRemote(const std::string& name)
     }
 }
 
+// Of an archive that can be listed; rastersInArchive() has found none in it.
+std::optional<std::string> refusalOfArchive(const std::string& path)
+{
+    constexpr int kNamedMax = 3;
+    const std::string archive = archiveNameFor(path);
+    const CPLStringList names(archive.empty() ? nullptr : VSIReadDir(archive.c_str()));
+    if (names.Count() == 0) {
+        return std::nullopt;
+    }
+    std::string listed;
+    for (int i = 0; i < std::min(names.Count(), kNamedMax); ++i) {
+        listed += fmt::format("{}{}", i > 0 ? ", " : "", names[i]);
+    }
+    return fmt::format(
+        "holds no raster that GDAL can read, only {}{}; unpack what is an archive "
+        "itself, or convert what is a map to GeoTIFF",
+        listed, names.Count() > kNamedMax ? ", …" : "");
+}
+
 // GDAL recognizes a tile by its size.
 std::optional<std::string> refusalOfSrtmTile(const std::string& path)
 {
@@ -226,9 +246,12 @@ Result<OpenedDataset> openDataset(const std::string& path, int band)
     };
     // The last of these words come from a driver that looks for JSON in any text.
     if (says("not recognized") || says("Maximum number of characters") || first_failure.empty()) {
-        first_failure = refusalOfSrtmTile(path).value_or(
-            "is not a raster that GDAL can read, or is damaged; convert it to GeoTIFF or fetch it "
-            "again");
+        const auto known_kind = refusalOfSrtmTile(path);
+        first_failure = (known_kind ? known_kind : refusalOfArchive(path))
+                            .value_or(
+                                "is not a raster that GDAL can read, or is damaged; convert it to "
+                                "GeoTIFF or fetch it "
+                                "again");
     } else if (says("No such file or directory")) {
         first_failure = fmt::format(
             "names a data file that is missing; put it next to this file ({})", first_failure);

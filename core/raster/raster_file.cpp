@@ -6,12 +6,12 @@
 #include "core/files/opening_job.h"
 #include "core/files/raster_path.h"
 #include "core/files/remote_raster.h"
-#include "core/formats/netcdf_extent.h"
 #include "core/raster/dataset_description.h"
 #include "core/raster/dataset_opening.h"
 #include "core/raster/gdal_types.h"
 #include "core/raster/large_blocks.h"
 #include "core/raster/mosaic.h"
+#include "core/raster/promised_extent.h"
 
 #include <cpl_conv.h>
 #include <cpl_string.h>
@@ -44,20 +44,12 @@ constexpr std::size_t kScannedBlockBytesMax = std::size_t{96} << 20;
 
 using Dataset = GDALDatasetUniquePtr;
 
-struct NetcdfExtent {
-    std::string path;
-    std::int64_t bytes = 0;
-};
-
-std::optional<NetcdfExtent> netcdfExtentOf(GDALDataset& dataset, const std::string& driver)
+// GDAL applies the scale of a FITS file as it reads, to samples of the stored type.
+bool cutsScaledSamples(GDALRasterBand& band, const RasterInfo& info)
 {
-    const CPLStringList files(driver == "netCDF" ? dataset.GetFileList() : nullptr);
-    if (files.Count() == 0) {
-        return std::nullopt;
-    }
-    const auto bytes = classicNetcdfBytes(files[0]);
-    return bytes ? std::optional<NetcdfExtent>({files[0], static_cast<std::int64_t>(*bytes)})
-                 : std::nullopt;
+    const auto is_whole = [](double value) { return value == std::floor(value); };
+    return info.driver == "FITS" && GDALDataTypeIsInteger(band.GetRasterDataType()) != 0 &&
+           !(is_whole(band.GetScale()) && is_whole(band.GetOffset()));
 }
 
 } // namespace
@@ -66,7 +58,7 @@ struct RasterFile::Impl {
     OpenFiles open_files; // that were opened for the raster
     Dataset dataset;
     GDALRasterBand* band = nullptr;
-    std::optional<NetcdfExtent> netcdf;   // for classic netCDF files
+    std::optional<PromisedExtent> promised;
     std::optional<RemoteVersion> remote;  // for a raster on a server
     std::shared_ptr<const Mosaic> mosaic; // of a folder of rasters
     RasterInfo info;
@@ -187,6 +179,12 @@ Result<RasterFile> RasterFile::open(const std::string& path, int band)
                                   GDALGetDataTypeName(impl->band->GetRasterDataType())));
     }
     info.type = *type;
+    if (cutsScaledSamples(*impl->band, info)) {
+        return refuse(ErrorCode::Unsupported,
+                      fmt::format("has whole numbers with scale {} and offset {}, which GDAL reads "
+                                  "as whole elevations; save it with floating-point samples",
+                                  impl->band->GetScale(), impl->band->GetOffset()));
+    }
     if (isPicture(dataset, *impl->band)) {
         return refuse(ErrorCode::Unsupported, refusalOfPicture(dataset, band));
     }
@@ -207,7 +205,7 @@ Result<RasterFile> RasterFile::open(const std::string& path, int band)
     if (impl->remote) {
         no_listing.emplace("GDAL_DISABLE_READDIR_ON_OPEN", "EMPTY_DIR", false);
     }
-    impl->netcdf = netcdfExtentOf(dataset, info.driver);
+    impl->promised = promisedExtentOf(dataset, info);
     describe(dataset, *impl->band, {.path = path, .label = opened->label}, info);
     if (Status complete = impl->checkExtent({0, 0, info.columns, info.rows}); !complete) {
         return std::move(complete).error();
@@ -408,16 +406,16 @@ Error RasterFile::Impl::readFailure(const std::string& why, const GridWindow& wi
 // GDAL reads zeros beyond the end of raw data, in some of its code paths silently.
 Status RasterFile::Impl::checkExtent(const GridWindow& window) const
 {
-    const auto cut_short = [&](std::int64_t present, std::int64_t promised) {
+    const auto cut_short = [&](std::int64_t present, std::int64_t wanted) {
         return readFailure(fmt::format("it is cut short, {} of the {} bytes that its header "
                                        "promises are present; fetch it again",
-                                       present, promised),
+                                       present, wanted),
                            window);
     };
     VSIStatBufL status{};
-    if (netcdf && VSIStatL(netcdf->path.c_str(), &status) == 0 &&
-        static_cast<std::int64_t>(status.st_size) < netcdf->bytes) {
-        return cut_short(static_cast<std::int64_t>(status.st_size), netcdf->bytes);
+    if (promised && VSIStatL(promised->path.c_str(), &status) == 0 &&
+        static_cast<std::int64_t>(status.st_size) < promised->bytes) {
+        return cut_short(static_cast<std::int64_t>(status.st_size), promised->bytes);
     }
     GDALDataset::RawBinaryLayout layout;
     // A TIFF without bytes for its first block is sparse: it need not be as long as its samples.

@@ -109,14 +109,14 @@ Result<SoundPlayer> SoundPlayer::Output::playerOn(ALCdevice* device, const ALCin
     if (context == nullptr) {
         alcCloseDevice(device);
         return Error{ErrorCode::Unsupported,
-                     "sound: the audio output cannot be used; choose another one in the "
+                     "the audio output cannot be used; choose another one in the "
                      "system's settings"};
     }
     auto output = std::make_unique<Output>(device, context);
     output->is_loopback_ = attributes != nullptr;
     if (!output->start()) {
         return Error{ErrorCode::Unsupported,
-                     "sound: the audio output cannot play loops; choose another one in the "
+                     "the audio output cannot play loops; choose another one in the "
                      "system's settings"};
     }
     return SoundPlayer(std::move(output));
@@ -213,7 +213,7 @@ Result<SoundPlayer> SoundPlayer::open()
 {
     if (extensions().set_context == nullptr) {
         return Error{ErrorCode::Unsupported,
-                     "sound: this OpenAL has no thread-local contexts; install OpenAL Soft"};
+                     "this OpenAL has no thread-local contexts; install OpenAL Soft"};
     }
     ALCdevice* device = alcOpenDevice(nullptr);
     // The device that OpenAL opens without an output.
@@ -225,7 +225,7 @@ Result<SoundPlayer> SoundPlayer::open()
     }
     if (device == nullptr) {
         return Error{ErrorCode::NotFound,
-                     "sound: no audio output can be opened; connect one, or close the program that "
+                     "no audio output can be opened; connect one, or close the program that "
                      "uses it, and switch sound on again"};
     }
     return Output::playerOn(device, nullptr);
@@ -236,11 +236,11 @@ Result<SoundPlayer> SoundPlayer::openLoopback(int rate_hz)
     MARSVIEW_CHECK(rate_hz >= 8000 && rate_hz <= 192000);
     if (extensions().set_context == nullptr || extensions().open_loopback == nullptr) {
         return Error{ErrorCode::Unsupported,
-                     "sound: this OpenAL cannot play into memory; install OpenAL Soft"};
+                     "this OpenAL cannot play into memory; install OpenAL Soft"};
     }
     ALCdevice* device = extensions().open_loopback(nullptr);
     if (device == nullptr) {
-        return Error{ErrorCode::Unsupported, "sound: OpenAL cannot play into memory"};
+        return Error{ErrorCode::Unsupported, "OpenAL cannot play into memory"};
     }
     const std::array<ALCint, 9> attributes{ALC_FREQUENCY,
                                            rate_hz,

@@ -7,14 +7,20 @@
 #include "tests/support/run_program.h"
 #include "tests/support/shared_data.h"
 
+#include <gdal_priv.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <cstdlib>
 #include <filesystem>
+#include <fmt/format.h>
 #include <limits>
 #include <string>
 #include <sys/resource.h>
+#include <tuple>
 #include <unistd.h>
 #include <vector>
 
@@ -227,23 +233,131 @@ TEST(Refusal, APictureNamesTheElevationBand)
     EXPECT_EQ(opened->info().type, SampleType::Float32);
 }
 
-// 2026-11: a damaged FITS file of this size ended the program with a division by 0.
-TEST(Refusal, RastersWithoutSamples)
+std::string fitsHeader(const std::vector<std::string>& cards)
 {
     std::string header;
-    for (std::string card : {"SIMPLE  =                    T", "BITPIX  =                   16",
-                             "NAXIS   =                    2", "NAXIS1  =                    0",
-                             "NAXIS2  =                   64", "END"}) {
+    for (std::string card : cards) {
         card.resize(80, ' ');
         header += card;
     }
     header.resize(2880, ' ');
+    return header;
+}
+
+// 2026-11: a damaged FITS file of this size ended the program with a division by 0.
+TEST(Refusal, RastersWithoutSamples)
+{
     const TempFolder folder;
-    const std::string path = folder.write("empty.fits", header);
+    const std::string path =
+        folder.write("empty.fits",
+                     fitsHeader({"SIMPLE  =                    T", "BITPIX  =                   16",
+                                 "NAXIS   =                    2", "NAXIS1  =                    0",
+                                 "NAXIS2  =                   64", "END"}));
     const auto refused = RasterFile::open(path);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().message,
               path + ": is damaged: its header says 0 × 64 samples; fetch it again");
+}
+
+TEST(Refusal, AnArchiveWithoutARasterIsNotCalledDamaged)
+{
+    const TempFolder folder;
+    const std::string path = folder.file("a.zip");
+    VSILFILE* const file = VSIFOpenL(("/vsizip/" + path + "/readme.txt").c_str(), "wb");
+    ASSERT_NE(file, nullptr);
+    EXPECT_EQ(VSIFWriteL("text", 1, 4, file), 4U);
+    EXPECT_EQ(VSIFCloseL(file), 0);
+    const auto refused = RasterFile::open(path);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().message,
+              path +
+                  ": holds no raster that GDAL can read, only readme.txt; unpack what "
+                  "is an archive itself, or convert what is a map to GeoTIFF");
+}
+
+// A FITS file of 3 × 2 samples 0, 1, …, 5.
+std::string fitsFile(int bits, const std::string& scale, const std::string& offset)
+{
+    std::string file = fitsHeader(
+        {"SIMPLE  =                    T", fmt::format("BITPIX  = {:20}", bits),
+         "NAXIS   =                    2", "NAXIS1  =                    3",
+         "NAXIS2  =                    2", "BSCALE  = " + scale, "BZERO   = " + offset, "END"});
+    for (int i = 0; i < 6; ++i) {
+        const auto bytes =
+            bits == 16 ? static_cast<std::uint64_t>(i) << 48
+                       : std::uint64_t{std::bit_cast<std::uint32_t>(static_cast<float>(i))} << 32;
+        for (int byte = 0; byte < std::abs(bits) / 8; ++byte) {
+            file += static_cast<char>(bytes >> (56 - 8 * byte) & 0xFF);
+        }
+    }
+    file.resize(2 * 2880, '\0');
+    return file;
+}
+
+// FITS 4.0, section 4.4.2: the physical value is BZERO + BSCALE × the stored value. The samples are
+// numbered from below.
+TEST(FitsFile, ItsScaleIsAppliedOnce)
+{
+    const TempFolder folder;
+    for (const auto& [bits, scale, offset] :
+         {std::tuple(-32, 0.5, 100.0), std::tuple(16, 2.0, 100.0), std::tuple(16, 1.0, -7.0)}) {
+        SCOPED_TRACE(fmt::format("{} bits, {} + {}", bits, offset, scale));
+        auto file = RasterFile::open(folder.write(
+            "a.fits", fitsFile(bits, fmt::format("{:.1f}", scale), fmt::format("{:.1f}", offset))));
+        ASSERT_TRUE(file) << file.error().message;
+        const RasterInfo& info = file->info();
+        const auto read = file->readWindow({0, 0, 3, 2}, {});
+        ASSERT_TRUE(read) << read.error().message;
+        const SampleStatistics& found = read->statistics;
+        EXPECT_EQ(found.raw_minimum * info.scale + info.offset, offset);
+        EXPECT_EQ(found.raw_maximum * info.scale + info.offset, offset + 5.0 * scale);
+    }
+}
+
+TEST(FitsFile, WholeNumbersWithAFractionalScaleAreRefused)
+{
+    const TempFolder folder;
+    const auto refused = RasterFile::open(folder.write("a.fits", fitsFile(16, "0.5", "100.0")));
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(
+        refused.error().message,
+        testing::EndsWith("has whole numbers with scale 0.5 and offset 100, which GDAL reads "
+                          "as whole elevations; save it with floating-point samples"));
+}
+
+TEST(Refusal, AnImageWithoutTheSamplesThatItsHeaderPromises)
+{
+    const TempFolder folder;
+    const auto refused =
+        RasterFile::open(folder.write("a.pgm", "P5\n1000 1000\n255\n" + std::string(1000, '\7')));
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(refused.error().message,
+                testing::HasSubstr("it is cut short, 1017 of the 1000000 bytes"));
+}
+
+TEST(Refusal, ACutPcidskFile)
+{
+    GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("PCIDSK");
+    if (driver == nullptr) {
+        GTEST_SKIP() << "this GDAL has no driver for PCIDSK";
+    }
+    const TempFolder folder;
+    const std::string path = folder.file("a.pix");
+    {
+        const GDALDatasetUniquePtr made(
+            driver->Create(path.c_str(), 200, 100, 1, GDT_Int16, nullptr));
+        ASSERT_NE(made, nullptr);
+        ASSERT_EQ(made->GetRasterBand(1)->Fill(500.0), CE_None);
+    }
+    const auto bytes = fs::file_size(path);
+    ASSERT_TRUE(RasterFile::open(path));
+    fs::resize_file(path, bytes / 2);
+    const auto refused = RasterFile::open(path);
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(refused.error().message, testing::HasSubstr(fmt::format(
+                                             "it is cut short, {} of the {} bytes that its header "
+                                             "promises are present; fetch it again",
+                                             bytes / 2, bytes)));
 }
 
 TEST(Refusal, ATruncatedSrtmTileIsToldFromItsSize)

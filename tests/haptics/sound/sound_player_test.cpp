@@ -238,7 +238,7 @@ TEST(SoundPlayer, WithoutAnOutputReportsOneSentenceAndContinues)
     const auto opened = SoundPlayer::open();
     if (!opened) {
         EXPECT_EQ(opened.error().code, ErrorCode::NotFound);
-        EXPECT_TRUE(opened.error().message.starts_with("sound: no audio output"));
+        EXPECT_TRUE(opened.error().message.starts_with("no audio output"));
         EXPECT_EQ(opened.error().message.find('\n'), std::string::npos);
     }
     EXPECT_TRUE(SoundPlayer::openLoopback());
