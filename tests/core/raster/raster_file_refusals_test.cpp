@@ -7,7 +7,6 @@
 #include "tests/support/run_program.h"
 #include "tests/support/shared_data.h"
 
-#include <gdal_priv.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -259,22 +258,6 @@ TEST(Refusal, RastersWithoutSamples)
               path + ": is damaged: its header says 0 × 64 samples; fetch it again");
 }
 
-TEST(Refusal, AnArchiveWithoutARasterIsNotCalledDamaged)
-{
-    const TempFolder folder;
-    const std::string path = folder.file("a.zip");
-    VSILFILE* const file = VSIFOpenL(("/vsizip/" + path + "/readme.txt").c_str(), "wb");
-    ASSERT_NE(file, nullptr);
-    EXPECT_EQ(VSIFWriteL("text", 1, 4, file), 4U);
-    EXPECT_EQ(VSIFCloseL(file), 0);
-    const auto refused = RasterFile::open(path);
-    ASSERT_FALSE(refused);
-    EXPECT_EQ(refused.error().message,
-              path +
-                  ": holds no raster that GDAL can read, only readme.txt; unpack what "
-                  "is an archive itself, or convert what is a map to GeoTIFF");
-}
-
 // A FITS file of 3 × 2 samples 0, 1, …, 5.
 std::string fitsFile(int bits, const std::string& scale, const std::string& offset)
 {
@@ -337,18 +320,9 @@ TEST(Refusal, AnImageWithoutTheSamplesThatItsHeaderPromises)
 
 TEST(Refusal, ACutPcidskFile)
 {
-    GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("PCIDSK");
-    if (driver == nullptr) {
-        GTEST_SKIP() << "this GDAL has no driver for PCIDSK";
-    }
     const TempFolder folder;
-    const std::string path = folder.file("a.pix");
-    {
-        const GDALDatasetUniquePtr made(
-            driver->Create(path.c_str(), 200, 100, 1, GDT_Int16, nullptr));
-        ASSERT_NE(made, nullptr);
-        ASSERT_EQ(made->GetRasterBand(1)->Fill(500.0), CE_None);
-    }
+    const std::string path = writeRaster(folder, "a.pix", "PCIDSK",
+                                         recipeFor(200, std::vector<std::int16_t>(200 * 100, 500)));
     const auto bytes = fs::file_size(path);
     ASSERT_TRUE(RasterFile::open(path));
     fs::resize_file(path, bytes / 2);
