@@ -4506,6 +4506,10 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
 <context>
     <name>marsview::NameSearch</name>
     <message>
+        <source>Map › Go to Place… goes to coordinates (Ctrl+G).</source>
+        <translation>Zu Koordinaten führt Karte › Gehe zu Ort … (Strg+G).</translation>
+    </message>
+    <message>
         <source>%1 names in %2</source>
         <extracomment>In the status bar: %1 is a number, %2 a file</extracomment>
         <translation>%1 Namen in %2</translation>

@@ -185,6 +185,14 @@ TEST_F(NameSearchTest, AMisspelledNameGetsASuggestion)
     EXPECT_FALSE(window_->overlays()->isPlaceMarked());
 }
 
+TEST_F(NameSearchTest, CoordinatesAreReferredToTheDialogThatTakesThem)
+{
+    openMars();
+    QTest::keyClicks(&field(), QStringLiteral("18.65 N 226.2 E"));
+    EXPECT_EQ(listed(completer()).back().toStdString(),
+              "Map › Go to Place… goes to coordinates (Ctrl+G).");
+}
+
 TEST_F(NameSearchTest, GoToPlaceTakesNamesAndCoordinates)
 {
     openMars();

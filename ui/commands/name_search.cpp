@@ -44,8 +44,14 @@ NameSearch::NameSearch(const Parts& parts, QObject* parent)
     , parts_(parts)
     , completer_(new NameCompleter(parts.field))
 {
-    completer_->explainNothing(
-        [this](const QString& text) { return noMatchText(text, namesOnMap(), body()); });
+    completer_->explainNothing([this](const QString& text) {
+        const QString why = noMatchText(text, namesOnMap(), body());
+        const bool has_digit =
+            std::any_of(text.begin(), text.end(), [](QChar c) { return c.isDigit(); });
+        return has_digit ? why + QLatin1Char('\n') +
+                               tr("Map › Go to Place… goes to coordinates (Ctrl+G).")
+                         : why;
+    });
     connect(completer_, &NameCompleter::chosen, this, [this](const PlaceName& place) {
         goTo(place);
         parts_.field.clear();
