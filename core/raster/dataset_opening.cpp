@@ -130,8 +130,8 @@ std::optional<std::string> refusalOfArchive(const std::string& path)
         listed += fmt::format("{}{}", i > 0 ? ", " : "", names[i]);
     }
     return fmt::format(
-        "holds no raster that GDAL can read, only {}{}; unpack what is an archive "
-        "itself, or convert what is a map to GeoTIFF",
+        "holds no raster that GDAL can read, only {}{}; a map among them is damaged or "
+        "in another format, and an archive must be unpacked first",
         listed, names.Count() > kNamedMax ? ", …" : "");
 }
 

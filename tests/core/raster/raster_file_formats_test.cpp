@@ -168,8 +168,8 @@ TEST(RasterFile, AnArchiveWithoutRastersIsRefused)
     ASSERT_FALSE(file);
     EXPECT_EQ(file.error().message,
               archive +
-                  ": holds no raster that GDAL can read, only readme.txt; unpack what is an "
-                  "archive itself, or convert what is a map to GeoTIFF");
+                  ": holds no raster that GDAL can read, only readme.txt; a map among them is "
+                  "damaged or in another format, and an archive must be unpacked first");
 }
 
 // GTOPO30's headers do not state whether samples are signed. They are: the Dead Sea is below zero.
