@@ -16,9 +16,9 @@ struct PromisedExtent {
     std::int64_t bytes = 0;
 };
 
-/// For formats of which GDAL reads the missing end of a file as samples, and whose layout it does
-/// not tell: classic netCDF, PCIDSK and PNM. `info` has driver, size and sample type. Empty for
-/// others, and for headers that cannot be read.
+/// For classic netCDF, PCIDSK and PNM, where GDAL reads samples beyond the end of a file that is
+/// cut short. `info` has driver, size and sample type. Empty for other formats, and for headers
+/// that cannot be read.
 std::optional<PromisedExtent> promisedExtentOf(GDALDataset& dataset, const RasterInfo& info);
 
 } // namespace marsview
