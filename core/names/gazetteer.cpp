@@ -25,6 +25,25 @@ Match matchOf(std::string_view key, std::string_view text)
                                                                        : Match::Inside;
 }
 
+// The extent that a name is ranked by: long or flat features are less conspicuous than mountains
+// and craters of their extent. Olympus Mons comes before the scarp around it, which is three times
+// as long.
+double prominenceM(const PlaceName& name)
+{
+    constexpr double kLongShare = 0.25;
+    switch (name.kind) {
+    case PlaceKind::CraterChain:
+    case PlaceKind::Dunes:
+    case PlaceKind::Ridge:
+    case PlaceKind::Scarp:
+    case PlaceKind::Trough:
+    case PlaceKind::Valley:
+        return kLongShare * name.diameter_m;
+    default:
+        return name.diameter_m;
+    }
+}
+
 } // namespace
 
 Gazetteer::Gazetteer(const Body* body, std::vector<PlaceName> names)
@@ -47,12 +66,14 @@ std::vector<std::size_t> Gazetteer::find(std::string_view text, std::size_t coun
     if (wanted.empty()) {
         return {};
     }
-    using Rank = std::tuple<Match, bool, std::size_t>;
+    // The last element refers to names_, the largest first.
+    using Rank = std::tuple<Match, bool, double, std::size_t>;
     std::vector<Rank> found;
     for (std::size_t i = 0; i < keys_.size(); ++i) {
         const Match match = matchOf(keys_[i], wanted);
         if (match != Match::None) {
-            found.emplace_back(match, names_[i].kind == PlaceKind::LetteredCrater, i);
+            found.emplace_back(match, names_[i].kind == PlaceKind::LetteredCrater,
+                               -prominenceM(names_[i]), i);
         }
     }
     const std::size_t count = std::min(count_max, found.size());

@@ -33,9 +33,9 @@ public:
 
     /// Indexes of the names that match `text`, the best first, at most `count_max`. First the name
     /// that equals the text, then names that begin with it, names with a later word that does, and
-    /// names that contain it; lettered craters last within each group, then the largest first.
-    /// Case, diacritics, hyphens and apostrophes are ignored. None for a text without letters or
-    /// digits.
+    /// names that contain it. Within each group lettered craters come last, and otherwise the
+    /// largest first, where a quarter of the length of long features counts. Case, diacritics,
+    /// hyphens and apostrophes are ignored. None for a text without letters or digits.
     std::vector<std::size_t> find(std::string_view text, std::size_t count_max) const;
 
     /// The name that is spelled most like a text that nothing matches; empty if none is near.
