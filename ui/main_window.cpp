@@ -8,6 +8,7 @@
 #include "ui/controllers/annotation_controller.h"
 #include "ui/controllers/haptics/haptics_controller.h"
 #include "ui/controllers/measure_controller.h"
+#include "ui/controllers/vector_overlays.h"
 #include "ui/drawing/name_field.h"
 #include "ui/globe/globe_view.h"
 #include "ui/overlay/annotation_marks.h"
@@ -308,16 +309,21 @@ void MainWindow::placeMarks()
 // Points of one kind snap to those of both.
 void MainWindow::snapToEachOther()
 {
-    const auto to_measurements = [this](QPointF position) {
-        return measure_->vertexNear(position);
+    const auto to_measurements = [this](QPointF position, double reach) {
+        return measure_->vertexNear(position, reach);
     };
-    const auto to_annotations = [this](QPointF position) {
-        return annotate_->vertexNear(position);
+    const auto to_annotations = [this](QPointF position, double reach) {
+        return annotate_->vertexNear(position, reach);
+    };
+    const auto to_vector_files = [this](QPointF position, double reach) {
+        return commands_->vector_files.overlays().vertexNear(position, reach);
     };
     measure_->addSnap(to_measurements);
     measure_->addSnap(to_annotations);
+    measure_->addSnap(to_vector_files);
     annotate_->addSnap(to_annotations);
     annotate_->addSnap(to_measurements);
+    annotate_->addSnap(to_vector_files);
 }
 
 void MainWindow::open(const QString& file)

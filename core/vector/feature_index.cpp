@@ -88,9 +88,17 @@ void PlaneFeatures::addDot(std::uint32_t feature, const PlanePoint& point)
     add(feature, PlaneShape::Dot, std::span(&point, 1));
 }
 
-void PlaneFeatures::add(std::uint32_t feature, PlaneShape shape, std::span<const PlanePoint> path)
+void PlaneFeatures::add(std::uint32_t feature,
+                        PlaneShape shape,
+                        std::span<const PlanePoint> path,
+                        const std::vector<bool>& is_course_of_path)
 {
     const std::size_t begin = points.size();
+    if (std::find(is_course_of_path.begin(), is_course_of_path.end(), true) !=
+        is_course_of_path.end()) {
+        is_course.resize(begin);
+        is_course.insert(is_course.end(), is_course_of_path.begin(), is_course_of_path.end());
+    }
     points.insert(points.end(), path.begin(), path.end());
     parts.push_back({.feature = feature, .shape = shape, .begin = begin, .end = points.size()});
 }
@@ -162,6 +170,13 @@ PlaneBox FeatureIndex::boxOfItem(std::size_t item) const
     return box;
 }
 
+std::pair<std::size_t, std::size_t> FeatureIndex::nodesBelow(std::size_t level,
+                                                             std::size_t index) const
+{
+    const std::size_t below_count = level == 1 ? order_.size() : boxes_[level - 2].size();
+    return {index * kFanOut, std::min((index + 1) * kFanOut, below_count)};
+}
+
 // Level 0: items. The nodes of level n + 1 are those of boxes_[n].
 PlaneBox FeatureIndex::boxOfNode(std::size_t level, std::size_t index) const
 {
@@ -215,10 +230,8 @@ private:
             addItem(index_.order_[item]);
             return;
         }
-        const std::size_t below_count =
-            level == 1 ? index_.order_.size() : index_.boxes_[level - 2].size();
-        const std::size_t end = std::min((node + 1) * kFanOut, below_count);
-        for (std::size_t child = node * kFanOut; child < end; ++child) {
+        const auto [begin, end] = index_.nodesBelow(level, node);
+        for (std::size_t child = begin; child < end; ++child) {
             visit(level - 1, child);
         }
     }
@@ -362,10 +375,8 @@ private:
             visitPart(index_.order_[node], box);
             return;
         }
-        const std::size_t below_count =
-            level == 1 ? index_.order_.size() : index_.boxes_[level - 2].size();
-        const std::size_t end = std::min((node + 1) * kFanOut, below_count);
-        for (std::size_t child = node * kFanOut; child < end; ++child) {
+        const auto [begin, end] = index_.nodesBelow(level, node);
+        for (std::size_t child = begin; child < end; ++child) {
             visit(level - 1, child);
         }
     }
@@ -415,6 +426,86 @@ private:
 std::optional<std::uint32_t> FeatureIndex::find(const PlanePoint& place, double reach) const
 {
     return Finder(*this, place, reach).run();
+}
+
+class FeatureIndex::VertexFinder {
+public:
+    VertexFinder(const FeatureIndex& index, const PlanePoint& place, double reach)
+        : index_(index)
+        , place_(place)
+        , distance_(reach)
+    {}
+
+    std::optional<PlanePoint> run()
+    {
+        if (!index_.order_.empty()) {
+            visit(index_.boxes_.size(), 0);
+        }
+        return nearest_;
+    }
+
+private:
+    void visit(std::size_t level, std::size_t node)
+    {
+        if (index_.boxOfNode(level, node).distance(place_) > distance_) {
+            return;
+        }
+        if (level == 0) {
+            const std::uint32_t part = index_.order_[node];
+            const PlaneFeatures::Part& of = index_.features_.parts[part];
+            if (of.shape == PlaneShape::Dot) {
+                look(of.begin);
+            } else {
+                visitStrip(index_.roots_[part], of.begin, of.end - 1);
+            }
+            return;
+        }
+        const auto [begin, end] = index_.nodesBelow(level, node);
+        for (std::size_t child = begin; child < end; ++child) {
+            visit(level - 1, child);
+        }
+    }
+
+    void visitStrip(std::size_t strip, std::size_t first, std::size_t last)
+    {
+        const Strip& of = index_.strips_[strip];
+        if (of.box.distance(place_) > distance_) {
+            return;
+        }
+        if (of.right == 0) {
+            for (std::size_t i = first; i <= last; ++i) {
+                look(i);
+            }
+            return;
+        }
+        const std::size_t middle = first + (last - first) / 2;
+        visitStrip(strip + 1, first, middle);
+        visitStrip(of.right, middle, last);
+    }
+
+    void look(std::size_t vertex)
+    {
+        const auto& is_course = index_.features_.is_course;
+        if (vertex < is_course.size() && is_course[vertex]) {
+            return;
+        }
+        const PlanePoint& point = index_.features_.points[vertex];
+        const double distance = std::hypot(point.x - place_.x, point.y - place_.y);
+        if (distance <= distance_) {
+            distance_ = distance;
+            nearest_ = point;
+        }
+    }
+
+    const FeatureIndex& index_;
+    PlanePoint place_;
+    double distance_;
+    std::optional<PlanePoint> nearest_;
+};
+
+std::optional<PlanePoint> FeatureIndex::nearestVertex(const PlanePoint& place, double reach) const
+{
+    return VertexFinder(*this, place, reach).run();
 }
 
 PlaneBox FeatureIndex::boxOf(std::uint32_t feature) const

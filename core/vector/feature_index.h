@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace marsview {
@@ -41,10 +42,17 @@ struct PlaneFeatures {
     };
     std::vector<PlanePoint> points;
     std::vector<Part> parts;
+    /// Of `points` up to the last one of these that a line only has for its course; nothing places
+    /// a vertex there.
+    std::vector<bool> is_course;
 
     void addDot(std::uint32_t feature, const PlanePoint& point);
     /// A line or a ring, which ends with its first point. At least two points.
-    void add(std::uint32_t feature, PlaneShape shape, std::span<const PlanePoint> path);
+    /// `is_course_of_path` is as long as the path, or empty.
+    void add(std::uint32_t feature,
+             PlaneShape shape,
+             std::span<const PlanePoint> path,
+             const std::vector<bool>& is_course_of_path = {});
 };
 
 /// Immutable; any thread. The parts are sorted along a Z-order curve and packed into a tree of
@@ -89,6 +97,9 @@ public:
     /// rings of a feature. Empty if there is none.
     std::optional<std::uint32_t> find(const PlanePoint& place, double reach) const;
 
+    /// The vertex that is nearest to a place, of dots, lines and borders, if it is within `reach`.
+    std::optional<PlanePoint> nearestVertex(const PlanePoint& place, double reach) const;
+
     /// Of all parts of a feature; takes as long as there are parts.
     PlaneBox boxOf(std::uint32_t feature) const;
 
@@ -104,10 +115,13 @@ private:
     };
     class Selector;
     class Finder;
+    class VertexFinder;
 
     std::size_t addStrip(std::size_t first, std::size_t last);
     PlaneBox boxOfItem(std::size_t item) const;
     PlaneBox boxOfNode(std::size_t level, std::size_t index) const;
+    // Of level − 1: the first one, and the one after the last. `level` > 0.
+    std::pair<std::size_t, std::size_t> nodesBelow(std::size_t level, std::size_t index) const;
 
     PlaneFeatures features_;
     std::vector<std::uint32_t> order_; // parts along the curve: the items

@@ -71,13 +71,19 @@ void FeaturePlacement::add(std::uint32_t id,
     }
 }
 
+void FeaturePlacement::Path::add(const PlanePoint& point, bool is_for_course)
+{
+    points.push_back(point);
+    is_course.push_back(is_for_course);
+}
+
 // The vertices after `from` up to `to`.
 void FeaturePlacement::addBetween(const MapPoint& from,
                                   const MapPoint& to,
                                   const PlanePoint& from_place,
                                   const PlanePoint& to_place,
                                   int depth,
-                                  std::vector<PlanePoint>& path) const
+                                  Path& path) const
 {
     const double sample_m = map_.sceneFrame().meanCellSideM();
     if (!is_same_crs_ && depth < kHalvingsMax &&
@@ -91,11 +97,12 @@ void FeaturePlacement::addBetween(const MapPoint& from,
         if (middle_place && (depth < kHalvingsMin || distanceBetween(*middle_place, straight) >
                                                          kDeviationSamples * sample_m)) {
             addBetween(from, middle, from_place, *middle_place, depth + 1, path);
+            path.is_course.back() = true;
             addBetween(middle, to, *middle_place, to_place, depth + 1, path);
             return;
         }
     }
-    path.push_back(to_place);
+    path.add(to_place, false);
 }
 
 void FeaturePlacement::addPath(std::uint32_t id,
@@ -103,14 +110,14 @@ void FeaturePlacement::addPath(std::uint32_t id,
                                const FeaturePart& part,
                                PlaneFeatures& features) const
 {
-    std::vector<PlanePoint> path;
+    Path path;
     bool is_whole = true;
-    std::vector<std::vector<PlanePoint>> paths;
+    std::vector<Path> paths;
     const auto end_path = [&] {
-        if (path.size() > 1) {
+        if (path.points.size() > 1) {
             paths.push_back(std::move(path));
         }
-        path.clear();
+        path = {};
     };
     std::optional<PlanePoint> before;
     for (std::size_t i = 0; i < part.points.size(); ++i) {
@@ -119,7 +126,7 @@ void FeaturePlacement::addPath(std::uint32_t id,
             end_path();
             is_whole = false;
         } else if (!before) {
-            path.push_back(*here);
+            path.add(*here, false);
         } else {
             const double turns =
                 turn_ ? ((here->x - before->x) * turn_->x + (here->y - before->y) * turn_->y) /
@@ -129,18 +136,18 @@ void FeaturePlacement::addPath(std::uint32_t id,
             if (jump == 0.0) {
                 addBetween(part.points[i - 1], part.points[i], *before, *here, 0, path);
             } else { // across the seam: beyond it on both sides
-                path.push_back({here->x - jump * turn_->x, here->y - jump * turn_->y});
+                path.add({here->x - jump * turn_->x, here->y - jump * turn_->y}, false);
                 end_path();
                 is_whole = false;
-                path.push_back({before->x + jump * turn_->x, before->y + jump * turn_->y});
-                path.push_back(*here);
+                path.add({before->x + jump * turn_->x, before->y + jump * turn_->y}, false);
+                path.add(*here, false);
             }
         }
         before = here;
     }
     end_path();
-    for (const auto& one : paths) {
-        features.add(id, is_whole ? shape : PlaneShape::Line, one);
+    for (const Path& one : paths) {
+        features.add(id, is_whole ? shape : PlaneShape::Line, one.points, one.is_course);
     }
 }
 

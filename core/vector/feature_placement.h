@@ -31,13 +31,19 @@ public:
              PlaneFeatures& features) const;
 
 private:
+    struct Path {
+        std::vector<PlanePoint> points{};
+        std::vector<bool> is_course{}; // as PlaneFeatures::is_course
+
+        void add(const PlanePoint& point, bool is_for_course);
+    };
     PlanePoint scenePlace(const GridPoint& grid) const;
     void addBetween(const MapPoint& from,
                     const MapPoint& to,
                     const PlanePoint& from_place,
                     const PlanePoint& to_place,
                     int depth,
-                    std::vector<PlanePoint>& path) const;
+                    Path& path) const;
     void addPath(std::uint32_t id,
                  PlaneShape shape,
                  const FeaturePart& part,

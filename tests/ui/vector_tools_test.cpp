@@ -6,7 +6,9 @@
 #include "ui/commands/feature_picker.h"
 #include "ui/commands/vector_tools.h"
 #include "ui/commands/window_commands.h"
+#include "ui/controllers/annotation_controller.h"
 #include "ui/controllers/file_work.h"
+#include "ui/controllers/measure_controller.h"
 #include "ui/controllers/session_controller.h"
 #include "ui/controllers/vector_overlays.h"
 #include "ui/dialogs/place_dialog.h"
@@ -167,6 +169,49 @@ TEST_F(VectorToolsTest, AFeatureIsFoundWithItsAttributes)
     EXPECT_TRUE(at(11.0, 13.0).empty());
 }
 
+// Lines in another CRS have further points, which keep their course: nothing snaps to these.
+TEST_F(VectorToolsTest, MeasurementsAndAnnotationsSnapToVerticesOfFiles)
+{
+    ASSERT_NO_FATAL_FAILURE(openMars());
+    ASSERT_TRUE(openVector(marsFile()));
+    const auto click_beside = [this](double longitude, double latitude) {
+        const auto place = view().positionOf(gridOf(longitude, latitude));
+        QTest::mouseClick(&view(), Qt::LeftButton, {},
+                          place.value_or(QPointF()).toPoint() + QPoint(3, 4));
+    };
+    const auto away_deg = [](const DrawnVertex& vertex, double longitude, double latitude) {
+        const auto& at = std::get<GeographicPoint>(vertex);
+        return std::hypot(at.longitude.degrees() - longitude, at.latitude.degrees() - latitude);
+    };
+    constexpr double kSameDeg = 1e-9;
+    window_->measuring()->begin(MeasurementKind::Distance);
+    QTest::qWait(50);
+    click_beside(12.75, 17.375); // a quarter of the way along it
+    click_beside(15.0, 15.5);    // its bend
+    click_beside(16.0, 18.5);    // the point
+    window_->measuring()->finish();
+    const auto& measured = window_->measuring()->current()->vertices;
+    ASSERT_EQ(measured.size(), 3U);
+    EXPECT_GT(away_deg(measured[0], 12.75, 17.375), 0.01);
+    EXPECT_LT(away_deg(measured[1], 15.0, 15.5), kSameDeg);
+    EXPECT_LT(away_deg(measured[2], 16.0, 18.5), kSameDeg);
+
+    window_->annotating()->begin(FeatureShape::Line);
+    ASSERT_TRUE(rest());
+    QTest::qWait(50);
+    click_beside(18.0, 14.0); // the other end
+    QMenu* const menu =
+        window_->actionSet().vector_files->actions().constFirst()->menu(); // of the file
+    menu->actions().constFirst()->trigger();                               // hides it
+    ASSERT_TRUE(rest());
+    click_beside(12.0, 18.0);
+    window_->annotating()->finish();
+    const auto& drawn = window_->annotating()->current()->vertices;
+    ASSERT_EQ(drawn.size(), 2U);
+    EXPECT_LT(away_deg(drawn[0], 18.0, 14.0), kSameDeg);
+    EXPECT_GT(away_deg(drawn[1], 12.0, 18.0), 0.01) << "of a file that is hidden";
+}
+
 TEST_F(VectorToolsTest, AClickSelectsAFeatureAndShowsItsAttributes)
 {
     ASSERT_NO_FATAL_FAILURE(openMars());
@@ -301,6 +346,15 @@ TEST_F(VectorToolsTest, AFileThatIsOpenedWithAPlanetIsDrawnOnTheGlobeAndSelected
     QTest::mouseClick(&globe, Qt::LeftButton, {}, globe.rect().center() + QPoint(60, 60));
     EXPECT_EQ(picker.card(), nullptr);
     EXPECT_FALSE(picker.hasFeature());
+
+    window_->measuring()->begin(MeasurementKind::Distance);
+    QTest::qWait(50);
+    QTest::mouseClick(&globe, Qt::LeftButton, {}, globe.rect().center() + QPoint(5, -4));
+    const auto& vertices = window_->measuring()->current()->vertices;
+    ASSERT_EQ(vertices.size(), 1U);
+    const auto& snapped = std::get<GeographicPoint>(vertices.front());
+    EXPECT_NEAR(std::remainder(snapped.longitude.degrees() + 94.0, 360.0), 0.0, 1e-9);
+    EXPECT_NEAR(snapped.latitude.degrees(), -1.0, 1e-9);
 }
 
 TEST_F(VectorToolsTest, AFileOfAnotherBodyOrNoneIsRefusedWithTheReason)

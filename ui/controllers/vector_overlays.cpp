@@ -1,5 +1,6 @@
 #include "ui/controllers/vector_overlays.h"
 
+#include "core/session/measurement.h"
 #include "core/vector/feature_placement.h"
 #include "ui/controllers/file_work.h"
 #include "ui/text/body_text.h"
@@ -36,6 +37,20 @@ QString textOf(const FieldValue& value)
         QString operator()(const std::string& text) const { return QString::fromStdString(text); }
     };
     return std::visit(Text{}, value);
+}
+
+// Empty where a place is not on the map.
+std::optional<PlanePoint> planPoint(const ScenePlan& plan, const DrawnVertex& place)
+{
+    const auto* geographic = std::get_if<GeographicPoint>(&place);
+    const auto grid = geographic != nullptr
+                          ? plan.georeference.toGrid(*geographic)
+                          : std::optional(plan.georeference.toGrid(std::get<MapPoint>(place)));
+    if (!grid) {
+        return std::nullopt;
+    }
+    const ScenePoint at = plan.georeference.sceneFrame().toScene(*grid, 0.0);
+    return PlanePoint{at.x, at.y};
 }
 
 // All halos lie below all lines, so that none covers a line where two meet.
@@ -460,6 +475,58 @@ VectorOverlays::placeOfDot(Entry& entry, std::uint32_t part, const PlanePoint& p
                               : std::nullopt;
 }
 
+std::vector<VectorOverlays::InSight>
+VectorOverlays::filesInSight(const std::shared_ptr<const ScenePlan>& plan) const
+{
+    std::vector<InSight> files;
+    for (auto overlay = overlays_.rbegin(); overlay != overlays_.rend(); ++overlay) {
+        const auto entry = entries_.find(overlay->path);
+        if (overlay->is_visible && entry != entries_.end() && entry->second.placed &&
+            entry->second.plan.lock() == plan) {
+            files.push_back({*overlay, entry->second});
+        }
+    }
+    return files;
+}
+
+std::optional<DrawnVertex> VectorOverlays::vertexNear(QPointF position, double reach) const
+{
+    const auto plan = scene_->plan();
+    const std::vector<InSight> files = plan ? filesInSight(plan) : std::vector<InSight>();
+    if (files.empty()) {
+        return std::nullopt;
+    }
+    const auto plan_point_at = [&](QPointF where) {
+        const auto place = scene_->placeAt(where);
+        return place ? planPoint(*plan, place->vertex) : std::nullopt;
+    };
+    const auto at = plan_point_at(position);
+    if (!at) {
+        return std::nullopt;
+    }
+    // The reach on the terrain is longest in one of these directions, nearly.
+    double reach_m = 0.0;
+    for (const QPointF& away : {QPointF(reach, 0.0), QPointF(-reach, 0.0), QPointF(0.0, reach)}) {
+        if (const auto edge = plan_point_at(position + away)) {
+            reach_m = std::max(reach_m, std::hypot(edge->x - at->x, edge->y - at->y));
+        }
+    }
+    std::optional<DrawnVertex> nearest;
+    for (const auto& [overlay, entry] : files) {
+        const auto vertex = entry.placed->index.nearestVertex(*at, reach_m);
+        const auto place = vertex ? scene_->onTerrain(*vertex) : std::nullopt;
+        const auto seen = place ? scene_->positionOf(*place) : std::nullopt;
+        const double distance =
+            seen ? std::hypot(seen->x() - position.x(), seen->y() - position.y()) : HUGE_VAL;
+        if (distance <= reach && !scene_->isHidden(*place)) {
+            reach = distance;
+            const SceneFrame& frame = plan->georeference.sceneFrame();
+            nearest = vertexAt(plan->georeference, frame.toGrid({vertex->x, vertex->y, 0.0}));
+        }
+    }
+    return nearest;
+}
+
 std::vector<VectorOverlays::Hit> VectorOverlays::featuresAt(const DrawnVertex& place,
                                                             double reach_m,
                                                             std::size_t attributes_max) const
@@ -469,35 +536,26 @@ std::vector<VectorOverlays::Hit> VectorOverlays::featuresAt(const DrawnVertex& p
     if (!plan) {
         return hits;
     }
-    const auto* geographic = std::get_if<GeographicPoint>(&place);
-    const auto grid = geographic != nullptr
-                          ? plan->georeference.toGrid(*geographic)
-                          : std::optional(plan->georeference.toGrid(std::get<MapPoint>(place)));
-    if (!grid) {
+    const auto at = planPoint(*plan, place);
+    if (!at) {
         return hits;
     }
-    const ScenePoint at = plan->georeference.sceneFrame().toScene(*grid, 0.0);
+    const auto* geographic = std::get_if<GeographicPoint>(&place);
     if (plan->has_equator_scale && geographic != nullptr) {
         constexpr double kScaleMax = 20.0;
         reach_m *= std::min(1.0 / std::cos(geographic->latitude.radians()), kScaleMax);
     }
-    for (auto overlay = overlays_.rbegin(); overlay != overlays_.rend(); ++overlay) {
-        const auto entry = entries_.find(overlay->path);
-        if (!overlay->is_visible || entry == entries_.end() || !entry->second.placed ||
-            entry->second.plan.lock() != plan) {
-            continue;
-        }
-        const Placed& placed = *entry->second.placed;
-        const auto found = placed.index.find({at.x, at.y}, reach_m);
+    for (const auto& [overlay, entry] : filesInSight(plan)) {
+        const auto found = entry.placed->index.find(*at, reach_m);
         if (!found) {
             continue;
         }
-        const auto [layer_index, feature_index] = placed.features[*found];
-        const FeatureLayer& layer = entry->second.file->content.layers[layer_index];
+        const auto [layer_index, feature_index] = entry.placed->features[*found];
+        const FeatureLayer& layer = entry.file->content.layers[layer_index];
         const Feature& feature = layer.features[feature_index];
-        Hit hit{.file = QFileInfo(QString::fromStdString(overlay->path)).fileName(),
+        Hit hit{.file = QFileInfo(QString::fromStdString(overlay.path)).fileName(),
                 .attributes = {},
-                .feature = {overlay->path, *found},
+                .feature = {overlay.path, *found},
                 .shape = feature.shape};
         for (std::size_t i = 0; i < layer.fields.size() && i < feature.values.size() &&
                                 hit.attributes.size() < attributes_max;

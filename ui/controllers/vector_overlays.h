@@ -12,6 +12,7 @@
 
 #include <QElapsedTimer>
 #include <QObject>
+#include <QPointF>
 #include <QString>
 #include <QStringList>
 #include <QThreadPool>
@@ -67,6 +68,8 @@ public:
     std::vector<Hit> featuresAt(const DrawnVertex& place,
                                 double reach_m,
                                 std::size_t attributes_max = kAttributesMax) const;
+    /// The vertex of a feature that is drawn within `reach` points of a position of the view.
+    std::optional<DrawnVertex> vertexNear(QPointF position, double reach) const;
     /// Draws a feature with a light border, above all others; nothing: none.
     void select(const std::optional<FeatureId>& feature);
     const std::optional<FeatureId>& selected() const noexcept { return selected_; }
@@ -116,6 +119,13 @@ private:
         bool is_asked_for = false;
     };
 
+    /// A file that is in sight on a plan.
+    struct InSight {
+        const VectorOverlay& overlay;
+        const Entry& entry; // it is placed
+    };
+    /// The one drawn last first.
+    std::vector<InSight> filesInSight(const std::shared_ptr<const ScenePlan>& plan) const;
     void joinScene();
     void placeAll();
     void place(const Request& request);

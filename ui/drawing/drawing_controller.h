@@ -35,7 +35,8 @@ class DrawingController : public DrawingBase, private PlaceTool {
 public:
     using State = DrawnState<Item>;
     /// A vertex near a position of the view.
-    using Snap = std::function<std::optional<DrawnVertex>(QPointF)>;
+    /// The vertex within some points of a position of the view.
+    using Snap = std::function<std::optional<DrawnVertex>(QPointF position, double reach)>;
 
     /// Becomes the place tool of `view` for `tool`, and draws on it. View and undo stack outlive
     /// it.
@@ -353,11 +354,10 @@ public:
     }
     /// Points that are placed near a vertex that `snap` finds take its position.
     void addSnap(Snap snap) { snaps_.push_back(std::move(snap)); }
-    /// The vertex of an item that is shown within reach of a position of the view.
-    std::optional<DrawnVertex> vertexNear(QPointF position) const
+    /// The vertex of an item that is shown within `reach` points of a position of the view.
+    std::optional<DrawnVertex> vertexNear(QPointF position, double reach) const
     {
         std::optional<DrawnVertex> nearest;
-        double reach = kReach;
         const auto look = [&](const std::optional<QPointF>& place, const DrawnVertex& vertex) {
             if (place && distanceBetween(*place, position) <= reach) {
                 reach = distanceBetween(*place, position);
@@ -736,7 +736,8 @@ private:
     void snap(Place& place, QPointF position) const
     {
         for (const Snap& snap : snaps_) {
-            if (const auto vertex = snap(position); vertex && geometry_.positionOf(*vertex)) {
+            if (const auto vertex = snap(position, kReach);
+                vertex && geometry_.positionOf(*vertex)) {
                 place.vertex = *vertex;
                 return;
             }

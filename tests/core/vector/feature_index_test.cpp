@@ -244,4 +244,49 @@ TEST(FeatureIndex, FindsTheNearestOfManyDots)
     }
 }
 
+// Brute force over dots, and over the vertices of lines that have points for their course too.
+TEST(FeatureIndex, FindsTheNearestVertexButNoPointOfTheCourseOfALine)
+{
+    std::mt19937 random(6);
+    PlaneFeatures features = randomDots(random, 500);
+    const std::size_t dot_count = features.points.size();
+    const std::vector<PlanePoint> ring = coast();
+    std::vector<bool> is_course(ring.size());
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+        is_course[i] = i % 5 != 0;
+    }
+    features.add(1000, PlaneShape::Ring, ring, is_course);
+    features.addDot(1001, {500.0, 500.0});
+    const FeatureIndex index(features);
+    const auto is_vertex = [&](std::size_t i) {
+        return i < dot_count || i == features.points.size() - 1 || !is_course[i - dot_count];
+    };
+    std::uniform_real_distribution<double> even(0.0, 1000.0);
+    std::uniform_real_distribution<double> beside(-1.0, 1.0);
+    constexpr double kReach = 5.0;
+    int found = 0;
+    for (int i = 0; i < 1000; ++i) {
+        PlanePoint place{even(random), even(random)};
+        if (i % 2 == 0) { // near the coast
+            const PlanePoint& near = ring[static_cast<std::size_t>(i) * 17];
+            place = {near.x + beside(random), near.y + beside(random)};
+        }
+        double distance = kReach;
+        std::optional<PlanePoint> nearest;
+        for (std::size_t p = 0; p < features.points.size(); ++p) {
+            const PlanePoint& point = features.points[p];
+            const double away = std::hypot(point.x - place.x, point.y - place.y);
+            if (is_vertex(p) && away <= distance) {
+                distance = away;
+                nearest = point;
+            }
+        }
+        EXPECT_EQ(index.nearestVertex(place, kReach), nearest);
+        found += nearest ? 1 : 0;
+    }
+    EXPECT_GT(found, 300);
+    EXPECT_LT(found, 1000);
+    EXPECT_EQ(FeatureIndex().nearestVertex({0, 0}, 1.0), std::nullopt);
+}
+
 } // namespace marsview::test

@@ -59,6 +59,10 @@ TEST(FeaturePlacement, AParallelIsRoundOnAPolarMap)
     ASSERT_EQ(features.parts.size(), 1U);
     EXPECT_EQ(features.parts[0].feature, 7U);
     ASSERT_GT(features.points.size(), 8U);
+    // Nothing but its ends are vertices.
+    std::vector<bool> is_course(features.points.size(), true);
+    is_course.front() = is_course.back() = false;
+    EXPECT_EQ(features.is_course, is_course);
     const double rho = 2.0 * kRadius * std::tan(5.0 * kRadians);
     for (std::size_t i = 0; i + 1 < features.points.size(); ++i) {
         const PlanePoint& a = features.points[i];
