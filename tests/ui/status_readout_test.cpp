@@ -16,6 +16,7 @@
 #include <QLocale>
 #include <QMenu>
 #include <QTest>
+#include <QToolButton>
 
 #include <gtest/gtest.h>
 
@@ -236,6 +237,24 @@ TEST_F(StatusReadoutTest, KeepsItsPartsInPlaceWhileNumbersChange)
         QTest::qWait(0);
         EXPECT_EQ(places_now(), before);
     }
+}
+
+// The first picture of a map may take so long that people see what the readout is before it.
+TEST_F(StatusReadoutTest, HasItsWidthsAndClaimsNoDetailBeforeTheFirstPicture)
+{
+    ASSERT_TRUE(openAndWait(*window_, maps_.mars()));
+    StatusReadout readout;
+    readout.resize(1000, 30);
+    readout.show();
+    ASSERT_TRUE(QTest::qWaitForWindowExposed(&readout));
+    readout.setDetail(0.0); // of a picture without a map
+    readout.setMaps(view().map(), view().map());
+    auto* format = readout.findChild<QToolButton*>(QStringLiteral("coordinateFormat"));
+    ASSERT_NE(format, nullptr);
+    EXPECT_GE(format->width(), format->sizeHint().width());
+    EXPECT_EQ(readout.detailLabel(), QStringLiteral("loading…"));
+    readout.setDetail(0.0);
+    EXPECT_EQ(readout.detailLabel(), QStringLiteral("full detail"));
 }
 
 TEST_F(StatusReadoutTest, HasEvenGapsAndOneButton)

@@ -134,6 +134,9 @@ void StatusReadout::setMaps(const std::shared_ptr<const Map>& scene,
     if (scene != scene_) {
         place_.reset();
     }
+    if (!scene || !scene_) {
+        detail_px_.reset(); // that of a picture without a map
+    }
     scene_ = scene;
     active_ = active;
     for (QWidget* part : std::initializer_list<QWidget*>{
@@ -143,6 +146,7 @@ void StatusReadout::setMaps(const std::shared_ptr<const Map>& scene,
     reserveWidths();
     showDetail();
     refresh();
+    layout()->activate(); // the first picture of a map may take longer than to the next event
 }
 
 void StatusReadout::setPlace(const std::optional<ReadPlace>& place)
@@ -191,23 +195,24 @@ void StatusReadout::setProblem(const QString& problem)
 // The error of a preview is not measured yet.
 void StatusReadout::showDetail()
 {
-    if (is_loading_ || has_problem_) {
+    const bool is_drawn = detail_px_.has_value();
+    if (is_loading_ || has_problem_ || !is_drawn) {
         detail_->setWholeText(
             //: Shown instead of the error of the picture: pieces are on their way
-            is_loading_ ? tr("loading…")
-                        //: The same: pieces of it cannot be read
-                        : tr("incomplete"));
+            is_loading_ || !is_drawn ? tr("loading…")
+                                     //: The same: pieces of it cannot be read
+                                     : tr("incomplete"));
         return;
     }
     detail_->setWholeText(
         scene_ && scene_->isPreview()
             //: Shown instead of the error of the picture
             ? tr("preview")
-            : detail_px_ < kDetailLeastPx
+            : *detail_px_ < kDetailLeastPx
                   //: Shown instead of the error of the picture: it has none
                   ? tr("full detail")
                   //: How far the picture may be from the full map, in pixels
-                  : leftToRight(tr("detail %1 px").arg(numberText(detail_px_, 1))));
+                  : leftToRight(tr("detail %1 px").arg(numberText(*detail_px_, 1))));
 }
 
 QString StatusReadout::sourceLabel() const

@@ -85,7 +85,7 @@ private:
     std::optional<ReadPlace> place_;
     CoordinateFormat format_;
     HeightUnit unit_ = HeightUnit::Meters;
-    double detail_px_ = 0.0;
+    std::optional<double> detail_px_; // none: not drawn yet
     bool is_loading_ = false;
     bool has_problem_ = false;
     ReservedLabel* source_ = nullptr;
