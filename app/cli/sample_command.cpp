@@ -68,6 +68,11 @@ public:
 
     Status print(Position position)
     {
+        constexpr double kLatitudeMax = 90.0;
+        if (frame_ == PositionFrame::LonLat && std::abs(position.second) > kLatitudeMax &&
+            impossible_latitude_ == 0.0) {
+            impossible_latitude_ = position.second;
+        }
         Result<double> height = heightAt(position);
         if (!height) {
             return std::move(height).error();
@@ -88,6 +93,8 @@ public:
 
     /// Of what was printed.
     const SampleStatistics& statistics() const noexcept { return statistics_; }
+    /// The first one that no place has, in degrees; 0 if there was none.
+    double impossibleLatitude() const noexcept { return impossible_latitude_; }
 
 private:
     Result<double> heightAt(Position p)
@@ -157,6 +164,7 @@ private:
     bool is_json_;
     ElevationScale scale_;
     SampleStatistics statistics_;
+    double impossible_latitude_ = 0.0;
 };
 
 // Two numbers separated by blanks, a comma or a semicolon; "nan" is a number. An empty line is no
@@ -255,6 +263,11 @@ Status runSample(const SampleOptions& options)
     if (status) {
         if (sampler.statistics().hasSamples()) {
             noteUnit(raster->info, sampler.statistics());
+        }
+        if (const double latitude = sampler.impossibleLatitude(); latitude != 0.0) {
+            raster->info.notices.push_back(fmt::format(
+                "latitude {:g} is outside -90 to 90 degrees; write longitude before latitude",
+                latitude));
         }
         printNotices(raster->info);
     }

@@ -89,6 +89,26 @@ TEST(SampleCommand, GivesTheSameElevationInAllThreeFrames)
     EXPECT_NEAR(by("--lonlat", lonlat), height, kToleranceM);
 }
 
+// Latitude before longitude is a common slip.
+TEST(SampleCommand, SaysThatALatitudeIsImpossible)
+{
+    const ProgramOutput swapped = runCli({"sample", bundledMars(), "--lonlat", "18.65", "226.2"});
+    EXPECT_EQ(swapped.exit_status, 0);
+    EXPECT_EQ(swapped.out, "nan\n");
+    EXPECT_NE(
+        swapped.err.find("latitude 226.2 is outside -90 to 90 degrees; write longitude before "
+                         "latitude\n"),
+        std::string::npos)
+        << swapped.err;
+    const ProgramOutput many =
+        runCli({"sample", bundledMars(), "--lonlat", "--stdin"}, "0 90\n1 -91\n2 92\n");
+    EXPECT_EQ(std::count(many.out.begin(), many.out.end(), '\n'), 3);
+    EXPECT_NE(many.err.find("latitude -91 is"), std::string::npos) << many.err;
+    EXPECT_EQ(many.err.find("latitude 92"), std::string::npos) << "one notice is enough";
+    EXPECT_EQ(runCli({"sample", bundledMars(), "--map", "0", "95"}).err.find("latitude 95"),
+              std::string::npos);
+}
+
 TEST(SampleCommand, PrintsNanOnlyOutside)
 {
     EXPECT_TRUE(std::isnan(sampleAt(bundledMars(), "--pixel", -1.0, 0.0)));
