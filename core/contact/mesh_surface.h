@@ -233,7 +233,14 @@ public:
                     {{far, facet.steps.at[second], facet.steps.at[third]}});
             }
         }
-        return facetAt(mesh_->across(cornerOf(facet, opposite)));
+        const Index corner = mesh_->across(cornerOf(facet, opposite));
+        if constexpr (MeshOfSamples<Mesh>) {
+            return facetAt(corner);
+        } else { // only the corner beyond the edge is another one
+            const Index far = mesh_->vertexAt(corner);
+            return facetOf(corner, {Vertex{far}, facet.vertices[second], facet.vertices[third]},
+                           {mesh_->vertex(far), facet.points[second], facet.points[third]}, {});
+        }
     }
     static int bend(const Facet& facet, std::size_t opposite, const Facet& beyond) noexcept
     {
