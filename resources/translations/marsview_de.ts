@@ -5841,6 +5841,17 @@ Bewegen Sie die Karte zu einer Ansicht, die Sie behalten wollen, und drücken Si
     </message>
 </context>
 <context>
+    <name>marsview::VectorFileList</name>
+    <message>
+        <source>Vector files, topmost first</source>
+        <translation>Vektordateien, oberste zuerst</translation>
+    </message>
+    <message>
+        <source>Vector files</source>
+        <translation>Vektordateien</translation>
+    </message>
+</context>
+<context>
     <name>marsview::VectorOverlays</name>
     <message>
         <source>Reading %1</source>
@@ -5896,6 +5907,11 @@ Bewegen Sie die Karte zu einer Ansicht, die Sie behalten wollen, und drücken Si
     <message>
         <source>C&amp;lose</source>
         <translation>&amp;Schließen</translation>
+    </message>
+    <message>
+        <source>Hidden: on another body</source>
+        <extracomment>In the row of a vector file, why it is not drawn</extracomment>
+        <translation>Ausgeblendet: auf einem anderen Himmelskörper</translation>
     </message>
 </context>
 <context>

@@ -13,6 +13,8 @@
 #include "ui/controllers/vector_overlays.h"
 #include "ui/dialogs/place_dialog.h"
 #include "ui/globe/globe_view.h"
+#include "ui/panels/layers_panel.h"
+#include "ui/panels/vector_file_list.h"
 #include "ui/project/project_controller.h"
 #include "ui/widgets/notice_bar.h"
 #include "ui/window/window_actions.h"
@@ -21,6 +23,7 @@
 #include <QApplication>
 #include <QFile>
 #include <QLabel>
+#include <QListWidget>
 #include <QMenu>
 #include <QMouseEvent>
 #include <QSignalSpy>
@@ -436,6 +439,43 @@ TEST_F(VectorToolsTest, OpenedTogetherWithAMapAFileIsDrawnOnThatMap)
 }
 
 // A map of another body on top: the overlay waits, and is there again with its own map.
+TEST_F(VectorToolsTest, TheLayersPanelListsTheFiles)
+{
+    makeWindow(kWithPanels);
+    ASSERT_TRUE(openAndWait(*window_, maps_.mars()));
+    VectorFileList& files = *window_->datasetPanel()->vectorFiles();
+    QListWidget& list = *files.list();
+    EXPECT_FALSE(files.isVisible()) << "there are none";
+    ASSERT_TRUE(openVector(marsFile()));
+    ASSERT_TRUE(openVector(file("faults", "IAU_2015:49900", "IAU_2015:49900")));
+    ASSERT_TRUE(files.isVisible());
+    ASSERT_EQ(list.count(), 2);
+    EXPECT_EQ(list.item(0)->text(), QStringLiteral("faults.gpkg")) << "it is drawn last";
+    EXPECT_EQ(list.item(1)->text(), QStringLiteral("ridges.gpkg"));
+    EXPECT_EQ(list.item(1)->checkState(), Qt::Checked);
+    EXPECT_LE(list.sizeHintForRow(0) + list.sizeHintForRow(1), list.viewport()->height());
+
+    // By keyboard: Space hides, Enter flies there, Delete closes; undo brings back.
+    list.setCurrentRow(1);
+    list.setFocus();
+    QTest::keyClick(&list, Qt::Key_Space);
+    EXPECT_FALSE(window_->session().overlays.front().is_visible);
+    window_->undoStack().undo();
+    EXPECT_EQ(list.item(1)->checkState(), Qt::Checked);
+    const OrbitCamera before = view().cameraGoal();
+    QTest::keyClick(&list, Qt::Key_Return);
+    EXPECT_NE(view().cameraGoal(), before);
+    QTest::keyClick(&list, Qt::Key_Delete);
+    ASSERT_EQ(list.count(), 1);
+    EXPECT_EQ(list.item(0)->text(), QStringLiteral("faults.gpkg"));
+    window_->undoStack().undo();
+    ASSERT_EQ(list.count(), 2);
+
+    ASSERT_TRUE(openAndWait(*window_, maps_.moon()));
+    ASSERT_TRUE(rest());
+    EXPECT_EQ(list.item(0)->text(), QStringLiteral("faults.gpkg\nHidden: on another body"));
+}
+
 TEST_F(VectorToolsTest, FollowsTheMapThatIsShown)
 {
     ASSERT_NO_FATAL_FAILURE(openMars());

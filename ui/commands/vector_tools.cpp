@@ -3,6 +3,7 @@
 #include "ui/canvas/terrain_view.h"
 #include "ui/controllers/session_controller.h"
 #include "ui/controllers/vector_overlays.h"
+#include "ui/panels/vector_file_list.h"
 #include "ui/text/number_text.h"
 #include "ui/text/sentence.h"
 #include "ui/widgets/icons.h"
@@ -40,13 +41,36 @@ VectorTools::VectorTools(const Parts& parts, QObject* parent)
     connect(overlays_, &VectorOverlays::wasRead, this, &VectorTools::add);
     connect(overlays_, &VectorOverlays::failed, this, &VectorTools::failed);
     connect(overlays_, &VectorOverlays::isOnOtherBody, this, &VectorTools::offerBody);
+    connect(overlays_, &VectorOverlays::changed, this, &VectorTools::fillList);
     connect(&parts_.session, &SessionController::loadingEnded, this, &VectorTools::openWaiting);
     // An offer is for the map on which its file was to be drawn.
     connect(&parts_.view, &TerrainView::mapShown, this, [this] {
         offers_.clear();
         parts_.notices.setNotices(NoticeSource::VectorFile, offers_);
     });
+    connectList();
     setSession(parts_.session.session());
+}
+
+void VectorTools::connectList()
+{
+    const VectorFileList* list = &parts_.list;
+    connect(list, &VectorFileList::visibilityRequested, this,
+            [this](const QString& path, bool is_visible) {
+                setVisible(path.toStdString(), is_visible);
+            });
+    connect(list, &VectorFileList::goToRequested, this,
+            [this](const QString& path) { overlays_->goTo(path.toStdString()); });
+    connect(list, &VectorFileList::closeRequested, this,
+            [this](const QString& path) { parts_.session.removeOverlay(path.toStdString()); });
+    connect(list, &VectorFileList::menuRequested, this,
+            [this](const QString& path, QPoint position) {
+                for (std::size_t i = 0; i < shown_.size(); ++i) {
+                    if (shown_[i].path == path.toStdString()) {
+                        parts_.files.actions().at(static_cast<int>(i))->menu()->popup(position);
+                    }
+                }
+            });
 }
 
 void VectorTools::open(const QStringList& files)
@@ -86,6 +110,7 @@ void VectorTools::setSession(const Session& session)
     if (shown_ != session.overlays) {
         shown_ = session.overlays;
         fillMenu();
+        fillList();
     }
 }
 
@@ -161,13 +186,8 @@ void VectorTools::fillMenu()
         QAction* show = menu->addAction(tr("&Show"));
         show->setCheckable(true);
         show->setChecked(overlay.is_visible);
-        connect(show, &QAction::triggered, this, [this, path](bool is_visible) {
-            if (const VectorOverlay* known = overlayOf(path)) {
-                VectorOverlay changed = *known;
-                changed.is_visible = is_visible;
-                parts_.session.setOverlay(changed);
-            }
-        });
+        connect(show, &QAction::triggered, this,
+                [this, path](bool is_visible) { setVisible(path, is_visible); });
         connect(menu->addAction(tr("&Go There")), &QAction::triggered, this,
                 [this, path] { overlays_->goTo(path); });
         connect(menu->addAction(tr("&Color…")), &QAction::triggered, this,
@@ -177,6 +197,31 @@ void VectorTools::fillMenu()
         connect(
             menu->addAction(tr("C&lose")), &QAction::triggered, this,
             [this, path] { parts_.session.removeOverlay(path); }, Qt::QueuedConnection);
+    }
+}
+
+void VectorTools::fillList()
+{
+    std::vector<VectorFileList::File> files;
+    for (auto overlay = shown_.rbegin(); overlay != shown_.rend(); ++overlay) {
+        const bool is_elsewhere =
+            overlays_->stateOf(overlay->path) == VectorOverlays::FileState::OnOtherBody;
+        files.push_back(
+            {.path = QString::fromStdString(overlay->path),
+             .color = QColor(overlay->color.red, overlay->color.green, overlay->color.blue),
+             .is_visible = overlay->is_visible,
+             //: In the row of a vector file, why it is not drawn
+             .reason = is_elsewhere ? tr("Hidden: on another body") : QString()});
+    }
+    parts_.list.setFiles(files);
+}
+
+void VectorTools::setVisible(const std::string& path, bool is_visible)
+{
+    if (const VectorOverlay* known = overlayOf(path)) {
+        VectorOverlay changed = *known;
+        changed.is_visible = is_visible;
+        parts_.session.setOverlay(changed);
     }
 }
 

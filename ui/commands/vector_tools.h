@@ -1,4 +1,4 @@
-// Vector files in the window: opening, the menu of those that are open.
+// Vector files in the window: opening, the menu and the list of those that are open.
 #pragma once
 
 #include "core/session/session.h"
@@ -21,6 +21,7 @@ class FileWork;
 class NoticeCenter;
 class SessionController;
 class TerrainView;
+class VectorFileList;
 class VectorOverlays;
 
 /// GUI thread; must not outlive its parts.
@@ -35,7 +36,8 @@ public:
         NoticeCenter& notices;
         FileWork& work;
         QAction& open;
-        QMenu& files; // of open files; it is filled here
+        QMenu& files;         // of open files; it is filled here
+        VectorFileList& list; // the same
     };
 
     explicit VectorTools(const Parts& parts, QObject* parent = nullptr);
@@ -57,7 +59,10 @@ private:
     void offerBody(const QString& file, const QString& body, const QString& crs);
     void withdrawOffer(const QString& file);
     void add(const QString& file, const QString& crs, const QStringList& notices);
+    void connectList();
     void fillMenu();
+    void fillList();
+    void setVisible(const std::string& path, bool is_visible);
     void askColor(const std::string& path);
     const VectorOverlay* overlayOf(const std::string& path) const;
 

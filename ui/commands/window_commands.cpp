@@ -70,7 +70,8 @@ WindowCommands::WindowCommands(const WindowParts& parts, const WindowOptions& op
                     .notices = parts.notices,
                     .work = file_work,
                     .open = *parts.actions.open_vector,
-                    .files = *parts.actions.vector_files})
+                    .files = *parts.actions.vector_files,
+                    .list = *parts.layers.vectorFiles()})
     , names({.window = parts.window,
              .view = parts.view,
              .globe = parts.globe,

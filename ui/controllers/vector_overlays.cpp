@@ -475,6 +475,15 @@ VectorOverlays::placeOfDot(Entry& entry, std::uint32_t part, const PlanePoint& p
                               : std::nullopt;
 }
 
+VectorOverlays::FileState VectorOverlays::stateOf(const std::string& path) const
+{
+    const auto found = entries_.find(path);
+    if (found == entries_.end() || !found->second.file) {
+        return FileState::NotRead;
+    }
+    return found->second.placed ? FileState::OnMap : FileState::OnOtherBody;
+}
+
 std::vector<VectorOverlays::InSight>
 VectorOverlays::filesInSight(const std::shared_ptr<const ScenePlan>& plan) const
 {

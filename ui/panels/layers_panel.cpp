@@ -2,6 +2,7 @@
 
 #include "ui/panels/layer_delegate.h"
 #include "ui/panels/layer_model.h"
+#include "ui/panels/vector_file_list.h"
 #include "ui/text/core_text.h"
 #include "ui/text/ramp_text.h"
 
@@ -33,6 +34,7 @@ LayersPanel::LayersPanel(const LayerActions& actions, QWidget* parent)
     : QWidget(parent)
     , model_(new LayerModel(this))
     , list_(new QListView(this))
+    , vector_files_(new VectorFileList(this))
     , empty_(new QLabel(this))
     , ramps_(new QComboBox(this))
     , pages_(new QStackedLayout)
@@ -102,6 +104,7 @@ LayersPanel::LayersPanel(const LayerActions& actions, QWidget* parent)
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(0);
     layout->addLayout(pages_, 1);
+    layout->addWidget(vector_files_);
     layout->addLayout(foot);
 
     connect(model_, &LayerModel::visibilityRequested, this, &LayersPanel::visibilityRequested);

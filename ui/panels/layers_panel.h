@@ -15,6 +15,7 @@ class QStackedLayout;
 namespace marsview {
 
 class LayerModel;
+class VectorFileList;
 
 /// What can be done with the active layer; the same actions are in the menus.
 struct LayerActions {
@@ -28,7 +29,8 @@ struct LayerActions {
     QAction* prepare = nullptr; // of a preview
 };
 
-/// A list that shows the session. Asks for changes; never makes any.
+/// A list that shows the session, and below it that of the vector files. Asks for changes; never
+/// makes any.
 class LayersPanel final : public QWidget {
     Q_OBJECT
 
@@ -42,6 +44,7 @@ public:
 
     QListView* list() const noexcept { return list_; }
     LayerModel* model() const noexcept { return model_; }
+    VectorFileList* vectorFiles() const noexcept { return vector_files_; }
 
 Q_SIGNALS:
     void activationRequested(LayerId id);
@@ -56,6 +59,7 @@ private:
 
     LayerModel* model_ = nullptr;
     QListView* list_ = nullptr;
+    VectorFileList* vector_files_ = nullptr;
     QLabel* empty_ = nullptr;
     QComboBox* ramps_ = nullptr;
     QStackedLayout* pages_ = nullptr;

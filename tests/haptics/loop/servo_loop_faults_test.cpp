@@ -10,6 +10,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <sys/mman.h>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -464,13 +465,16 @@ TEST(ServoLoopFaults, CountsPageFaultsOfADeviceThatOwnsTheClock)
 {
     Case c;
     c.bench->owns_clock = true;
-    constexpr std::size_t kPage = 4096;
-    constexpr std::size_t kPages = 64;
-    const std::unique_ptr<char[]> memory(new char[64 * kPages * kPage]); // NOLINT
-    c.bench->in_read = [&](int read) {
+    // A mapping of its own: the heap may give pages that an earlier test has touched.
+    constexpr std::size_t kBytes = std::size_t{16} << 20U;
+    constexpr std::size_t kStep = std::size_t{256} << 10U;
+    void* memory =
+        mmap(nullptr, kBytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    ASSERT_NE(memory, MAP_FAILED);
+    c.bench->in_read = [memory](int read) {
         if (read == 100) {
-            for (std::size_t i = 0; i < kPages; ++i) {
-                static_cast<volatile char*>(memory.get())[i * 64 * kPage] = 1;
+            for (std::size_t i = 0; i < kBytes; i += kStep) {
+                static_cast<volatile char*>(memory)[i] = 1;
             }
         }
     };
@@ -478,6 +482,7 @@ TEST(ServoLoopFaults, CountsPageFaultsOfADeviceThatOwnsTheClock)
     waitUntil([&] { return c.bench->reads > 102; });
     loop->stop();
     EXPECT_GE(loop->statistics().minor_faults + loop->statistics().major_faults, 1U);
+    munmap(memory, kBytes);
 }
 
 } // namespace
