@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <set>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -22,18 +23,29 @@ BodyMesh::BodyMesh(std::shared_ptr<const BodyPositions> positions,
     , rows_(static_cast<std::uint32_t>(positions_->rows()))
     , cell_columns_(positions_->wraps() ? columns_ : columns_ - 1)
     , is_mirrored_(positions_->isMirrored())
+    , cap_shape_(columns_)
     , face_count_(std::size_t{2} * cell_columns_ * (rows_ - 1))
+    , vertex_count_(std::size_t{columns_} * rows_)
     , blocks_per_row_((cell_columns_ + kBlockCells - 1) / kBlockCells)
     , cell_leaves_(blocks_per_row_ * ((rows_ - 1 + kBlockCells - 1) / kBlockCells))
 {
     const std::array<bool, 2> closes{positions_->closesAtFirstRow(), positions_->closesAtLastRow()};
+    const std::size_t first_row = positions_->firstRow();
     for (std::size_t i = 0; i < caps_.size(); ++i) {
         if (closes[i]) {
+            const std::size_t circle_row = first_row + (i == 0 ? 0 : rows_ - 1);
+            const bool has_row_at_pole = positions_->hasRowAtPole(i == 0);
             caps_[i] = {.first_face = face_count_,
+                        .first_vertex = vertex_count_,
                         .row = i == 0 ? 0 : rows_ - 1,
+                        .pole_row = !has_row_at_pole ? circle_row
+                                    : i == 0         ? circle_row - 1
+                                                     : circle_row + 1,
                         .exists = true,
-                        .is_turned = is_mirrored_ != (i == 1)};
-            face_count_ += columns_ - 2;
+                        .is_turned = is_mirrored_ != (i == 1),
+                        .pole = std::nullopt};
+            face_count_ += cap_shape_.faceCount();
+            vertex_count_ += cap_shape_.innerVertexCount();
         }
     }
 }
@@ -90,14 +102,14 @@ BodyIndex BodyMesh::across(BodyIndex corner) const noexcept
                                               : kNone;
         }
         return row + 1 < rows_ - 1 ? cellCorner(column, row + 1, true, kFar)
-               : caps_[1].exists   ? capCornerAtEdge(caps_[1], column)
+               : caps_[1].exists   ? capCorner(caps_[1], cap_shape_.cornerAtCircle(column))
                                    : kNone;
     case kFar:
         break;
     }
     if (is_upper) { // the side along the row
         return row > 0           ? cellCorner(column, row - 1, false, kFirst)
-               : caps_[0].exists ? capCornerAtEdge(caps_[0], column)
+               : caps_[0].exists ? capCorner(caps_[0], cap_shape_.cornerAtCircle(column))
                                  : kNone;
     }
     return column > 0            ? cellCorner(column - 1, row, true, kFirst)
@@ -105,62 +117,49 @@ BodyIndex BodyMesh::across(BodyIndex corner) const noexcept
                                  : kNone;
 }
 
-// Even triangles have an edge of the row at the low end, odd ones at the high end. Corner 0 is at
-// the low end and corner 2 at the high end.
-std::array<std::uint32_t, 3> BodyMesh::capColumns(std::uint32_t triangle) const noexcept
+std::array<BodySample, 3> BodyMesh::samplesOfCap(BodyIndex face) const noexcept
 {
-    const std::uint32_t last = columns_ - 1;
-    const std::uint32_t step = triangle / 2;
-    return triangle % 2 == 0 ? std::array{step, step + 1, last - step}
-                             : std::array{step + 1, last - step - 1, last - step};
+    const Cap& cap = capOf(face);
+    const std::array<std::uint32_t, 3> numbers =
+        cap_shape_.face(static_cast<std::uint32_t>(face - cap.first_face));
+    std::array<BodySample, 3> at;
+    for (std::uint32_t i = 0; i < 3; ++i) {
+        at[turnedNumber(cap, i)] = sampleOf(capVertex(cap, numbers[i]));
+    }
+    return at;
 }
 
 BodyIndex BodyMesh::acrossInCap(const Cap& cap, BodyIndex corner) const noexcept
 {
-    const auto triangle = static_cast<std::uint32_t>(corner / 3 - cap.first_face);
+    const auto face = static_cast<std::uint32_t>(corner / 3 - cap.first_face);
     const auto number = static_cast<std::uint32_t>(corner % 3);
-    const std::uint32_t turned = cap.is_turned && number != 0U ? 3U - number : number;
-    const std::uint32_t count = columns_ - 2;
-    const bool is_odd = triangle % 2 == 1;
-    const auto [low, middle, high] = capColumns(triangle);
-    const auto beside = [&](std::uint32_t column) {
-        return cap.row == 0 ? cellCorner(column, 0, true, kFar)
-                            : cellCorner(column, rows_ - 2, false, kFirst);
-    };
-    // Opposite corner 1 is the edge to the triangle before; an edge of the row lies opposite
-    // corner 2 in even triangles and opposite corner 0 in odd ones.
-    if (turned == 1U) {
-        if (triangle == 0) {
-            return beside(high); // from the last column to the first
-        }
-        // Seen from an even triangle before, this edge is opposite its corner 0.
-        return capCorner(cap, triangle - 1, is_odd ? 0U : 2U);
-    }
-    const bool is_along_row = is_odd ? turned == 0U : turned == 2U;
-    if (is_along_row) {
-        return beside(is_odd ? middle : low);
-    }
-    if (triangle + 1 == count) {
-        return beside(is_odd ? low : middle);
-    }
-    return capCorner(cap, triangle + 1, 1U);
+    const PoleCap::Beyond beyond = cap_shape_.across(3 * face + turnedNumber(cap, number));
+    return !beyond.is_outside ? capCorner(cap, beyond.at)
+           : cap.row == 0     ? cellCorner(beyond.at, 0, true, kFar)
+                              : cellCorner(beyond.at, rows_ - 2, false, kFirst);
 }
 
-// The corner of the cap opposite the edge from a column to the next.
-BodyIndex BodyMesh::capCornerAtEdge(const Cap& cap, std::uint32_t column) const noexcept
+ScenePoint BodyMesh::pointOfCap(BodyIndex vertex) const noexcept
 {
-    const std::uint32_t count = columns_ - 2;
-    if (column + 1 == columns_) {
-        return capCorner(cap, 0, 1U);
+    const Cap& cap = capOfVertex(vertex);
+    const auto [column, share] = placeInCap(cap, vertex);
+    const ScenePoint pole = cap.pole ? *cap.pole : poleOf(cap);
+    return pole + (sampleAt(column, cap.row) - pole) * share;
+}
+
+ScenePoint BodyMesh::poleOf(const Cap& cap) const noexcept
+{
+    double sum_m = 0.0;
+    for (std::uint32_t i = 0; i < poleSampleCount(); ++i) {
+        sum_m += rasterHeight(poleColumn(i), cap.pole_row);
     }
-    if (2 * column < count) {
-        return capCorner(cap, 2 * column, 2U);
-    }
-    const std::uint32_t odd = 2 * (columns_ - 2 - column) + 1;
-    if (odd < count) {
-        return capCorner(cap, odd, 0U);
-    }
-    return capCorner(cap, count - 1, (count - 1) % 2 == 1 ? 2U : 0U);
+    return poleAt(cap, sum_m / poleSampleCount());
+}
+
+ScenePoint BodyMesh::poleAt(const Cap& cap, double height_m) const noexcept
+{
+    const double z = positions_->ellipsoid().polar_m + height_m;
+    return {0.0, 0.0, positions_->at(0, cap.row, 0.0).z < 0.0 ? -z : z};
 }
 
 BodyIndex BodyMesh::cornerAtEdge(BodyIndex a, BodyIndex b) const noexcept
@@ -169,7 +168,8 @@ BodyIndex BodyMesh::cornerAtEdge(BodyIndex a, BodyIndex b) const noexcept
     const BodyIndex first = std::min(a, b);
     const auto [column, row] = sampleOf(first);
     const BodyIndex step = std::max(a, b) - first;
-    if (column + 1 < columns_) {
+    const bool is_of_cells = first + step < BodyIndex{columns_} * rows_;
+    if (is_of_cells && column + 1 < columns_) {
         if (step == 1 && row > 0) { // along a row: the cell above
             return cellCorner(column, row - 1, false, kFirst);
         }
@@ -193,6 +193,13 @@ BodyIndex BodyMesh::cornerAtEdge(BodyIndex a, BodyIndex b) const noexcept
     return 0; // not edges of one face
 }
 
+BodyIndex BodyMesh::cornerOfCap(BodyIndex vertex) const noexcept
+{
+    const Cap& cap = capOfVertex(vertex);
+    const auto number = columns_ + static_cast<std::uint32_t>(vertex - cap.first_vertex);
+    return capCorner(cap, cap_shape_.cornerAt(number));
+}
+
 FanCorners BodyMesh::fan(BodyIndex vertex) const noexcept
 {
     const auto [column, row] = sampleOf(vertex);
@@ -212,11 +219,12 @@ FanCorners BodyMesh::fan(BodyIndex vertex) const noexcept
     // Any of its corners, then clockwise to the border or once around, then counter-clockwise.
     const bool has_cell_right = column < cell_columns_;
     const std::uint32_t cell_column = has_cell_right ? column : column - 1;
-    const BodyIndex some = row + 1 < rows_  ? has_cell_right
-                                                  ? cellCorner(cell_column, row, false, kFirst)
-                                                  : cellCorner(cell_column, row, true, kThird)
-                            : has_cell_right ? cellCorner(cell_column, row - 1, false, kThird)
-                                            : cellCorner(cell_column, row - 1, false, kFar);
+    const BodyIndex some = row >= rows_      ? cornerOfCap(vertex)
+                           : row + 1 < rows_ ? has_cell_right
+                                                   ? cellCorner(cell_column, row, false, kFirst)
+                                                   : cellCorner(cell_column, row, true, kThird)
+                           : has_cell_right ? cellCorner(cell_column, row - 1, false, kThird)
+                                             : cellCorner(cell_column, row - 1, false, kFar);
     BodyIndex first = some;
     for (std::size_t i = 0; i < FanCorners::kCountMax; ++i) {
         const BodyIndex before = across(previousCorner(first));
@@ -291,8 +299,7 @@ double BodyMesh::tiledHeight(std::size_t column, std::size_t raster_row) const n
     const auto c = static_cast<std::int32_t>(column);
     const auto r = static_cast<std::int32_t>(raster_row);
     double height_m = 0.0;
-    if (const double* pinned_m =
-            pins_ ? pins_->find(column, raster_row - positions_->firstRow()) : nullptr) {
+    if (const double* pinned_m = pins_ ? pins_->find(column, raster_row) : nullptr) {
         height_m = *pinned_m;
     } else if (const std::int16_t* raw = tile_type_ == SampleType::Int16
                                              ? terrain_->plainSample<std::int16_t>(c, r)
@@ -311,15 +318,52 @@ double BodyMesh::tiledHeight(std::size_t column, std::size_t raster_row) const n
 std::shared_ptr<const BodyMesh> BodyMesh::withPins(std::span<const BodyIndex> vertices) const
 {
     MARSVIEW_CHECK(terrain_ != nullptr);
-    std::vector<PinnedSamples::Sample> samples;
-    samples.reserve(vertices.size());
+    std::set<std::pair<std::size_t, std::uint32_t>> wanted; // row of the raster, column
     for (const BodyIndex vertex : vertices) {
-        const auto [column, row] = sampleOf(vertex);
-        samples.push_back({column, row, terrain_->sample(column, row + positions_->firstRow())});
+        BodySample sample = sampleOf(vertex);
+        if (sample.row >= rows_) {
+            const Cap& cap = capOfVertex(vertex);
+            for (std::uint32_t i = 0; i < poleSampleCount(); ++i) {
+                wanted.emplace(cap.pole_row, poleColumn(i));
+            }
+            sample = circleSample(vertex);
+        }
+        wanted.emplace(sample.row + positions_->firstRow(), sample.column);
+    }
+    std::vector<PinnedSamples::Sample> samples;
+    samples.reserve(wanted.size());
+    for (const auto& [row, column] : wanted) {
+        samples.push_back({column, static_cast<std::uint32_t>(row), terrain_->sample(column, row)});
     }
     auto mesh = std::make_shared<BodyMesh>(*this);
     mesh->pins_ = std::make_shared<const PinnedSamples>(columns_, samples);
     return mesh;
+}
+
+TriangleTree::Bounds BodyMesh::capBounds(std::uint32_t leaf) const noexcept
+{
+    TriangleTree::Bounds bounds;
+    eachCapFace(leaf, [&](BodyIndex face) {
+        for (const BodySample& sample : samplesOf(face)) {
+            if (!nodes_) {
+                bounds.add(pointOf(sample));
+                continue;
+            }
+            // Wherever its sample and the pole may be.
+            const BodyIndex vertex = vertexOf(sample);
+            const bool is_of_circle = sample.row < rows_;
+            const Cap& cap = capOf(face);
+            const auto [column, share] =
+                is_of_circle ? PoleCap::Place{sample.column, 1.0} : placeInCap(cap, vertex);
+            for (const double height_m : {nodes_->lowest(), nodes_->highest()}) {
+                for (const double pole_m : {nodes_->lowest(), nodes_->highest()}) {
+                    const ScenePoint pole = poleAt(cap, pole_m);
+                    bounds.add(pole + (positions_->at(column, cap.row, height_m) - pole) * share);
+                }
+            }
+        }
+    });
+    return bounds;
 }
 
 Status BodyMesh::buildTree(JobMonitor& monitor)
@@ -345,12 +389,13 @@ Status BodyMesh::buildTree(JobMonitor& monitor)
             }
         }
     }
+    for (Cap& cap : caps_) {
+        if (cap.exists) {
+            cap.pole = poleOf(cap);
+        }
+    }
     for (std::uint32_t block = cell_leaves_; block < bounds.size(); ++block) {
-        eachCapFace(block, [&](BodyIndex face) {
-            for (const ScenePoint& point : points(face)) {
-                bounds[block].add(point);
-            }
-        });
+        bounds[block] = capBounds(block);
     }
     highest_m_ = exaggeration_ * heights_->maximum(heights_->levelCount() - 1, 0, 0);
     tree_ = std::make_shared<const TriangleTree>(bounds);

@@ -4,6 +4,7 @@
 #include "core/base/job_monitor.h"
 #include "core/base/result.h"
 #include "core/body/body_positions.h"
+#include "core/body/pole_cap.h"
 #include "core/body/tiled_body_nodes.h"
 #include "core/levels/tiled_terrain.h"
 #include "core/mesh/triangle_tree.h"
@@ -45,7 +46,8 @@ private:
     std::size_t count_ = 0;
 };
 
-/// A sample by its column and row in the positions; where there is none, outside them.
+/// A sample by its column and row in the positions. Vertices of a pole and places without a sample
+/// have rows beyond the last.
 struct BodySample {
     std::uint32_t column;
     std::uint32_t row;
@@ -62,16 +64,19 @@ struct VertexRing {
 
 /// The same queries as TriangleMesh, without storing a triangle: each cell of the grid is cut from
 /// sample (column, row) to (column + 1, row + 1), with vertices at the samples' positions on the
-/// body and straight edges between them. The columns of a map around the body meet, and flat
-/// triangles across the last circle of samples close its poles. A cell of size c lies below the
+/// body and straight edges between them. The columns of a map around the body meet, and triangles
+/// from the last circle of samples to the pole close it (PoleCap). A cell of size c lies below the
 /// curved surface by up to c² / 8R.
 ///
+/// The height of a pole is the mean of up to eight evenly spaced samples of the circle, or
+/// of the row that lies at the pole, if the map has one.
+///
 /// Faces 2i and 2i + 1 are the lower and the upper one of cell i, those of the poles come last.
-/// Vertex i is sample (i mod columns, i div columns) of the positions. A *corner* is
-/// 3 × face + 0, 1 or 2, as in TriangleMesh. Allocates nothing after construction. Of a map in
-/// memory it is immutable, for any thread, and takes 60 bytes per 64 cells in addition to the
-/// samples. Of a map in tiles (TiledBodyMesh) it is as constant as its terrain, and for the thread
-/// that has that.
+/// Vertex i is sample (i mod columns, i div columns) of the positions; those of the poles come
+/// last. A *corner* is 3 × face + 0, 1 or 2, as in TriangleMesh. Allocates nothing after
+/// construction. Of a map in memory it is immutable, for any thread, and takes 60 bytes per 64
+/// cells in addition to the samples. Of a map in tiles (TiledBodyMesh) it is as constant as its
+/// terrain, and for the thread that has that.
 class BodyMesh {
 public:
     using Index = BodyIndex;
@@ -87,7 +92,7 @@ public:
           JobMonitor& monitor,
           const std::optional<Ellipsoid>& scene = std::nullopt);
 
-    std::size_t vertexCount() const noexcept { return std::size_t{columns_} * rows_; }
+    std::size_t vertexCount() const noexcept { return vertex_count_; }
     std::size_t faceCount() const noexcept { return face_count_; }
     const BodyPositions& positions() const noexcept { return *positions_; }
     const Ellipsoid& ellipsoid() const noexcept { return positions_->ellipsoid(); }
@@ -102,8 +107,8 @@ public:
     }
     /// Of a map in tiles: the samples that do not depend on them; null without any.
     const std::shared_ptr<const PinnedSamples>& pins() const noexcept { return pins_; }
-    /// The same map in tiles with the samples of these vertices pinned, with the heights that its
-    /// terrain has now. Each vertex once.
+    /// The same map in tiles with the samples that these vertices depend on pinned, with the
+    /// heights that its terrain has now.
     std::shared_ptr<const BodyMesh> withPins(std::span<const BodyIndex> vertices) const;
 
     ScenePoint vertex(BodyIndex index) const noexcept { return pointOf(sampleOf(index)); }
@@ -169,7 +174,8 @@ public:
     }
     ScenePoint pointOf(const BodySample& sample) const noexcept
     {
-        return sampleAt(sample.column, sample.row);
+        return sample.row < rows_ ? sampleAt(sample.column, sample.row)
+                                  : pointOfCap(vertexOf(sample));
     }
     /// The samples of a face if step() finds its neighbors from them; otherwise three for which it
     /// finds none: those of a pole's triangles, and of cells across the seam.
@@ -217,9 +223,10 @@ public:
     {
         const std::array<BodySample, 3> at = samplesOf(face);
         return std::any_of(at.begin(), at.end(), [this](const BodySample& sample) {
-            const std::size_t row = sample.row + positions_->firstRow();
-            return heights_ ? heights_->isVoid(sample.column, row)
-                            : terrain_->isVoid(sample.column, row);
+            const auto [column, row] = sample.row < rows_ ? sample : circleSample(vertexOf(sample));
+            const std::size_t raster_row = row + positions_->firstRow();
+            return heights_ ? heights_->isVoid(column, raster_row)
+                            : terrain_->isVoid(column, raster_row);
         });
     }
 
@@ -334,7 +341,10 @@ private:
     // In scene meters. Samples without voids are read by their type.
     double heightAt(std::uint32_t column, std::uint32_t row) const noexcept
     {
-        const std::size_t raster_row = row + positions_->firstRow();
+        return rasterHeight(column, row + positions_->firstRow());
+    }
+    double rasterHeight(std::uint32_t column, std::size_t raster_row) const noexcept
+    {
         const std::size_t index = raster_row * raster_columns_ + column;
         if (int16_ != nullptr) {
             return exaggeration_ * scale_.height(static_cast<double>(int16_[index]));
@@ -385,34 +395,62 @@ private:
     }
     BodyIndex firstCapFace() const noexcept { return BodyIndex{2} * cell_columns_ * (rows_ - 1); }
 
-    /// The triangles that close a pole: between the samples of a row, alternately from both ends.
+    static constexpr std::uint32_t kPoleSamples = 8;
+    /// What closes a pole.
     struct Cap {
-        BodyIndex first_face = 0; // of columns - 2
-        std::uint32_t row = 0;
+        BodyIndex first_face = 0;
+        BodyIndex first_vertex = 0; // that is not of the circle
+        std::uint32_t row = 0;      // of the circle
+        std::size_t pole_row = 0;   // of the raster: its samples give the height of the pole
         bool exists = false;
-        bool is_turned = false; // its second and third corner are exchanged
+        bool is_turned = false;         // its second and third corner are exchanged
+        std::optional<ScenePoint> pole; // unless it depends on tiles
     };
     const Cap& capOf(BodyIndex face) const noexcept
     {
         return caps_[1].exists && face >= caps_[1].first_face ? caps_[1] : caps_[0];
     }
-    std::array<std::uint32_t, 3> capColumns(std::uint32_t triangle) const noexcept;
-    std::array<BodySample, 3> samplesOfCap(BodyIndex face) const noexcept
+    const Cap& capOfVertex(BodyIndex vertex) const noexcept
     {
-        const Cap& cap = capOf(face);
-        const auto [low, middle, high] =
-            capColumns(static_cast<std::uint32_t>(face - cap.first_face));
-        return {{{low, cap.row},
-                 {cap.is_turned ? high : middle, cap.row},
-                 {cap.is_turned ? middle : high, cap.row}}};
+        return caps_[1].exists && vertex >= caps_[1].first_vertex ? caps_[1] : caps_[0];
     }
-    BodyIndex capCorner(const Cap& cap, std::uint32_t triangle, std::uint32_t turned) const noexcept
+    // A vertex of the cap's own numbers, and back.
+    BodyIndex capVertex(const Cap& cap, std::uint32_t number) const noexcept
     {
-        const std::uint32_t number = cap.is_turned && turned != 0U ? 3U - turned : turned;
-        return 3 * (cap.first_face + triangle) + number;
+        return number < columns_ ? vertexOf({number, cap.row})
+                                 : cap.first_vertex + (number - columns_);
+    }
+    PoleCap::Place placeInCap(const Cap& cap, BodyIndex vertex) const noexcept
+    {
+        return cap_shape_.placeOf(columns_ + static_cast<std::uint32_t>(vertex - cap.first_vertex));
+    }
+    // The sample of the circle that a vertex of a pole lies below.
+    BodySample circleSample(BodyIndex vertex) const noexcept
+    {
+        const Cap& cap = capOfVertex(vertex);
+        return {placeInCap(cap, vertex).sample, cap.row};
+    }
+    std::array<BodySample, 3> samplesOfCap(BodyIndex face) const noexcept;
+    ScenePoint pointOfCap(BodyIndex vertex) const noexcept;
+    std::uint32_t poleColumn(std::uint32_t number) const noexcept
+    {
+        return static_cast<std::uint32_t>(BodyIndex{number} * columns_ / poleSampleCount());
+    }
+    std::uint32_t poleSampleCount() const noexcept { return std::min(kPoleSamples, columns_); }
+    ScenePoint poleOf(const Cap& cap) const noexcept;
+    ScenePoint poleAt(const Cap& cap, double height_m) const noexcept;
+    // From a corner's number in the cap's shape to the mesh, and back.
+    BodyIndex capCorner(const Cap& cap, std::uint32_t corner) const noexcept
+    {
+        return 3 * (cap.first_face + corner / 3) + turnedNumber(cap, corner % 3);
+    }
+    static std::uint32_t turnedNumber(const Cap& cap, std::uint32_t number) noexcept
+    {
+        return cap.is_turned && number != 0U ? 3U - number : number;
     }
     BodyIndex acrossInCap(const Cap& cap, BodyIndex corner) const noexcept;
-    BodyIndex capCornerAtEdge(const Cap& cap, std::uint32_t column) const noexcept;
+    BodyIndex cornerOfCap(BodyIndex vertex) const noexcept;
+    TriangleTree::Bounds capBounds(std::uint32_t leaf) const noexcept;
 
     // The blocks of cells in a leaf of the tree, which has no triangles of a pole: one of a map in
     // memory, those that `nodes` may meet of a map in tiles.
@@ -658,8 +696,10 @@ private:
     std::uint32_t rows_;
     std::uint32_t cell_columns_;
     bool is_mirrored_;
+    PoleCap cap_shape_;
     std::array<Cap, 2> caps_; // at the first and the last row
     std::size_t face_count_;
+    std::size_t vertex_count_;
     std::uint32_t blocks_per_row_;
     std::uint32_t cell_leaves_; // of the tree; those of the poles come last
     double highest_m_ = 0.0;    // exaggerated

@@ -217,6 +217,7 @@ private:
         if (places.size() >= 2 &&
             off_pole_rows(places.size() - 1, places.size() - 2) < kAtPoleRows) {
             places.pop_back();
+            made_.has_row_after_ = true;
         }
         made_.rows_ = places.size();
         if (made_.rows_ < 2) {

@@ -50,6 +50,11 @@ public:
     /// Whether the first and the last row go around a pole at a distance of at most one cell.
     bool closesAtFirstRow() const noexcept { return closes_first_; }
     bool closesAtLastRow() const noexcept { return closes_last_; }
+    /// Whether the raster has a row before the first one here, or after the last, at a pole.
+    bool hasRowAtPole(bool is_before) const noexcept
+    {
+        return is_before ? first_row_ > 0 : has_row_after_;
+    }
     /// Whether columns turn to rows counter-clockwise, seen from outside.
     bool isMirrored() const noexcept { return is_mirrored_; }
     const Ellipsoid& ellipsoid() const noexcept { return ellipsoid_; }
@@ -99,6 +104,7 @@ private:
     std::size_t rows_ = 0;
     std::size_t first_row_ = 0;
     bool wraps_ = false;
+    bool has_row_after_ = false;
     bool closes_first_ = false;
     bool closes_last_ = false;
     bool is_mirrored_ = false;

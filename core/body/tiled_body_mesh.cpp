@@ -51,17 +51,7 @@ Status TiledBodyMesh::buildTree(JobMonitor& monitor)
                 return Error{ErrorCode::Canceled, "laying the map on its body was canceled"};
             }
         }
-        if (leaf < nodes.leafCount()) {
-            bounds[leaf] = nodes.bounds(leaf);
-            continue;
-        }
-        shape_.eachCapFace(leaf, [&](BodyIndex face) {
-            for (const BodySample& sample : shape_.samplesOf(face)) {
-                for (const double height_m : {nodes.lowest(), nodes.highest()}) {
-                    bounds[leaf].add(grid_->positions().at(sample.column, sample.row, height_m));
-                }
-            }
-        });
+        bounds[leaf] = leaf < nodes.leafCount() ? nodes.bounds(leaf) : shape_.capBounds(leaf);
     }
     shape_.tree_ = std::make_shared<const TriangleTree>(bounds);
     return Done{};

@@ -70,8 +70,8 @@ TEST_P(BodyMeshOf, StepsOverEdgesLeadToTheFaceBeyond)
         ASSERT_EQ(mesh->cornerOf({far, at[previous % 3], at[next % 3]}), beyond);
         ASSERT_EQ(mesh->cornerOf({at[corner % 3], at[next % 3], at[previous % 3]}), corner);
     }
-    // Most edges are between cells away from the seam.
-    EXPECT_GT(steps, mesh->faceCount() / 2);
+    // Most edges of cells are between cells away from the seam: each has three.
+    EXPECT_GE(steps, std::size_t{2} * mesh->cellColumns() * mesh->cellRows() / 2);
 }
 
 // From inside the body, from far out, and from beside the map. TriangleMesh has the nearest place
@@ -119,6 +119,27 @@ TEST(BodyMesh, AMapOfTheWholeBodyEnclosesIt)
     // Triangles of 1° lie below the curve by up to (π / 180)² / 4 of the radius.
     EXPECT_LT(volume_m3 / expected_m3, 1.0);
     EXPECT_GT(volume_m3 / expected_m3, 1.0 - 3.0 * 7.6e-5);
+}
+
+// Between the last circle of samples and the pole, terrain is no steeper than between these
+// samples.
+TEST(BodyMesh, ThePoleOfRoughTerrainHasNoCliffs)
+{
+    const test::BodyMap rough{"RoughPole", "IAU_2015:49900",           1440,
+                              6,           {0, 0.25, 0, 90, 0, -0.25}, 400.0};
+    const auto mesh = test::bodyMesh(rough, 1.0);
+    const BodyIndex first_of_pole = BodyIndex{2} * mesh->cellColumns() * mesh->cellRows();
+    double steepest_of_cells = 0.0;
+    double steepest_of_pole = 0.0;
+    for (BodyIndex face = 0; face < mesh->faceCount(); ++face) {
+        const Vec3 normal = mesh->normal(face);
+        const Vec3 up = verticalAt(mesh->ellipsoid(), mesh->points(face)[0]).up;
+        const double slope = std::acos(std::min(1.0, dot(normal, up) / length(normal)));
+        double& steepest = face < first_of_pole ? steepest_of_cells : steepest_of_pole;
+        steepest = std::max(steepest, slope);
+    }
+    EXPECT_GT(steepest_of_pole, 0.0);
+    EXPECT_LE(steepest_of_pole, steepest_of_cells);
 }
 
 INSTANTIATE_TEST_SUITE_P(BodyMesh,
