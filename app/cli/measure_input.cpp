@@ -8,6 +8,9 @@
 #include "core/vector/vector_file.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cctype>
 #include <cmath>
 #include <fmt/format.h>
 #include <fstream>
@@ -63,6 +66,81 @@ bool isHeader(const std::vector<std::string>& words)
     return true;
 }
 
+// The fields of a line of CSV; quotes around one are dropped.
+std::vector<std::string> fieldsOf(const std::string& line, char separator)
+{
+    std::vector<std::string> fields(1);
+    bool is_quoted = false;
+    for (const char c : line) {
+        if (c == '"') {
+            is_quoted = !is_quoted;
+        } else if (c == separator && !is_quoted) {
+            fields.emplace_back();
+        } else if (c != '\r') {
+            fields.back() += c;
+        }
+    }
+    return fields;
+}
+
+// Where a header says that the positions are.
+struct PositionColumns {
+    std::size_t x = 0;
+    std::size_t y = 1;
+    char separator = 0; // 0: commas or blanks
+};
+
+std::optional<PositionColumns> columnsNamedIn(const std::string& header, bool is_map)
+{
+    constexpr std::array<std::string_view, 3> kLongitudes{"lon", "longitude", "long"};
+    constexpr std::array<std::string_view, 2> kLatitudes{"lat", "latitude"};
+    constexpr std::array<std::string_view, 2> kEastings{"x", "easting"};
+    constexpr std::array<std::string_view, 2> kNorthings{"y", "northing"};
+    PositionColumns columns;
+    for (const char separator : {',', ';', '\t'}) {
+        if (header.find(separator) != std::string::npos) {
+            columns.separator = separator;
+            break;
+        }
+    }
+    std::vector<std::string> names =
+        columns.separator != 0 ? fieldsOf(header, columns.separator) : wordsOf(header);
+    for (std::string& name : names) {
+        name.erase(0, name.find_first_not_of(' '));
+        name.erase(name.find_last_not_of(' ') + 1);
+        std::transform(name.begin(), name.end(), name.begin(),
+                       [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    }
+    const auto column_of = [&names](const auto& wanted) {
+        const auto found =
+            std::find_first_of(names.begin(), names.end(), wanted.begin(), wanted.end());
+        return found == names.end() ? std::nullopt
+                                    : std::optional<std::size_t>(found - names.begin());
+    };
+    const auto x = is_map ? column_of(kEastings) : column_of(kLongitudes);
+    const auto y = is_map ? column_of(kNorthings) : column_of(kLatitudes);
+    if (!x || !y) {
+        return std::nullopt;
+    }
+    columns.x = *x;
+    columns.y = *y;
+    return columns;
+}
+
+std::optional<Pair> pairIn(const std::string& line, const PositionColumns& columns)
+{
+    const std::vector<std::string> fields =
+        columns.separator != 0 ? fieldsOf(line, columns.separator) : wordsOf(line);
+    if (fields.size() <= std::max(columns.x, columns.y)) {
+        return std::nullopt;
+    }
+    const auto number_in = [&fields](std::size_t column) -> std::string {
+        const std::vector<std::string> words = wordsOf(fields[column]);
+        return words.size() == 1 ? words.front() : std::string();
+    };
+    return pairIn({number_in(columns.x), number_in(columns.y)});
+}
+
 std::string quoted(std::string line)
 {
     constexpr std::size_t kQuotedMax = 60;
@@ -72,7 +150,9 @@ std::string quoted(std::string line)
     return line;
 }
 
-Result<std::vector<Pair>> readPairs(std::istream& in, const std::string& name)
+// Two numbers a line, x and y on a map, otherwise longitude and latitude; or the columns that a
+// header names so.
+Result<std::vector<Pair>> readPairs(std::istream& in, const std::string& name, bool is_map)
 {
     Result<std::string> text =
         readBoundedText(in, name, {.bytes_max = kTextBytesMax, .line_bytes_max = kLineBytesMax});
@@ -83,6 +163,7 @@ Result<std::vector<Pair>> readPairs(std::istream& in, const std::string& name)
     std::istringstream lines(*text);
     std::size_t number = 0;
     bool can_be_header = true;
+    std::optional<PositionColumns> columns;
     for (std::string line; std::getline(lines, line);) {
         ++number;
         constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
@@ -93,28 +174,35 @@ Result<std::vector<Pair>> readPairs(std::istream& in, const std::string& name)
         if (words.empty()) {
             continue;
         }
-        if (const auto pair = pairIn(words)) {
+        if (const auto pair = columns ? pairIn(line, *columns) : pairIn(words)) {
             pairs.push_back(*pair);
-        } else if (!can_be_header || !isHeader(words)) {
+        } else if (can_be_header && isHeader(words)) {
+            columns = columnsNamedIn(line, is_map);
+        } else {
             return Error{ErrorCode::Invalid,
-                         fmt::format("{}: line {} is \"{}\"; two finite numbers are required", name,
-                                     number, quoted(line))};
+                         fmt::format("{}: line {} is \"{}\"; two finite numbers are required{}",
+                                     name, number, quoted(line),
+                                     words.size() > 2 && !columns
+                                         ? fmt::format(", or a first line that names their "
+                                                       "columns {}",
+                                                       is_map ? "x and y" : "lon and lat")
+                                         : "")};
         }
         can_be_header = false;
     }
     return pairs;
 }
 
-Result<std::vector<Pair>> readPairs(const MeasureOptions& options)
+Result<std::vector<Pair>> readPairs(const MeasureOptions& options, bool is_map)
 {
     if (options.points_path == "-") {
-        return readPairs(std::cin, options.positionsName());
+        return readPairs(std::cin, options.positionsName(), is_map);
     }
     std::ifstream file(options.points_path, std::ios::binary);
     if (!file) {
         return Error{ErrorCode::NotFound, options.points_path + ": cannot be opened for reading"};
     }
-    return readPairs(file, options.points_path);
+    return readPairs(file, options.points_path, is_map);
 }
 
 class Placer {
@@ -126,6 +214,8 @@ public:
         , is_map_(options.is_map || !terrain.ground().ellipsoid())
     {}
 
+    /// Positions are x and y in the map's CRS.
+    bool isMap() const noexcept { return is_map_; }
     Result<GroundPosition> place(Pair pair, std::size_t number) const
     {
         if (is_map_) {
@@ -222,8 +312,8 @@ void MeasureOptions::addTo(CLI::App& command)
     const std::string group = "Positions";
     command
         .add_option("--points", points_path,
-                    "CSV with one position per line, with or without a header line; - reads "
-                    "standard input")
+                    "CSV with one position per line, or with a header that names the columns lon "
+                    "and lat, with --map x and y; - reads standard input")
         ->type_name("FILE")
         ->transform(fileName())
         ->group(group);
@@ -321,7 +411,7 @@ Result<MeasureInput> openMeasureInput(const MeasureOptions& options)
         input.positions = std::move(*positions);
         return input;
     }
-    const Result<std::vector<Pair>> pairs = readPairs(options);
+    const Result<std::vector<Pair>> pairs = readPairs(options, placer.isMap());
     if (!pairs) {
         return pairs.error();
     }

@@ -110,6 +110,34 @@ TEST(MeasureDistance, ReadsPositionsInEveryForm)
     EXPECT_EQ(measured("distance", bundledMars(), "226.2 18.65\n230 20\n", {"--map"}).out, truth);
 }
 
+// The same two positions, with their columns named in any order and among others.
+TEST(MeasureDistance, TakesPositionsFromTheColumnsThatAHeaderNames)
+{
+    const auto distance = [](const std::string& lines, const std::vector<std::string>& more = {}) {
+        std::vector<std::string> arguments{"measure",  "distance", bundledMars(),
+                                           "--points", "-",        "--json"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const ProgramOutput output = runCli(arguments, lines);
+        EXPECT_EQ(output.exit_status, 0) << output.err;
+        return nlohmann::json::parse(output.out)["geodesic_m"].get<double>();
+    };
+    const double expected_m = distance("10 34.3\n11 35\n");
+    EXPECT_EQ(distance("latitude,longitude\n34.3,10\n35,11\n"), expected_m);
+    EXPECT_EQ(distance("Lat Lon\n34.3 10\n35 11\n"), expected_m);
+    EXPECT_EQ(distance("name;lon;lat;z\n\"Rim; east\";10;34.3;-5\nfloor;11;35;\n"), expected_m);
+    EXPECT_EQ(distance("distance_m,lon,lat,x,y,elevation_m\n0,10,34.3,1,2,3\n9,11,35,4,5,6\n"),
+              expected_m);
+    EXPECT_EQ(distance("elevation,y,x\n1,34.3,10\n2,35,11\n", {"--map"}),
+              distance("10 34.3\n11 35\n", {"--map"}));
+    const ProgramOutput unnamed =
+        runCli({"measure", "distance", bundledMars(), "--points", "-"}, "a,b,c\n1,2,3\n");
+    EXPECT_EQ(unnamed.exit_status, 1);
+    EXPECT_NE(unnamed.err.find("two finite numbers are required, or a first line that names their "
+                               "columns lon and lat"),
+              std::string::npos)
+        << unnamed.err;
+}
+
 TEST(MeasureDistance, RefusesBadPositionsWithOneSentence)
 {
     const auto refusal = [](const std::string& positions, Words more = {}) {
