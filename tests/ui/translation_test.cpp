@@ -111,7 +111,10 @@ protected:
         mars_ = maps_.mars();
         moon_ = maps_.moon();
         hill_ = maps_.hill();
-        names_ = {mars_,
+        // The name of a layer beside another one of that file.
+        const QFileInfo hill(hill_);
+        names_ = {QStringLiteral("%1 (%2)").arg(hill.fileName(), hill.dir().dirName()),
+                  mars_,
                   moon_,
                   hill_,
                   QStringLiteral("mars.vrt"),
