@@ -217,6 +217,29 @@ TEST_F(AnnotationTest, PointsSnapToMeasurementsAndToEachOther)
     EXPECT_EQ(annotating().current()->vertices.front(), annotating().state().items[0].vertices[1]);
 }
 
+TEST_F(AnnotationTest, ADraggedPointSnapsToOthersButNotToItsOwnLine)
+{
+    window_->measuring()->begin(MeasurementKind::Distance);
+    QTest::qWait(50);
+    click(at(-0.1, 0.05));
+    click(at(0.1, 0.05));
+    window_->measuring()->finish();
+    const std::vector<DrawnVertex> measured = window_->measuring()->current()->vertices;
+    ASSERT_NO_FATAL_FAILURE(choose(FeatureShape::Line));
+    const auto handles = window_->measuring()->handles();
+    ASSERT_EQ(handles.size(), 2U);
+    click(at(0.0, -0.2));
+    click(at(0.1, -0.2));
+    annotating().finish();
+    const DrawnVertex first = annotating().current()->vertices[0];
+    drag(at(0.1, -0.2), handles[1].place.toPoint() + QPoint(4, -4));
+    EXPECT_EQ(annotating().current()->vertices[1], measured[1]);
+    EXPECT_EQ(window_->undoStack().undoText(), QStringLiteral("Move Point"));
+    drag(handles[1].place.toPoint(), at(0.0, -0.2) + QPoint(5, 0));
+    EXPECT_NE(annotating().current()->vertices[1], measured[1]);
+    EXPECT_NE(annotating().current()->vertices[1], first);
+}
+
 TEST_F(AnnotationTest, TheKeyboardDrawsAndTypes)
 {
     view().setFocus();

@@ -5,9 +5,9 @@
 #include "ui/canvas/terrain_view.h"
 #include "ui/drawing/draped_geometry.h"
 #include "ui/drawing/drawing_base.h"
-#include "ui/drawing/drawn_dots.h"
+#include "ui/drawing/drawn_leg.h"
 #include "ui/drawing/flat_scene.h"
-#include "ui/drawing/handle_grid.h"
+#include "ui/drawing/item_handles.h"
 #include "ui/widgets/posted_call.h"
 
 #include <QCoreApplication>
@@ -19,9 +19,7 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <memory>
-#include <set>
 #include <unordered_set>
 #include <utility>
 #include <vector>
@@ -34,7 +32,6 @@ template <typename Item>
 class DrawingController : public DrawingBase, private PlaceTool {
 public:
     using State = DrawnState<Item>;
-    /// A vertex near a position of the view.
     /// The vertex within some points of a position of the view.
     using Snap = std::function<std::optional<DrawnVertex>(QPointF position, double reach)>;
 
@@ -84,6 +81,15 @@ public:
         return marsview::layerOf(session_, item.layer);
     }
 
+    /// Of the project: a layer that is not open yet, or cannot be opened. Null if there is none.
+    const MissingLayer* missingLayerOf(const DrawnItem& item) const
+    {
+        const auto missing =
+            std::find_if(session_.missing.begin(), session_.missing.end(),
+                         [&item](const MissingLayer& layer) { return layer.id == item.layer; });
+        return missing != session_.missing.end() ? &*missing : nullptr;
+    }
+
     DrawnChanges changesSince(std::shared_ptr<const void>& known) const override
     {
         DrawnChanges changes;
@@ -114,11 +120,12 @@ public:
     bool selectAt(QPointF position) override
     {
         const auto handle = handleAt(position);
-        const std::uint32_t near = handle ? handle->item : lineAt(position);
-        if (near != 0) {
-            select(near);
+        const Leg* leg = handle ? nullptr : legNear(legs_, *scene_, position, kReach);
+        if (handle || leg != nullptr) {
+            select(handle ? handle->item : leg->item);
+            return true;
         }
-        return near != 0;
+        return false;
     }
     void remove(std::uint32_t id) { removeItems({id}); }
     void removeItems(const std::vector<std::uint32_t>& ids) override
@@ -273,88 +280,34 @@ public:
 
     const std::vector<DrawnHandle>& handles() const override
     {
-        const CameraPose camera = scene_->camera();
-        const HandlesOf now{.eye = camera.eye,
-                            .forward = camera.axes.forward,
-                            .up = camera.axes.up,
-                            .field_of_view_deg = camera.field_of_view.degrees(),
-                            .size = scene_->view().size(),
-                            .pixels_per_point = scene_->view().devicePixelRatioF(),
-                            .exaggeration = scene_->exaggeration(),
-                            .is_moving = is_moving_,
-                            .content = content_};
-        if (!(handles_of_ == now)) {
-            handles_of_ = now;
-            listHandles();
-            ++handles_revision_;
-        }
-        return handles_;
+        return handles_.handles(handlesOf());
     }
     /// Where they are in the scene.
     const std::vector<ScenePoint>& handlePlaces() const
     {
         handles();
-        return handle_places_;
+        return handles_.places();
     }
     /// Draws dots on the terrain in the picture of the scene.
     void showDots(DotSet dots) { scene_->setDots(std::move(dots), line_set_); }
     std::uint64_t handlesRevision() const override
     {
         handles();
-        return handles_revision_;
+        return handles_.revision();
     }
     std::vector<QRectF> lineBoxes() const override
     {
-        constexpr double kSide = 24.0;           // points
-        constexpr double kMargin = 3.0;          // half a line, and some room
-        constexpr std::size_t kPointsMax = 5000; // beyond, no name has room anyway
-        std::vector<QRectF> boxes;
-        std::size_t points = 0;
-        const QRectF sight = sightRect();
-        for (const Leg& leg : legs_) {
-            const Item* item = itemOf(leg.item);
-            if (item == nullptr || (!item->is_finished && leg.index + 1 >= item->vertices.size())) {
-                continue;
-            }
-            std::optional<QRectF> box;
-            const auto end_box = [&] {
-                if (box) {
-                    boxes.push_back(box->adjusted(-kMargin, -kMargin, kMargin, kMargin));
-                }
-                box.reset();
-            };
-            for (const ScenePoint& point : leg.run.points) {
-                if (++points > kPointsMax) {
-                    return boxes;
-                }
-                const auto place = scene_->positionOf(point);
-                if (!place || !sight.contains(*place)) {
-                    end_box();
-                    continue;
-                }
-                const QRectF wider = box ? QRectF(QPointF(std::min(box->left(), place->x()),
-                                                          std::min(box->top(), place->y())),
-                                                  QPointF(std::max(box->right(), place->x()),
-                                                          std::max(box->bottom(), place->y())))
-                                         : QRectF(*place, QSizeF());
-                if (wider.width() > kSide || wider.height() > kSide) {
-                    end_box();
-                }
-                box = box ? wider : QRectF(*place, QSizeF());
-            }
-            end_box();
-        }
-        return boxes;
+        return boxesAround(legs_, *scene_, [this](const Leg& leg) {
+            const Item* item = itemOf(leg.item); // without its line to the pointer
+            return item != nullptr && (item->is_finished || leg.index + 1 < item->vertices.size());
+        });
     }
     /// Those that are more than a point.
-    const std::vector<std::uint32_t>& lineItems() const
-    {
-        placeDots();
-        return dots_.others();
-    }
-    /// Points that are placed near a vertex that `snap` finds take its position.
+    const std::vector<std::uint32_t>& lineItems() const { return handles_.lineItems(handlesOf()); }
+    /// Points that are placed or dragged near a vertex that `snap` finds take its position.
     void addSnap(Snap snap) { snaps_.push_back(std::move(snap)); }
-    /// The vertex of an item that is shown within `reach` points of a position of the view.
+    /// The vertex of an item that is shown within `reach` points of a position of the view. Not of
+    /// the item that is being drawn or has a point dragged.
     std::optional<DrawnVertex> vertexNear(QPointF position, double reach) const
     {
         std::optional<DrawnVertex> nearest;
@@ -364,14 +317,19 @@ public:
                 nearest = vertex;
             }
         };
+        const auto is_changing = [this](const Item& item) {
+            return (grabbed_ && grabbed_->item == item.id) ||
+                   (item.id == state_.current && !item.is_finished);
+        };
         if (const auto near = dotNear(position, reach)) {
-            reach = near->away;
-            nearest = itemOf(near->dot.id)->vertices.front();
+            if (const Item& item = *itemOf(near->dot.id); !is_changing(item)) {
+                reach = near->away;
+                nearest = item.vertices.front();
+            }
         }
-        for (const std::uint32_t id : dots_.others()) {
+        for (const std::uint32_t id : lineItems()) {
             const Item& item = *itemOf(id);
-            const bool is_drawn_now = id == state_.current && !item.is_finished;
-            for (std::size_t i = 0; !is_drawn_now && isShown(item) && i < item.vertices.size();
+            for (std::size_t i = 0; !is_changing(item) && isShown(item) && i < item.vertices.size();
                  ++i) {
                 look(geometry_.screenPoint(item.vertices[i]), item.vertices[i]);
             }
@@ -385,13 +343,7 @@ protected:
         DrawnVertex vertex;
         LayerId layer = LayerId::None;
     };
-    /// A leg of an item as it is drawn.
-    struct Leg {
-        std::uint32_t item = 0;
-        std::size_t index = 0; // of the vertex at its beginning
-        double begin_m = 0.0;  // along the item
-        DrapedRun run;
-    };
+    using Leg = DrawnLeg;
     static constexpr double kReach = 9.0; // points from a vertex or line, in which it is grabbed
 
     /// An item without points and id, for a point on a layer.
@@ -461,7 +413,7 @@ protected:
             state.items.push_back(std::move(item));
         }
         grabbed_.reset();
-        dots_.forgetPlaces();
+        handles_.forgetPlaces();
         // What is known of items that have the same numbers is not true of these.
         setState({});
         setState(std::move(state));
@@ -566,134 +518,25 @@ private:
         State before;
     };
 
-    // What handles() depends on.
-    struct HandlesOf {
-        ScenePoint eye;
-        Vec3 forward;
-        Vec3 up;
-        double field_of_view_deg = 0.0;
-        QSize size;
-        double pixels_per_point = 1.0;
-        double exaggeration = 1.0;
-        bool is_moving = false;
-        std::uint64_t content = 0;
-
-        bool operator==(const HandlesOf&) const = default;
-    };
-    // Marks that lie closer than this are not drawn one over the other, in points.
-    static constexpr double kRestGap = 6.0;
-    static constexpr double kMovingGap = 18.0;
-    static constexpr std::size_t kMovingTestsMax = 100;
-
-    // Converting positions takes longer than drawing: they are kept until items or maps change.
-    void placeDots() const
+    typename ItemHandles<Item>::Of handlesOf() const
     {
-        if (dots_of_ == content_) {
-            return;
-        }
-        dots_of_ = content_;
-        dots_.follow(state_.items, [this](const Item& item) {
-            return isShown(item) && hasHandles(item) ? geometry_.dotPoint(item.vertices.front())
-                                                     : std::nullopt;
-        });
+        return {
+            .state = state_,
+            .scene = *scene_,
+            .geometry = geometry_,
+            .has_handles = [this](const Item& item) { return isShown(item) && hasHandles(item); },
+            .is_moving = is_moving_,
+            .content = content_};
     }
     void forgetPlaces()
     {
-        dots_.forgetPlaces();
+        handles_.forgetPlaces();
         ++content_;
-    }
-    void listHandles() const
-    {
-        // Beyond, a picture shows no single one; while it moves, what was hidden stays so.
-        constexpr std::size_t kHiddenTestsMax = 2000;
-        std::vector<DrawnHandle>& handles = handles_;
-        std::vector<ScenePoint>& points = handle_places_;
-        handles.clear();
-        points.clear();
-        const QRectF sight = sightRect();
-        HandleGrid grid(sight, is_moving_ ? kMovingGap : kRestGap);
-        const auto add = [&](const ScenePoint& point, std::uint32_t item, std::size_t index,
-                             bool is_dot) {
-            const auto place = scene_->positionOf(point);
-            if (place && sight.contains(*place)) {
-                grid.take(*place);
-                handles.push_back(
-                    {.place = *place, .item = item, .index = index, .is_dot = is_dot});
-                points.push_back(point);
-            }
-        };
-        const auto add_item = [&](const Item& item) {
-            for (std::size_t i = 0; i < item.vertices.size(); ++i) {
-                if (const auto point = geometry_.scenePoint(item.vertices[i])) {
-                    add(*point, item.id, i, item.isSingle());
-                }
-            }
-        };
-        const Item* selected = current();
-        if (selected != nullptr && isShown(*selected) && hasHandles(*selected)) {
-            add_item(*selected); // grabbed first and drawn last
-        }
-        placeDots();
-        addDots(sight, grid);
-        for (const std::uint32_t id : dots_.others()) {
-            const Item& item = *itemOf(id);
-            if (id != state_.current && isShown(item) && hasHandles(item)) {
-                add_item(item);
-            }
-        }
-        if (!is_moving_) {
-            hidden_.clear();
-        }
-        for (std::size_t i = 0; i < handles.size(); ++i) {
-            const auto key = std::pair(handles[i].item, handles[i].index);
-            if (is_moving_ && handles.size() > kMovingTestsMax) {
-                handles[i].is_hidden = hidden_.contains(key);
-            } else if (i < kHiddenTestsMax) {
-                handles[i].is_hidden = geometry_.isHidden(points[i]);
-                if (handles[i].is_hidden && !is_moving_) {
-                    hidden_.insert(key);
-                }
-            }
-        }
-    }
-    // Those that are single points, as far as there is room.
-    void addDots(const QRectF& area, HandleGrid& grid) const
-    {
-        std::vector<std::pair<DotIndex::Dot, QPointF>>& found = found_dots_;
-        const DotSight sight = scene_->dotSight(area);
-        // Dots stay as long as they have room, so that none flickers while the camera moves.
-        if (found_of_ == content_) {
-            std::erase_if(found, [&](std::pair<DotIndex::Dot, QPointF>& dot) {
-                const auto place = sight.at(dot.first.place);
-                if (!place || dot.first.id == state_.current || !area.contains(*place) ||
-                    !grid.take(*place)) {
-                    return true;
-                }
-                dot.second = *place;
-                return false;
-            });
-        } else {
-            found.clear();
-        }
-        found_of_ = content_;
-        dots_.thinned(sight, grid, [&](const DotIndex::Dot& dot, QPointF place) {
-            if (dot.id != state_.current) {
-                found.emplace_back(dot, place);
-            }
-        });
-        std::sort(found.begin(), found.end(),
-                  [](const auto& a, const auto& b) { return a.first.id < b.first.id; });
-        for (const auto& [dot, place] : found) {
-            handles_.push_back({.place = place, .item = dot.id, .index = 0, .is_dot = true});
-            handle_places_.push_back(
-                {dot.place.x, dot.place.y, dot.place.z * scene_->dotExaggeration()});
-        }
     }
     // Within reach of a position of the view.
     std::optional<DotIndex::Near> dotNear(QPointF position, double reach) const
     {
-        placeDots();
-        return dots_.nearest(scene_->dotSight(sightRect()), position, reach);
+        return handles_.dotNear(handlesOf(), position, reach);
     }
 
     // Places ----------------------------------------------------------------------------------
@@ -832,38 +675,9 @@ private:
             reach = near->away;
             nearest = DrawnHandle{.place = near->place, .item = near->dot.id, .index = 0};
         }
-        for (const std::uint32_t id : dots_.others()) {
+        for (const std::uint32_t id : lineItems()) {
             if (const Item& item = *itemOf(id); isShown(item) && hasHandles(item)) {
                 look_at(item);
-            }
-        }
-        return nearest;
-    }
-    // The item with the line that is nearest, 0 for none.
-    std::uint32_t lineAt(QPointF position) const
-    {
-        std::uint32_t nearest = 0;
-        double reach = kReach;
-        for (const Leg& leg : legs_) {
-            std::optional<QPointF> last;
-            for (const ScenePoint& point : leg.run.points) {
-                const auto place = scene_->positionOf(point);
-                if (place && last) {
-                    const QPointF along = *place - *last;
-                    const double length_squared = QPointF::dotProduct(along, along);
-                    const double share =
-                        length_squared > 0.0
-                            ? std::clamp(QPointF::dotProduct(position - *last, along) /
-                                             length_squared,
-                                         0.0, 1.0)
-                            : 0.0;
-                    const double away = distanceBetween(position, *last + share * along);
-                    if (away <= reach) {
-                        reach = away;
-                        nearest = leg.item;
-                    }
-                }
-                last = place;
             }
         }
         return nearest;
@@ -920,7 +734,7 @@ private:
     void drag(QPointF position) override
     {
         pointer_ = position;
-        dragTo(placeAt(position));
+        dragTo(snappedAt(position));
     }
     void dragTo(const std::optional<Place>& place)
     {
@@ -990,7 +804,12 @@ private:
     void moveStylus(const RayHit& hit) override
     {
         if (is_stylus_holding_) {
-            dragTo(placeBelow(hit));
+            std::optional<Place> place = placeBelow(hit);
+            const auto position = place ? geometry_.screenPoint(place->vertex) : std::nullopt;
+            if (position) {
+                snap(*place, *position);
+            }
+            dragTo(place);
         } else if (const Item* item = current(); item != nullptr && !item->is_finished) {
             drawSoon(); // the line to the stylus
         }
@@ -1085,8 +904,7 @@ private:
         }
         const Ground& ground = geometry_.ground();
         const auto pointed = grabbed_ ? std::nullopt : placePointed();
-        placeDots();
-        for (const std::uint32_t id : dots_.others()) { // the rest has no lines
+        for (const std::uint32_t id : lineItems()) { // the rest has no lines
             const Item& item = *itemOf(id);
             if (!isShown(item)) {
                 continue;
@@ -1137,18 +955,10 @@ private:
     std::vector<Snap> snaps_;
     std::optional<QPointF> pointer_;
     std::optional<Grabbed> grabbed_;
-    bool is_stylus_holding_ = false; // what is grabbed
-    mutable DrawnDots<Item> dots_;
-    mutable std::optional<std::uint64_t> dots_of_;                   // content_
-    mutable std::set<std::pair<std::uint32_t, std::size_t>> hidden_; // in the last picture
-    mutable std::vector<DrawnHandle> handles_;
-    mutable std::vector<ScenePoint> handle_places_;
-    mutable std::vector<std::pair<DotIndex::Dot, QPointF>> found_dots_; // in the last picture
-    mutable std::uint64_t found_of_ = 0;                                // content_
-    mutable std::optional<HandlesOf> handles_of_;
-    mutable std::uint64_t handles_revision_ = 0;
-    std::uint64_t content_ = 0; // grows when items or maps change
-    bool is_moving_ = false;    // the camera has moved since the picture was complete
+    bool is_stylus_holding_ = false;    // what is grabbed
+    mutable ItemHandles<Item> handles_; // of the last picture
+    std::uint64_t content_ = 0;         // grows when items or maps change
+    bool is_moving_ = false;            // the camera has moved since the picture was complete
     PostedCall draw_soon_{[this] { drawLines(); }}; // gathers reasons to draw the lines again
 };
 
