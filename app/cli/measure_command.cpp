@@ -268,7 +268,7 @@ void printUncoveredNotice(const MeasureOptions& options, const TerrainArea& area
 {
     constexpr double kShareMin = 1e-4;
     const double missing_m2 = area.geodesic_m2 - area.covered_m2;
-    if (missing_m2 > kShareMin * area.geodesic_m2) {
+    if (!area.crosses_itself && missing_m2 > kShareMin * area.geodesic_m2) {
         std::fprintf(
             stderr,
             "marsview-cli: %s: %.3g %% of the polygon are outside the map or on nodata and "
@@ -278,7 +278,7 @@ void printUncoveredNotice(const MeasureOptions& options, const TerrainArea& area
     if (area.crosses_itself) {
         std::fprintf(stderr,
                      "marsview-cli: %s: edges of the polygon cross; parts enclosed in opposite "
-                     "directions cancel\n",
+                     "directions cancel in its area, and the terrain in it is not measured\n",
                      asOneLine(options.positionsName()).c_str());
     }
 }
@@ -286,7 +286,9 @@ void printUncoveredNotice(const MeasureOptions& options, const TerrainArea& area
 void printForPeople(const TerrainArea& area, const MeasuredDigits& digits)
 {
     const auto line = [](const char* label, double value, int last_place, const char* unit) {
-        printLine(fmt::format("{:<20}{} {}", label, written(value, last_place), unit));
+        if (!std::isnan(value)) {
+            printLine(fmt::format("{:<20}{} {}", label, written(value, last_place), unit));
+        }
     };
     const int area_place = digits.area(area.geodesic_m2, area.perimeter_m);
     line("Geodesic area:", area.geodesic_m2, area_place, "m²");

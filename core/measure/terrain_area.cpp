@@ -555,6 +555,15 @@ Result<TerrainArea> measureArea(MeasuredTerrain& terrain,
         area.volume_above_m3 = sum.above_m3;
         area.volume_below_m3 = sum.below_m3;
     }
+    if (area.crosses_itself) {
+        area.surface_m2 = area.mean_m = kNoMeasure;
+        area.hypsometry = {};
+        for (std::optional<double>* volume : {&area.volume_above_m3, &area.volume_below_m3}) {
+            if (*volume) {
+                *volume = kNoMeasure;
+            }
+        }
+    }
     return area;
 }
 

@@ -38,7 +38,8 @@ struct TerrainArea {
     std::optional<double> volume_above_m3;
     std::optional<double> volume_below_m3;
     Hypsometry hypsometry; // of covered_m2
-    /// Edges cross, so that parts enclosed in opposite directions cancel.
+    /// Edges cross, so that parts enclosed in opposite directions cancel. The area, the mean and
+    /// the volumes of the terrain are NaN then, and its hypsometry is empty.
     bool crosses_itself = false;
     bool is_approximate = false;
 };

@@ -151,6 +151,11 @@ public:
         add(QT_TRANSLATE_NOOP("Measure", "Geodesic area"),
             measuredAreaText(area.geodesic_m2, area_place));
         addLength(QT_TRANSLATE_NOOP("Measure", "Perimeter"), area.perimeter_m);
+        if (area.crosses_itself) {
+            add(QT_TRANSLATE_NOOP("Measure", "Note"),
+                measureTr(QT_TRANSLATE_NOOP("Measure", "The border crosses itself")));
+            return;
+        }
         add(QT_TRANSLATE_NOOP("Measure", "Terrain area"),
             measuredAreaText(area.surface_m2, area_place));
         addElevation(QT_TRANSLATE_NOOP("Measure", "Lowest"), area.min_m);
@@ -165,10 +170,6 @@ public:
         }
         if (area.volume_below_m3) {
             add(QT_TRANSLATE_NOOP("Measure", "Volume below it"), volume(*area.volume_below_m3));
-        }
-        if (area.crosses_itself) {
-            add(QT_TRANSLATE_NOOP("Measure", "Note"),
-                measureTr(QT_TRANSLATE_NOOP("Measure", "The border crosses itself")));
         }
     }
     void operator()(const Attitude& attitude)

@@ -371,6 +371,11 @@ TEST(TerrainArea, ReportsEdgesThatCross)
     const TerrainArea eight = areaOf(terrain, {{5.0, 5.0}, {25.0, 25.0}, {25.0, 5.0}, {5.0, 20.0}});
     EXPECT_TRUE(eight.crosses_itself);
     EXPECT_NEAR(eight.covered_m2, eight.geodesic_m2, 1e-9);
+    // Parts that count as negative would make these wrong, for example a mean above the highest.
+    EXPECT_TRUE(std::isnan(eight.surface_m2) && std::isnan(eight.mean_m));
+    EXPECT_TRUE(eight.hypsometry.isEmpty());
+    EXPECT_EQ(eight.min_m, 1.0);
+    EXPECT_EQ(eight.max_m, 1.0);
 }
 
 TEST(TerrainArea, ReportsNoCrossingOfTriangles)
