@@ -1913,8 +1913,13 @@
         <translation>%1 importieren</translation>
     </message>
     <message>
+        <source>1 annotation imported from %1</source>
+        <extracomment>In the status bar; %1 is a file</extracomment>
+        <translation>1 Anmerkung aus %1 importiert</translation>
+    </message>
+    <message>
         <source>%L1 annotations imported from %2</source>
-        <extracomment>In the status bar; %1 is a number, %2 a file</extracomment>
+        <extracomment>In the status bar; %1 is a number above 1, %2 a file</extracomment>
         <translation>%L1 Anmerkungen aus %2 importiert</translation>
     </message>
     <message>
@@ -3780,6 +3785,18 @@ Drop a DEM here or press %1 to open one.</source>
 Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translation>
     </message>
     <message>
+        <source>Missing: %1.
+The notice above the map locates or removes them.</source>
+        <extracomment>%1 are the names of layers of a project</extracomment>
+        <translation>Es fehlen: %1.
+Der Hinweis über der Karte sucht oder entfernt sie.</translation>
+    </message>
+    <message>
+        <source>Opening…</source>
+        <extracomment>The layers of a project are being opened</extracomment>
+        <translation>Wird geöffnet …</translation>
+    </message>
+    <message>
         <source>Color ramp of the active layer</source>
         <translation>Farbskala des aktiven Layers</translation>
     </message>
@@ -4225,6 +4242,11 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
     <message>
         <source>Layer</source>
         <translation>Layer</translation>
+    </message>
+    <message>
+        <source>%1 (missing)</source>
+        <extracomment>Of a layer of a project: its file cannot be opened</extracomment>
+        <translation>%1 (fehlt)</translation>
     </message>
     <message>
         <source>removed</source>

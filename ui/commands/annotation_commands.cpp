@@ -147,8 +147,12 @@ void AnnotationCommands::take(const QString& file, const Outcome& outcome)
     //: A step of undo; %1 is a file
     parts_.annotating.add(annotations, tr("Import %1").arg(name));
     showPanel();
-    //: In the status bar; %1 is a number, %2 a file
-    QString message = tr("%L1 annotations imported from %2").arg(annotations.size()).arg(name);
+    QString message =
+        annotations.size() == 1
+            //: In the status bar; %1 is a file
+            ? tr("1 annotation imported from %1").arg(name)
+            //: In the status bar; %1 is a number above 1, %2 a file
+            : tr("%L1 annotations imported from %2").arg(annotations.size()).arg(name);
     for (const std::string& notice : outcome.content.notices) {
         message += QStringLiteral("; ") + QString::fromStdString(notice);
     }
@@ -216,7 +220,12 @@ void AnnotationCommands::exportFile(const QString& file)
         outlet->post([this, file, monitor, problem] {
             parts_.work.end(monitor);
             if (!problem) {
-                Q_EMIT exported(file);
+                // Shapefiles hold one kind of shape each.
+                const QFileInfo one(file);
+                Q_EMIT exported(one.exists()
+                                    ? file
+                                    : one.path() + QLatin1Char('/') + one.completeBaseName() +
+                                          QStringLiteral("-*.") + one.suffix());
             } else if (problem->code != ErrorCode::Canceled) {
                 Q_EMIT failed(QString::fromStdString(problem->message));
             }

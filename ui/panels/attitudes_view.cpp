@@ -87,7 +87,8 @@ QString AttitudesView::statisticsText() const
         tr("Mean pole: trend %1, plunge %2").arg(whole(known->trend_deg), whole(known->plunge_deg));
     if (std::isfinite(known->kappa)) {
         //: Fisher's concentration of poles
-        text += QLatin1Char('\n') + tr("Fisher's κ: %1").arg(shortNumberText(known->kappa, 3));
+        text +=
+            QLatin1Char('\n') + tr("Fisher's κ: %1").arg(significantNumberText(known->kappa, 3));
         text += QLatin1Char('\n') +
                 //: %1 is the half angle of a cone
                 tr("95 % cone: %1").arg(measuredAngleText(known->confidence_deg, 1));

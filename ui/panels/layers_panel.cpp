@@ -11,6 +11,7 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QListView>
+#include <QLocale>
 #include <QScopedValueRollback>
 #include <QStackedLayout>
 #include <QToolButton>
@@ -58,8 +59,7 @@ LayersPanel::LayersPanel(const LayerActions& actions, QWidget* parent)
         list_->addAction(action);
     }
 
-    empty_->setText(tr("No layers.\nDrop a DEM here or press %1 to open one.")
-                        .arg(actions.open->shortcut().toString(QKeySequence::NativeText)));
+    open_key_ = actions.open->shortcut().toString(QKeySequence::NativeText);
     empty_->setAlignment(Qt::AlignCenter);
     empty_->setWordWrap(true);
     empty_->setContentsMargins(12, 12, 12, 12);
@@ -143,10 +143,31 @@ void LayersPanel::editName()
     list_->edit(list_->currentIndex());
 }
 
+// In place of layers: what to do, or that those of a project are on their way or missing.
+QString LayersPanel::emptyText() const
+{
+    QStringList missing;
+    for (const MissingLayer& layer : model_->session().missing) {
+        if (!layer.problem.empty()) {
+            missing.append(isolated(QString::fromStdString(layer.record.name)));
+        }
+    }
+    if (!missing.isEmpty()) {
+        //: %1 are the names of layers of a project
+        return tr("Missing: %1.\nThe notice above the map locates or removes them.")
+            .arg(QLocale().createSeparatedList(missing));
+    }
+    return model_->session().missing.empty()
+               ? tr("No layers.\nDrop a DEM here or press %1 to open one.").arg(open_key_)
+               //: The layers of a project are being opened
+               : tr("Opening…");
+}
+
 void LayersPanel::showActive()
 {
     const QModelIndex index = model_->indexOfLayer(model_->session().active);
     pages_->setCurrentWidget(index.isValid() ? static_cast<QWidget*>(list_) : empty_);
+    empty_->setText(emptyText());
     if (index.isValid() && index != list_->currentIndex()) {
         list_->setCurrentIndex(index);
     }

@@ -56,6 +56,7 @@ Q_SIGNALS:
 
 private:
     void showActive();
+    QString emptyText() const;
 
     LayerModel* model_ = nullptr;
     QListView* list_ = nullptr;
@@ -63,6 +64,7 @@ private:
     QLabel* empty_ = nullptr;
     QComboBox* ramps_ = nullptr;
     QStackedLayout* pages_ = nullptr;
+    QString open_key_; // of the action
     bool is_filling_ = false;
 };
 

@@ -75,6 +75,11 @@ QVariant MeasureList::cell(const DrawnItem& drawn, int column, int role) const
     }
     if (column == LayerColumn && (role == Qt::DisplayRole || role == Qt::ToolTipRole)) {
         const Layer* layer = controller_.layerOf(item);
+        if (const MissingLayer* missing = controller_.missingLayerOf(item)) {
+            const QString name = QString::fromStdString(missing->record.name);
+            //: Of a layer of a project: its file cannot be opened
+            return missing->problem.empty() ? name : tr("%1 (missing)").arg(isolated(name));
+        }
         //: The layer on which a measurement was made
         return layer != nullptr ? QString::fromStdString(layer->name) : tr("removed");
     }

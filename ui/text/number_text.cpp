@@ -53,6 +53,19 @@ QString shortNumberText(double value, int digits)
     return leftToRight(withMinusSigns(QLocale().toString(value, 'g', digits)));
 }
 
+QString significantNumberText(double value, int digits)
+{
+    if (!std::isfinite(value) || std::abs(value) < 1.0) {
+        return shortNumberText(value, digits);
+    }
+    const int before_point = static_cast<int>(std::floor(std::log10(std::abs(value)))) + 1;
+    if (before_point <= digits) {
+        return numberText(value, digits - before_point);
+    }
+    const double step = std::pow(10.0, before_point - digits);
+    return numberText(std::round(value / step) * step, 0);
+}
+
 QString sampleText(double raw)
 {
     constexpr double kIntegerMax = 1e9;

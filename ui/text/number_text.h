@@ -24,6 +24,9 @@ QString numberText(double value, int decimals);
 
 /// As many digits as `digits` significant ones need at most, otherwise as numberText.
 QString shortNumberText(double value, int digits);
+/// Rounded to `digits` significant ones, never with an exponent: "343,000". Below 1 as
+/// shortNumberText().
+QString significantNumberText(double value, int digits);
 
 /// A raw value of samples, in full if it is an integer, otherwise with the fewest digits that mean
 /// it in its type: "−3.4028235E38".

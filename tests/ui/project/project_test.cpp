@@ -7,10 +7,15 @@
 #include "tests/ui/project_files.h"
 #include "ui/commands/window_commands.h"
 #include "ui/controllers/annotation_controller.h"
+#include "ui/controllers/measure_controller.h"
 #include "ui/controllers/recent_files.h"
+#include "ui/panels/layers_panel.h"
+#include "ui/panels/measure_list.h"
+#include "ui/panels/measure_panel.h"
 #include "ui/project/project_autosave.h"
 #include "ui/project/project_controller.h"
 #include "ui/project/project_menu.h"
+#include "ui/text/coordinate_text.h"
 #include "ui/widgets/notice_bar.h"
 #include "ui/widgets/notice_center.h"
 #include "ui/window/window_actions.h"
@@ -21,12 +26,14 @@
 #include <QFile>
 #include <QFileDialog>
 #include <QFileInfo>
+#include <QLabel>
 #include <QMenu>
 #include <QMessageBox>
 #include <QSignalSpy>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -255,6 +262,38 @@ TEST_F(ProjectWindowTest, NewProjectIsEmpty)
     EXPECT_TRUE(window_->commands().project.file().isEmpty());
     EXPECT_FALSE(window_->isWindowModified());
     EXPECT_EQ(window_->undoStack().count(), 0);
+}
+
+// Nobody is to think that what was measured on it is lost.
+TEST_F(ProjectWindowTest, MeasurementsNameTheLayerThatIsMissing)
+{
+    makeWindow(kSmall, asking());
+    fs::create_directory(folder_.path() / "data");
+    ASSERT_TRUE(QFile::copy(maps_.hill(), path("data/one.asc")));
+    ASSERT_TRUE(openAndWait(*window_, path("data/one.asc")));
+    window_->measuring()->begin(MeasurementKind::Slope);
+    window_->measuring()->addPointAt({3.0, 3.0});
+    ASSERT_TRUE(saveProject(window_->commands().project, path("a.mvproj")));
+    window_.reset();
+    ASSERT_TRUE(QFile::rename(path("data/one.asc"), path("elsewhere.asc")));
+
+    makeWindow(kWithPanels, asking());
+    ASSERT_TRUE(openProject(path("a.mvproj")));
+    ASSERT_EQ(window_->session().missing.size(), 1U);
+    const auto layer_of_first = [this] {
+        const auto* list = window_->measurePanel()->list();
+        return list->model()->index(0, MeasureList::LayerColumn).data().toString();
+    };
+    EXPECT_EQ(withPlainDirections(layer_of_first()), QStringLiteral("one.asc (missing)"));
+    const auto* panel = window_->datasetPanel();
+    const auto labels = panel->findChildren<QLabel*>();
+    EXPECT_TRUE(std::any_of(labels.begin(), labels.end(), [](const QLabel* label) {
+        return label->isVisible() &&
+               withPlainDirections(label->text()).startsWith(QStringLiteral("Missing: one.asc."));
+    }));
+    window_->controller().locate(window_->session().missing.front().id, path("elsewhere.asc"));
+    ASSERT_TRUE(waitFor([this] { return window_->session().missing.empty(); }));
+    EXPECT_EQ(layer_of_first(), QStringLiteral("one.asc"));
 }
 
 TEST_F(ProjectWindowTest, MissingLayersKeepTheirSettingsAndCanBeLocated)

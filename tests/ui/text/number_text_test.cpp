@@ -23,6 +23,10 @@ TEST(NumberText, HasTrueMinusSignsAndNoMinusZero)
 TEST(NumberText, GroupsAsTheLocaleDoes)
 {
     QLocale::setDefault(QLocale(QLocale::English));
+    EXPECT_EQ(significantNumberText(342'711.0, 3), QStringLiteral("343,000"));
+    EXPECT_EQ(significantNumberText(-99'960.0, 3), QStringLiteral("−100,000"));
+    EXPECT_EQ(significantNumberText(58.127, 3), QStringLiteral("58.1"));
+    EXPECT_EQ(significantNumberText(0.01234, 3), QStringLiteral("0.0123"));
     EXPECT_EQ(countText(8192), QStringLiteral("8,192"));
     EXPECT_EQ(heightRangeText({.minimum_m = -8201.4, .maximum_m = 21241.3}, HeightUnit::Meters),
               QStringLiteral("−8,201 … 21,241 m"));
