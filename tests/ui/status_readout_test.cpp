@@ -253,6 +253,9 @@ TEST_F(StatusReadoutTest, HasItsWidthsAndClaimsNoDetailBeforeTheFirstPicture)
     ASSERT_NE(format, nullptr);
     EXPECT_GE(format->width(), format->sizeHint().width());
     EXPECT_EQ(readout.detailLabel(), QStringLiteral("loading…"));
+    EXPECT_EQ(readout.coordinateLabel(), QString()) << "no place has been read";
+    readout.setPlace(std::nullopt);
+    EXPECT_EQ(readout.coordinateLabel(), QStringLiteral("outside the map"));
     readout.setDetail(0.0);
     EXPECT_EQ(readout.detailLabel(), QStringLiteral("full detail"));
 }

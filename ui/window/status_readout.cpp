@@ -133,6 +133,7 @@ void StatusReadout::setMaps(const std::shared_ptr<const Map>& scene,
 {
     if (scene != scene_) {
         place_.reset();
+        is_place_known_ = false;
     }
     if (!scene || !scene_) {
         detail_px_.reset(); // that of a picture without a map
@@ -152,6 +153,7 @@ void StatusReadout::setMaps(const std::shared_ptr<const Map>& scene,
 void StatusReadout::setPlace(const std::optional<ReadPlace>& place)
 {
     place_ = place;
+    is_place_known_ = true;
     refresh();
 }
 
@@ -321,7 +323,7 @@ StatusReadout::ReadHeight StatusReadout::heightAt(const RayHit& hit) const
 void StatusReadout::refresh()
 {
     if (!scene_ || !place_) {
-        coordinate_->showText(scene_ ? outsideText() : QString(), false);
+        coordinate_->showText(scene_ && is_place_known_ ? outsideText() : QString(), false);
         height_->setWholeText({});
         height_->setHint({});
         return;

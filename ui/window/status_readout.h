@@ -83,6 +83,7 @@ private:
     std::shared_ptr<const Map> scene_;
     std::shared_ptr<const Map> active_;
     std::optional<ReadPlace> place_;
+    bool is_place_known_ = false; // not before setPlace() for these maps
     CoordinateFormat format_;
     HeightUnit unit_ = HeightUnit::Meters;
     std::optional<double> detail_px_; // none: not drawn yet
