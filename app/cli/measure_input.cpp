@@ -4,13 +4,13 @@
 #include "app/console/number_checks.h"
 #include "core/base/bounded_text.h"
 #include "core/base/plain_number.h"
+#include "core/files/raster_path.h"
 #include "core/levels/level_file_use.h"
 #include "core/vector/vector_file.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <fmt/format.h>
 #include <fstream>
@@ -108,8 +108,7 @@ std::optional<PositionColumns> columnsNamedIn(const std::string& header, bool is
     for (std::string& name : names) {
         name.erase(0, name.find_first_not_of(' '));
         name.erase(name.find_last_not_of(' ') + 1);
-        std::transform(name.begin(), name.end(), name.begin(),
-                       [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+        name = lowerCase(std::move(name));
     }
     const auto column_of = [&names](const auto& wanted) {
         const auto found =

@@ -10,7 +10,7 @@ namespace marsview {
 /// of half as many vertices each lie between them, so that no vertex has more than eight neighbors
 /// and triangles are as long along a ring as the steps of the circle. Without these rings,
 /// triangles would either all meet at the pole, or lie across it from sample to sample, so close
-/// beside each other that the terrain of the circle would become cliffs.
+/// together that the terrain of the circle would become cliffs.
 ///
 /// Vertices below the size of the circle are its samples, in their order; then come those of the
 /// rings, from the outermost on, and the pole. A *corner* is 3 × face + 0, 1 or 2. Seen from

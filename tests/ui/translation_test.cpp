@@ -111,7 +111,7 @@ protected:
         mars_ = maps_.mars();
         moon_ = maps_.moon();
         hill_ = maps_.hill();
-        // The name of a layer beside another one of that file.
+        // What a layer is called if its file is open twice.
         const QFileInfo hill(hill_);
         names_ = {QStringLiteral("%1 (%2)").arg(hill.fileName(), hill.dir().dirName()),
                   mars_,

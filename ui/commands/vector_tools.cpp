@@ -204,14 +204,13 @@ void VectorTools::fillList()
 {
     std::vector<VectorFileList::File> files;
     for (auto overlay = shown_.rbegin(); overlay != shown_.rend(); ++overlay) {
-        const bool is_elsewhere =
-            overlays_->stateOf(overlay->path) == VectorOverlays::FileState::OnOtherBody;
         files.push_back(
             {.path = QString::fromStdString(overlay->path),
              .color = QColor(overlay->color.red, overlay->color.green, overlay->color.blue),
              .is_visible = overlay->is_visible,
              //: In the row of a vector file, why it is not drawn
-             .reason = is_elsewhere ? tr("Hidden: on another body") : QString()});
+             .reason = overlays_->isElsewhere(overlay->path) ? tr("Hidden: on another body")
+                                                             : QString()});
     }
     parts_.list.setFiles(files);
 }

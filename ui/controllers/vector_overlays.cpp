@@ -475,13 +475,10 @@ VectorOverlays::placeOfDot(Entry& entry, std::uint32_t part, const PlanePoint& p
                               : std::nullopt;
 }
 
-VectorOverlays::FileState VectorOverlays::stateOf(const std::string& path) const
+bool VectorOverlays::isElsewhere(const std::string& path) const
 {
-    const auto found = entries_.find(path);
-    if (found == entries_.end() || !found->second.file) {
-        return FileState::NotRead;
-    }
-    return found->second.placed ? FileState::OnMap : FileState::OnOtherBody;
+    const auto entry = entries_.find(path);
+    return entry != entries_.end() && entry->second.file && !entry->second.placed;
 }
 
 std::vector<VectorOverlays::InSight>

@@ -49,13 +49,8 @@ public:
     /// Draws the overlays of a session, and reads those that are not known yet.
     void setSession(const Session& session);
 
-    /// Whether the features of a file have places on the map that is shown.
-    enum class FileState : std::uint8_t {
-        OnMap,
-        NotRead, // yet, or it cannot be read
-        OnOtherBody,
-    };
-    FileState stateOf(const std::string& path) const;
+    /// Whether a file that has been read is on another body than the map that is shown.
+    bool isElsewhere(const std::string& path) const;
 
     /// A feature of one of the files.
     struct FeatureId {

@@ -13,7 +13,7 @@ class QListWidgetItem;
 namespace marsview {
 
 /// A caption and a row for each file, the one drawn last first: whether it is shown, its color and
-/// its name. Hidden while there are no files. Asks for changes; never makes any.
+/// its name. Hidden when there are no files. Requests changes, but makes none.
 class VectorFileList final : public QWidget {
     Q_OBJECT
 

@@ -121,8 +121,7 @@ TEST(BodyMesh, AMapOfTheWholeBodyEnclosesIt)
     EXPECT_GT(volume_m3 / expected_m3, 1.0 - 3.0 * 7.6e-5);
 }
 
-// Between the last circle of samples and the pole, terrain is no steeper than between these
-// samples.
+// The triangles that close the pole are no steeper than the steepest one between samples.
 TEST(BodyMesh, ThePoleOfRoughTerrainHasNoCliffs)
 {
     const test::BodyMap rough{"RoughPole", "IAU_2015:49900",           1440,

@@ -264,7 +264,7 @@ TEST_F(ProjectWindowTest, NewProjectIsEmpty)
     EXPECT_EQ(window_->undoStack().count(), 0);
 }
 
-// Nobody is to think that what was measured on it is lost.
+// A missing layer must not look as if it had been removed, its measurements with it.
 TEST_F(ProjectWindowTest, MeasurementsNameTheLayerThatIsMissing)
 {
     makeWindow(kSmall, asking());
