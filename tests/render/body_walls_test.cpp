@@ -348,6 +348,47 @@ TEST_F(BodyWalls, NoPixelIsSeenThroughAtNarrowVoids)
     EXPECT_GT(picture_count, 60U);
 }
 
+// The first pictures of a map may have any error, and walls as long as that would reach through the
+// body.
+TEST_F(BodyWalls, NeverReachThroughTheBody)
+{
+    Random random(9);
+    const auto wide = fractalHeights(random, 1440, 720, 20000.0, 0.5);
+    const StepMap lower = globe([&](std::size_t c, std::size_t r) { return wide[r * 1440 + c]; });
+    for (const double longitude : {-15.0, 0.0, 155.0, 170.0}) {
+        const StepMap upper(
+            fmt::format("+proj=stere +lat_0=18.5 +lon_0={} +R=3396190 +units=m", longitude), 121,
+            101, {-600000, 10000, 0, 500000, 0, -10000},
+            [](std::size_t c, std::size_t r) { return isInCrater(c, r) ? kNaN : 2000.0; });
+        for (const double exaggeration : {1.0, 7.0, 20.0}) {
+            const BodyCamera camera = over({5.6e6, 0.0});
+            const DetailTarget coarse{.error_px = 128.0, .texel_px = 4.0};
+            const OffscreenPicture alone = drawFrom({lower.layer()}, camera, exaggeration, coarse);
+            const OffscreenPicture both =
+                drawFrom({upper.layer(), lower.layer()}, camera, exaggeration, coarse);
+            const auto highest_m = exaggeration * 25000.0;
+            const CameraPose pose = poseOf(camera, Ellipsoid{kRadius, kRadius});
+            std::size_t sky_count = 0;
+            std::size_t covered_count = 0;
+            for (int y = 0; y < kViewport.height; ++y) {
+                for (int x = 0; x < kViewport.width; ++x) {
+                    const Ray ray = pickRay(pose, kViewport, {x + 0.5, y + 0.5});
+                    const Vec3 nearest = ray.at(-dot(ray.origin, ray.direction));
+                    if (length(nearest) < kRadius + highest_m) {
+                        continue;
+                    }
+                    const auto pixel = static_cast<std::size_t>(y * kViewport.width + x);
+                    ++sky_count;
+                    covered_count += isSky(both.colors, pixel) ? 0U : 1U;
+                    EXPECT_TRUE(isSky(alone.colors, pixel));
+                }
+            }
+            EXPECT_GT(sky_count, 10000U);
+            EXPECT_EQ(covered_count, 0U) << longitude << "° E, × " << exaggeration;
+        }
+    }
+}
+
 // Rays are followed in small steps to where they are below the uppermost map with data.
 TEST_F(BodyWalls, StandWhereTheUpperMapEnds)
 {

@@ -386,8 +386,10 @@ struct TerrainRenderer::Impl {
     void relateLayers(); // after any change of them
     void drawSky(const DrawStyle& style) const;
     DetailSelection select(Layer& layer, const DrawRequest& request, double exaggeration) const;
+    // The meshes of all layers are exact to `error_px`.
     void drawLayer(std::size_t index,
                    const DetailSelection& selection,
+                   double error_px,
                    const DrawRequest& request,
                    const DrawStyle& style);
     void setUniforms(const GlProgram& program,
@@ -398,6 +400,7 @@ struct TerrainRenderer::Impl {
     void drawBatches(const DrawRequest& request);
     void drawWalls(std::size_t index,
                    const DetailSelection& selection,
+                   double error_px,
                    const DrawRequest& request,
                    const DrawStyle& style);
     // Pictures in motion omit effects that are slow in software.
@@ -512,6 +515,7 @@ TerrainRenderer::Impl::select(Layer& layer, const DrawRequest& request, double e
 
 void TerrainRenderer::Impl::drawLayer(std::size_t index,
                                       const DetailSelection& selection,
+                                      double error_px,
                                       const DrawRequest& request,
                                       const DrawStyle& style)
 {
@@ -575,13 +579,14 @@ void TerrainRenderer::Impl::drawLayer(std::size_t index,
     }
     drawBatches(request);
     if (layer.walls) {
-        drawWalls(index, selection, request, style);
+        drawWalls(index, selection, error_px, request, style);
     }
 }
 
 // The steps at the layer's edges. All of its nodes are in the atlas by now, or find room again.
 void TerrainRenderer::Impl::drawWalls(std::size_t index,
                                       const DetailSelection& selection,
+                                      double error_px,
                                       const DrawRequest& request,
                                       const DrawStyle& style)
 {
@@ -605,11 +610,13 @@ void TerrainRenderer::Impl::drawWalls(std::size_t index,
         setUniforms(program, index, request, style, {});
         glUniform1f(program.uniform("u_base"), static_cast<GLfloat>(layer.surface.baseMeters()));
         glUniform1f(program.uniform("u_pixel"), static_cast<GLfloat>(pixelSlope(request)));
-        const double error_px = std::max(request.detail.error_px, 1.0);
-        glUniform1f(program.uniform("u_wall_above_px"), static_cast<GLfloat>(error_px));
+        // No more than what the errors ask for: a wall that is longer than the body is wide stands
+        // out of its other side.
+        const double reach_px = std::max(error_px, kErrorPxAtRest);
+        glUniform1f(program.uniform("u_wall_above_px"), static_cast<GLfloat>(reach_px));
         glUniform1f(program.uniform("u_wall_below_px"),
                     static_cast<GLfloat>(kWallBelowPx +
-                                         static_cast<double>(DetailErrors::kPeak) * error_px));
+                                         static_cast<double>(DetailErrors::kPeak) * reach_px));
         walls.draw();
     };
     for (const SelectedNode& selected : selection.nodes) {
@@ -1076,7 +1083,7 @@ TerrainRenderer::draw(const DrawRequest& request, const DrawStyle& style, unsign
     glDisable(GL_SCISSOR_TEST);
     glClear(GL_DEPTH_BUFFER_BIT);
     for (std::size_t i = 0; i < impl.layers.size(); ++i) {
-        impl.drawLayer(i, selections[i], request, style);
+        impl.drawLayer(i, selections[i], report.error_px, request, style);
     }
     impl.drawSky(style); // last: what the terrain hides is not drawn
     glBindVertexArray(0);
