@@ -1,5 +1,6 @@
 // Runs the tests of the window in a real one. Needs a display, for example from xvfb-run.
 
+#include "core/files/open_probe.h"
 #include "ui/graphics_check.h"
 
 #include <QApplication>
@@ -26,6 +27,7 @@ class ReleasedButtons final : public testing::EmptyTestEventListener {
 int main(int argc, char** argv)
 {
     testing::InitGoogleTest(&argc, argv);
+    marsview::prestartProbes(); // as the program does
     QStandardPaths::setTestModeEnabled(true);
     // Settings of this process alone: others may run tests at the same time.
     const QTemporaryDir settings;

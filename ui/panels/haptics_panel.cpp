@@ -1,11 +1,12 @@
 #include "ui/panels/haptics_panel.h"
 
+#include "ui/panels/limit_slider.h"
 #include "ui/panels/loop_times.h"
 #include "ui/text/haptics_text.h"
 #include "ui/text/number_text.h"
 #include "ui/text/sentence.h"
 #include "ui/widgets/caption.h"
-#include "ui/widgets/limit_slider.h"
+#include "ui/widgets/progress_value.h"
 #include "ui/widgets/scroll_area.h"
 
 #include <QAction>
@@ -532,7 +533,7 @@ void HapticsPanel::showStopped()
 void HapticsPanel::showNoState()
 {
     if (!device_.isRunning()) {
-        force_->setValue(0);
+        showValue(*force_, 0);
         force_->setFormat(forceText(0.0, kForceNMax));
         const QString why = controller_.whyNoTouch();
         reason_->setText(device_.loop() == nullptr ? QString()
@@ -553,16 +554,18 @@ void HapticsPanel::showState(const LoopState& state)
     // The force of a stalled loop is unknown.
     const double force_n =
         state.reason == ForceOffReason::LoopStalled ? 0.0 : length(state.force_n);
-    force_->setValue(
-        most_n > 0.0 ? static_cast<int>(std::lround(std::min(1.0, force_n / most_n) * kForceSteps))
-                     : 0);
+    showValue(*force_,
+              most_n > 0.0
+                  ? static_cast<int>(std::lround(std::min(1.0, force_n / most_n) * kForceSteps))
+                  : 0);
     //: %1 is a force, like "0.45 N"
     const QString text_n = forceText(force_n, most_n); // as over the map
     force_->setFormat(state.is_force_recorded ? tr("%1 when recorded").arg(text_n)
                       : is_replay             ? tr("No force recorded")
                                               : text_n);
     if (is_replay) {
-        replayed_->setValue(static_cast<int>(std::lround(device_.replayedShare() * kReplaySteps)));
+        showValue(*replayed_,
+                  static_cast<int>(std::lround(device_.replayedShare() * kReplaySteps)));
     }
     const std::string trouble =
         state.reason == ForceOffReason::DeviceUnready ? device_.loop()->trouble() : std::string();

@@ -2,6 +2,7 @@
 
 #include "ui/controllers/session_controller.h"
 #include "ui/text/number_text.h"
+#include "ui/widgets/progress_value.h"
 
 #include <QFileInfo>
 #include <QHBoxLayout>
@@ -201,7 +202,7 @@ void LoadStatus::showProgress(const Shown& shown)
     label_->setText(shown.text);
     label_->setToolTip(shown.tip);
     bar_->setRange(0, shown.percent ? 100 : 0); // busy without a percentage
-    bar_->setValue(shown.percent.value_or(0));
+    showValue(*bar_, shown.percent.value_or(0));
 }
 
 } // namespace marsview

@@ -1,4 +1,4 @@
-#include "ui/widgets/limit_slider.h"
+#include "ui/panels/limit_slider.h"
 
 #include <QPainter>
 #include <QRegion>

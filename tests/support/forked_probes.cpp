@@ -1,0 +1,20 @@
+// Part of test programs that open many rasters: the children that open them first are forked, as
+// those of the window and of the command line are, and not loaded anew each.
+
+#include "core/files/open_probe.h"
+
+#include <gtest/gtest.h>
+
+namespace marsview::test {
+namespace {
+
+class ForkedProbes final : public testing::Environment {
+public:
+    void SetUp() override { prestartProbes(); } // before any thread of a test
+};
+
+const testing::Environment* const kForkedProbes =
+    testing::AddGlobalTestEnvironment(new ForkedProbes);
+
+} // namespace
+} // namespace marsview::test
