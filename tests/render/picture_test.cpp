@@ -72,6 +72,20 @@ std::vector<OrbitCamera> views(const LoadedTestMap& map, double exaggeration, co
     return cameras;
 }
 
+// The largest difference of a pixel's channels, of 255, for each pixel.
+std::vector<int> differences(const Picture& a, const Picture& b)
+{
+    std::vector<int> differences;
+    for (std::size_t i = 0; i < a.rgb.size(); i += 3) {
+        int largest = 0;
+        for (std::size_t k = i; k < i + 3; ++k) {
+            largest = std::max(largest, std::abs(a.rgb[k] - b.rgb[k]));
+        }
+        differences.push_back(largest);
+    }
+    return differences;
+}
+
 class PictureTest : public RenderTest {
 protected:
     // At 1 pixel, almost all of the picture is within the threshold, and no pixel is far off.
@@ -268,13 +282,9 @@ protected:
             const Picture full = draw(camera, size, {.has_every_sample = true}, style).colors;
             std::size_t different = 0;
             double sum = 0.0;
-            for (std::size_t i = 0; i < lod.rgb.size(); i += 3) {
-                int largest = 0;
-                for (std::size_t k = 0; k < 3; ++k) {
-                    largest = std::max(largest, std::abs(lod.rgb[i + k] - full.rgb[i + k]));
-                }
-                sum += largest;
-                different += largest > 16 ? 1U : 0U;
+            for (const int difference : differences(lod, full)) {
+                sum += difference;
+                different += difference > 16 ? 1U : 0U;
             }
             const double pixels = static_cast<double>(lod.rgb.size()) / 3.0;
             std::printf("%s view %d: mean difference %.3f of 255, %.3f %% of pixels above 16\n",
@@ -339,6 +349,34 @@ TEST_F(PictureTest, HasTheColorsOfThePictureWithEverySample)
 {
     expectSameColors("Mars", LoadedTestMap(bundledSamples() / "mars_mola_4ppd.tif"));
     expectSameColors("Helens", LoadedTestMap(bundledSamples() / "mount_st_helens_30m.tif"));
+}
+
+// The relief bends within a sample's cell, triangles do not, and ×10 shows that: p99 was 12 of 255.
+TEST_F(PictureTest, HasTheColorsOfTheTrianglesWhereSamplesAreLarge)
+{
+    Random random(31);
+    const auto heights = fractalHeights(random, 257, 257, 600.0, 0.8);
+    const DrawnMap map(
+        floatTerrain(
+            257, 257,
+            [&](std::size_t column, std::size_t row) { return heights[row * 257 + column]; }),
+        SceneFrame{.origin = {128.0, 128.0}, .east_per_column = 500.0, .north_per_row = -500.0});
+    renderer_->setLayers({map.layer()});
+    DrawStyle style;
+    style.exaggeration = 10.0;
+    const Viewport size{.width = 640, .height = 400};
+    for (const double distance_m : {25000.0, 40000.0}) {
+        const OrbitCamera camera{.target = {0.0, 0.0, map.ground(0.0, 0.0, style.exaggeration)},
+                                 .distance_m = distance_m,
+                                 .azimuth = Angle::degrees(20.0),
+                                 .tilt = Angle::degrees(50.0)};
+        const Picture lod = draw(camera, size, {}, style).colors;
+        const Picture full = draw(camera, size, {.has_every_sample = true}, style).colors;
+        std::vector<int> all = differences(lod, full);
+        const auto p99 = all.begin() + static_cast<std::ptrdiff_t>(all.size() * 99 / 100);
+        std::nth_element(all.begin(), p99, all.end());
+        EXPECT_LE(*p99, 4) << distance_m << " m";
+    }
 }
 
 // A ray that starts above the terrain, or enters above its highest point, and passes below its

@@ -65,10 +65,8 @@ constexpr double kRemoteTexel = 1.5;
 // Around an eye inside a map's box texels stay large however coarse they may be.
 constexpr int kCoarserMax = 12;
 
-// Colors begin to be those of the mesh at this depth, in samples, and are at half of it: nodes of
-// level 1 are further away than kRangePerSizeMoving × kMorphEnd of their diagonals, 54 samples.
-constexpr double kMeshDepth = 40.0;
-constexpr double kAllDepths = 1e20;
+// Wider than any pixel: where every sample is asked for, colors are those of the mesh everywhere.
+constexpr double kLargeSample = 1e20;
 
 // How far walls reach below both surfaces, which hide that, besides the error of the lower one.
 constexpr double kWallBelowPx = 4.0;
@@ -786,11 +784,11 @@ void TerrainRenderer::Impl::setUniforms(const GlProgram& program,
         static_cast<double>(heightfield.rows() - 1) - anchor.row);
 
     setRays(program, request, frame, style.exaggeration);
-    set("u_mesh_depth",
-        request.detail.has_every_sample
-            ? kAllDepths
-            : kMeshDepth * std::max(std::hypot(frame.east_per_column, frame.north_per_column),
-                                    std::hypot(frame.east_per_row, frame.north_per_row)));
+    set("u_sample_px", request.detail.has_every_sample
+                           ? kLargeSample
+                           : std::max(std::hypot(frame.east_per_column, frame.north_per_column),
+                                      std::hypot(frame.east_per_row, frame.north_per_row)) /
+                                 (pixelSlope(request) * request.pixels_shown_as_one));
     const HeightRange& tinted = layer.source.tint_range;
     const double tinted_m = tinted.maximum_m - tinted.minimum_m;
     // A flat map has the middle color.

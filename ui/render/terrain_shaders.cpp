@@ -44,6 +44,7 @@ out vec2 v_sample; // relative to the anchor
 flat out float v_layer;
 flat out vec3 v_color_heights;
 flat out float v_relief_per_sample;
+out float v_exact; // 1 where the mesh has every sample
 invariant gl_Position;
 
 const float kNodeCells = 32.0;
@@ -76,8 +77,8 @@ vec2 sampleOf(vec2 cell)
     return min(a_place.xy + cell * a_place.z, u_last_sample);
 }
 
-// What colors need, from the vertex's column, row and height.
-void setSurface(vec3 p)
+// What colors need, from the vertex's column, row and height, and from how far it has given way.
+void setSurface(vec3 p, float to_next)
 {
     v_height = p.z;
     v_sample = p.xy;
@@ -85,6 +86,7 @@ void setSurface(vec3 p)
     v_layer = a_relief.w;
     v_color_heights = a_color_heights;
     v_relief_per_sample = a_relief.x;
+    v_exact = a_place.z > 1.5 ? 0.0 : 1.0 - to_next;
 }
 
 #ifndef BODY
@@ -117,7 +119,7 @@ void main()
     float to_last = morph(fromEye(next), a_grandparent, a_uncle + next_cell / (4.0 * kNodeCells));
     float to_next = morph(fromEye(own), a_parent, a_slot.zw + a_cell / (2.0 * kNodeCells));
     vec3 p = blend(own, blend(next, last, to_last), to_next);
-    setSurface(p);
+    setSurface(p, to_next);
     gl_Position = u_clip_from_eye * vec4(fromEye(p), 1.0);
 }
 #else
@@ -242,6 +244,7 @@ Vertex vertexAround(vec2 point)
     v.p = share.x * a.p + share.y * b.p + share.z * c.p;
     v.surface = share.x * a.surface + share.y * b.surface + share.z * c.surface;
     v.out_of = share.x * a.out_of + share.y * b.out_of + share.z * c.out_of;
+    v.to_next = 1.0;
 #if COVERS > 0
     for (int i = 0; i < COVERS; ++i) {
         v.cover[i] = share.x * a.cover[i] + share.y * b.cover[i] + share.z * c.cover[i];
@@ -325,7 +328,7 @@ void main()
     }
 #endif
 #endif
-    setSurface(v.surface);
+    setSurface(v.surface, v.to_next);
 #if COVERS > 0
     v_cover = v.cover;
 #endif
@@ -359,7 +362,8 @@ uniform vec2 u_slope_tint; // share of the ramp = slope in radians × x + y
 uniform vec2 u_tint; // share of the ramp = height × x + y
 uniform vec3 u_light;      // light = (z + slope · xy) × length of the normal
 uniform vec3 u_fill_light; // likewise
-uniform float u_mesh_depth; // at half this depth and nearer all of the mesh's cells are samples
+uniform float u_sample_px; // the width of a sample at a depth of 1, in pixels
+in float v_exact;
 out vec4 color;
 
 const float kAmbient = 0.28;
@@ -521,11 +525,12 @@ float contour(float height)
 #endif
 
 // Over the base. The relief's, which has a texel for a pixel whatever the mesh: a mesh that is as
-// exact as the picture shows can be much coarser than what colors and lines show. Near the eye,
-// where samples are many pixels wide, that of the triangles between them.
+// exact as the picture shows can be much coarser than what colors and lines show. Where the mesh has
+// every sample and those are larger than pixels, that of the triangles between them.
 float colorHeight(float relief)
 {
-    float own = max(v_color_heights.z, clamp(u_mesh_depth * gl_FragCoord.w - 1.0, 0.0, 1.0));
+    float large = clamp(u_sample_px * gl_FragCoord.w - 1.0, 0.0, 1.0);
+    float own = max(v_color_heights.z, v_exact * large);
     return mix(relief * v_color_heights.x + v_color_heights.y, v_height, own);
 }
 
