@@ -49,6 +49,23 @@ int PictureDrawing::blockSide() const
     return is_supersampled_ ? kBlockSide / kSamplesPerSide : kBlockSide;
 }
 
+double PictureDrawing::progress(double share) const
+{
+    if (smoothing_ == PictureSmoothing::Never) {
+        return share;
+    }
+    return is_supersampled_ ? kSmoothShare + (1.0 - kSmoothShare) * share : kSmoothShare * share;
+}
+
+bool PictureDrawing::needsSecondDrawing() const
+{
+    return smoothing_ == PictureSmoothing::ByContrast && !is_supersampled_ &&
+           contrastOf({.first = picture_.constBits(),
+                       .width = picture_.width(),
+                       .height = picture_.height(),
+                       .line_length = picture_.bytesPerLine()}) > kSmoothContrastMax;
+}
+
 void PictureDrawing::drawNext()
 {
     if (picture_.isNull()) {
@@ -73,16 +90,10 @@ void PictureDrawing::drawNext()
         return;
     }
     ++next_;
-    const double share = static_cast<double>(next_) / count;
-    Q_EMIT progressed(is_supersampled_ ? kSmoothShare + (1.0 - kSmoothShare) * share
-                                       : kSmoothShare * share);
+    Q_EMIT progressed(progress(static_cast<double>(next_) / count));
     if (next_ < count) {
         timer_.start(0);
-    } else if (!is_supersampled_ &&
-               contrastOf({.first = picture_.constBits(),
-                           .width = picture_.width(),
-                           .height = picture_.height(),
-                           .line_length = picture_.bytesPerLine()}) > kSmoothContrastMax) {
+    } else if (needsSecondDrawing()) {
         next_ = 0;
         is_supersampled_ = true;
         timer_.start(0);

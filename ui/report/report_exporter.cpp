@@ -194,6 +194,8 @@ void ReportExporter::exportTo(const QString& file, const ReportChoice& choice)
                        choice, kReportPicture);
     labels_ = scene.partsFor(camera, kReportPicture, {.has_legend = false, .has_scale = false});
     drawing_ = std::make_unique<PictureDrawing>(scene, camera, kReportPicture);
+    // Pixels are 0.09 mm wide on paper, and web pages show the picture at a third of its size.
+    drawing_->setSmoothing(PictureSmoothing::Never);
     connect(drawing_.get(), &PictureDrawing::progressed, this,
             [this](double share) { Q_EMIT progressed(file_, share); });
     // Queued: the drawing is deleted when it ends.

@@ -7,6 +7,7 @@
 #include "ui/controllers/annotation_controller.h"
 #include "ui/controllers/measure_controller.h"
 #include "ui/project/project_controller.h"
+#include "ui/render/supersampled_picture.h"
 #include "ui/report/report_exporter.h"
 #include "ui/report/report_pdf.h"
 #include "ui/text/coordinate_text.h"
@@ -30,6 +31,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace marsview {
 namespace {
@@ -183,6 +185,30 @@ TEST_F(ReportTest, TheWebPageHoldsEverythingAndNeedsNoOtherFile)
     const QImage map = QImage::fromData(
         QByteArray::fromBase64(picture.match(page).captured(1).toLatin1()), "JPEG");
     EXPECT_EQ(map.size(), QSize(2000, 1500));
+}
+
+// 2026-11: pictures of steep terrain were drawn a second time, at nine times the samples, for 22 s.
+TEST_F(ReportTest, PicturesOfHighContrastAreDrawnOnce)
+{
+    openMars();
+    view().setExaggeration(100.0);
+    std::vector<double> shares;
+    QObject::connect(&window_->commands().reports, &ReportExporter::progressed, window_.get(),
+                     [&shares](const QString&, double share) { shares.push_back(share); });
+    const QString page = QString::fromUtf8(exported("steep.html", {.title = QStringLiteral("x")}));
+    const QRegularExpression picture(QStringLiteral("data:image/jpeg;base64,([^\"]+)\""));
+    const QImage map =
+        QImage::fromData(QByteArray::fromBase64(picture.match(page).captured(1).toLatin1()), "JPEG")
+            .convertToFormat(QImage::Format_RGB888);
+    ASSERT_EQ(map.size(), QSize(2000, 1500));
+    EXPECT_GT(contrastOf({.first = map.constBits(),
+                          .width = map.width(),
+                          .height = map.height(),
+                          .line_length = map.bytesPerLine()}),
+              kSmoothContrastMax);
+    EXPECT_LE(shares.size(), 1U + 4U * 3U) << "blocks of 512 × 512 pixels";
+    EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+    EXPECT_EQ(shares.back(), 1.0);
 }
 
 TEST_F(ReportTest, ATickPutsAnnotationsWithPositionAndNoteIntoATable)
