@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -37,12 +38,14 @@ constexpr double dots(double mm)
     return mm / 25.4 * kDotsPerInch;
 }
 
+constexpr double kRowGap = dots(1.6);  // between the rows of a table, with the rule in its middle
 constexpr double kFactGap = dots(8.0); // between the columns of facts
 
 // ReportPages from top to bottom. Lengths are dots.
 class ReportPages {
 public:
-    // `page_count` of an earlier run, for the page numbers; 0: unknown.
+    // `page_count` of an earlier run, for the page numbers; 0: a run that counts them, without
+    // pictures.
     ReportPages(QPdfWriter& writer, const Report& report, int page_count)
         : writer_(writer)
         , report_(report)
@@ -53,7 +56,7 @@ public:
     {}
 
     bool isActive() const { return painter_.isActive(); }
-    int pageCount() const { return page_; }
+    const std::vector<QStringList>& pages() const { return pages_; }
 
     void write()
     {
@@ -71,6 +74,9 @@ public:
     }
 
 private:
+    int page() const { return static_cast<int>(pages_.size()); }
+    bool isDraft() const { return page_count_ == 0; }
+
     QFont font(double points, QFont::Weight weight = QFont::Normal) const
     {
         QFont font = QGuiApplication::font();
@@ -89,15 +95,15 @@ private:
         //: Page number: %1 of %2
         painter_.drawText(line, Qt::AlignRight | Qt::AlignBottom,
                           QCoreApplication::translate("Report", "Page %1 of %2")
-                              .arg(page_)
-                              .arg(std::max(page_, page_count_)));
+                              .arg(page())
+                              .arg(std::max(page(), page_count_)));
     }
 
     void nextPage()
     {
         footer();
         writer_.newPage();
-        ++page_;
+        pages_.emplace_back();
         y_ = 0.0;
     }
 
@@ -134,6 +140,7 @@ private:
         painter_.setFont(used);
         painter_.setPen(color);
         painter_.drawText(QRectF(0.0, y_, width_, height), text, wrapped());
+        pages_.back().append(text);
         y_ += height;
     }
 
@@ -154,8 +161,10 @@ private:
 
     void drawing(const QByteArray& svg, const QRectF& area)
     {
-        QSvgRenderer renderer(svg);
-        renderer.render(&painter_, area);
+        if (!isDraft()) {
+            QSvgRenderer renderer(svg);
+            renderer.render(&painter_, area);
+        }
     }
 
     void writeMap()
@@ -168,7 +177,9 @@ private:
         height *= scale;
         const double width = width_ * scale;
         const double left = (width_ - width) / 2.0;
-        painter_.drawImage(QRectF(left, y_, width, height), map.picture);
+        if (!isDraft()) {
+            painter_.drawImage(QRectF(left, y_, width, height), map.picture);
+        }
         painter_.setPen(QPen(kRule, dots(0.2)));
         painter_.setBrush(Qt::NoBrush);
         painter_.drawRect(QRectF(left, y_, width, height));
@@ -184,17 +195,19 @@ private:
     {
         const QFont heading = font(kHeadingPoints, QFont::DemiBold);
         // A heading is never alone at the bottom of a page, and on that of its figures.
+        const double note = section.note.isEmpty()
+                                ? 0.0
+                                : heightOf(section.note, font(kTextPoints), width_) + dots(1.0);
         double below = 0.0;
         for (const ReportFigure& figure : section.figures) {
             below += figureHeight(figure);
         }
         if (below > 0.0) {
-            below +=
-                factsHeight(section.facts) + dots(5.0) +
-                (section.note.isEmpty() ? 0.0 : heightOf(section.note, font(kTextPoints), width_));
+            below += factsHeight(section.facts);
         }
-        const double top = metrics(heading).height() + dots(5.0);
-        ensure(top + (top + below <= height_ ? std::max(below, dots(20.0)) : dots(20.0)));
+        const double top = metrics(heading).height() + dots(5.0) + note;
+        const double least = openingHeight(section);
+        ensure(top + (top + below <= height_ ? std::max(below, least) : least));
         y_ += y_ > 0.0 ? dots(4.0) : 0.0;
         paragraph(section.title, kHeadingPoints, kInk, QFont::DemiBold);
         y_ += dots(1.0);
@@ -211,6 +224,20 @@ private:
         if (section.table) {
             writeTable(*section.table);
         }
+    }
+
+    // Of what must follow a heading and its note on the same page: all facts if they are few, the
+    // first rows of the table.
+    double openingHeight(const ReportSection& section) const
+    {
+        constexpr qsizetype kFewFacts = 12;
+        if (!section.facts.isEmpty()) {
+            return section.facts.size() <= kFewFacts ? factsHeight(section.facts) : dots(20.0);
+        }
+        if (section.table && section.figures.isEmpty()) {
+            return openingHeight(layoutOf(*section.table));
+        }
+        return dots(20.0);
     }
 
     // Of the row of two facts that begins with `first`.
@@ -316,31 +343,79 @@ private:
                               row[static_cast<qsizetype>(i)], wrapped());
             left += widths[i];
         }
-        y_ += height + dots(0.8);
+        pages_.back() += row;
+        y_ += height + 0.5 * kRowGap;
+    }
+
+    struct TableLayout {
+        std::vector<double> widths;
+        double header = 0.0;
+        std::vector<double> rows; // heights with the rule below
+    };
+
+    TableLayout layoutOf(const ReportTable& table) const
+    {
+        const QFont used = font(kTextPoints);
+        TableLayout layout{.widths = columnsOf(table, used), .header = 0.0, .rows = {}};
+        layout.header =
+            rowHeight(table.header, layout.widths, font(kTextPoints, QFont::DemiBold)) + kRowGap;
+        for (const QStringList& row : table.rows) {
+            layout.rows.push_back(rowHeight(row, layout.widths, used) + kRowGap);
+        }
+        return layout;
+    }
+
+    static double heightOfRows(const TableLayout& layout, std::size_t first, std::size_t count)
+    {
+        const auto begin = layout.rows.begin() + static_cast<std::ptrdiff_t>(first);
+        return std::accumulate(begin, begin + static_cast<std::ptrdiff_t>(count), 0.0);
+    }
+
+    // How many rows from `first` on stay together: two, or three where one would be left.
+    std::size_t rowsTogether(const TableLayout& layout, std::size_t first) const
+    {
+        const std::size_t left = layout.rows.size() - first;
+        const std::size_t count = left <= 3 ? left : 2;
+        const bool has_room = heightOfRows(layout, first, count) <= height_ - layout.header;
+        return has_room ? count : std::min<std::size_t>(left, 1);
+    }
+
+    double openingHeight(const TableLayout& layout) const
+    {
+        return layout.header + heightOfRows(layout, 0, rowsTogether(layout, 0));
     }
 
     void writeTable(const ReportTable& table)
     {
         const QFont used = font(kTextPoints);
         const QFont bold = font(kTextPoints, QFont::DemiBold);
-        const std::vector<double> widths = columnsOf(table, used);
-        const double header = rowHeight(table.header, widths, bold);
+        const TableLayout layout = layoutOf(table);
         const auto write_header = [&] {
-            tableRow(table.header, widths, bold, header);
+            tableRow(table.header, layout.widths, bold, layout.header - kRowGap);
             rule(y_, kInk, 0.3);
-            y_ += dots(0.8);
+            y_ += 0.5 * kRowGap;
         };
-        ensure(3.0 * header);
+        ensure(openingHeight(layout));
         write_header();
-        for (const QStringList& row : table.rows) {
-            const double height = rowHeight(row, widths, used);
-            if (y_ + height + dots(1.6) > height_) {
+        std::size_t on_page = 0; // rows
+        for (std::size_t i = 0; i < layout.rows.size();) {
+            // The first two rows of a page are together, and so are the last two of the table.
+            const bool is_second_last = i + 2 == layout.rows.size();
+            const std::size_t count =
+                on_page == 0 || is_second_last ? rowsTogether(layout, i) : std::size_t{1};
+            if (on_page > 0 && y_ + heightOfRows(layout, i, count) > height_) {
                 nextPage();
                 write_header();
+                on_page = 0;
+                continue;
             }
-            tableRow(row, widths, used, height);
-            rule(y_, kRule, 0.15);
-            y_ += dots(0.8);
+            for (const std::size_t end = i + count; i < end; ++i) {
+                tableRow(table.rows[static_cast<qsizetype>(i)], layout.widths, used,
+                         layout.rows[i] - kRowGap);
+                rule(y_, kRule, 0.15);
+                y_ += 0.5 * kRowGap;
+            }
+            on_page += count;
         }
         y_ += dots(2.0);
     }
@@ -378,11 +453,12 @@ private:
     double width_;
     double height_;
     double y_ = 0.0;
-    int page_ = 1;
+    std::vector<QStringList> pages_ = std::vector<QStringList>(1); // the texts on each
 };
 
-// The number of pages, or 0.
-int writePages(const Report& report, QIODevice& device, QPageSize::PageSizeId paper, int page_count)
+// The texts on each page; empty if it cannot be written.
+std::vector<QStringList>
+writePages(const Report& report, QIODevice& device, QPageSize::PageSizeId paper, int page_count)
 {
     QPdfWriter writer(&device);
     writer.setTitle(report.title);
@@ -393,29 +469,29 @@ int writePages(const Report& report, QIODevice& device, QPageSize::PageSizeId pa
                                      QPageLayout::Millimeter));
     ReportPages pages(writer, report, page_count);
     if (!pages.isActive()) {
-        return 0;
+        return {};
     }
     pages.write();
-    return pages.pageCount();
+    return pages.pages();
 }
 
 } // namespace
 
-Status writeReportPdf(const Report& report, const QString& file, QPageSize::PageSizeId paper)
+std::vector<QStringList> reportPages(const Report& report, QPageSize::PageSizeId paper)
 {
-    // A first run counts the pages, without the picture.
-    Report draft = report;
-    draft.map.picture =
-        QImage(report.map.picture.size().scaled(80, 80, Qt::KeepAspectRatio), QImage::Format_RGB32);
-    draft.map.picture.fill(Qt::white);
     QBuffer scratch;
     scratch.open(QIODevice::WriteOnly);
-    const int page_count = writePages(draft, scratch, paper, 0);
+    return writePages(report, scratch, paper, 0);
+}
+
+Status writeReportPdf(const Report& report, const QString& file, QPageSize::PageSizeId paper)
+{
+    const auto page_count = static_cast<int>(reportPages(report, paper).size());
 
     QSaveFile out(file);
     bool is_written = out.open(QIODevice::WriteOnly);
     if (is_written) {
-        is_written = writePages(report, out, paper, page_count) > 0;
+        is_written = !writePages(report, out, paper, page_count).empty();
     }
     if (!is_written || !out.commit()) {
         return Error{ErrorCode::Unreadable,

@@ -359,6 +359,44 @@ TEST_F(ReportTest, LongTablesContinueOnFurtherPagesOfThePdf)
     EXPECT_FALSE(writeReportPdf(report, path("no/such/folder.pdf"), QPageSize::A4));
 }
 
+// 2026-11: single rows of tables were alone on a page, and headings at the foot of one.
+TEST_F(ReportTest, PagesOfThePdfKeepHeadingsWithRowsAndRowsTogether)
+{
+    const auto is_row = [](const QString& text) { return text.startsWith(QLatin1String("row ")); };
+    for (int lines = 1; lines < 60; ++lines) { // of the first table: they move the other ones
+        Report report{.title = QStringLiteral("Breaks")};
+        report.map.picture = QImage(400, 100, QImage::Format_RGB32);
+        const auto add_section = [&report](const QString& title, int rows, bool has_note) {
+            ReportSection section{.title = QStringLiteral("heading ") + title};
+            section.note = has_note ? QStringLiteral("note") : QString();
+            section.table = ReportTable{.header = {QStringLiteral("head")}};
+            for (int i = 0; i < rows; ++i) {
+                section.table->rows.append({QStringLiteral("row %1 %2").arg(title).arg(i)});
+            }
+            report.sections.append(section);
+        };
+        add_section(QStringLiteral("first"), lines, false);
+        for (int rows = 1; rows <= 7; ++rows) {
+            add_section(QString::number(rows), rows, rows % 2 == 0);
+        }
+        const std::vector<QStringList> pages = reportPages(report, QPageSize::A4);
+        ASSERT_GE(pages.size(), 2U);
+        for (const QStringList& page : pages) {
+            EXPECT_TRUE(is_row(page.constLast())) << lines << ": " << qPrintable(page.constLast());
+            for (const ReportSection& section : report.sections) {
+                qsizetype here = 0;
+                for (const QStringList& row : section.table->rows) {
+                    here += page.count(row.constFirst());
+                }
+                EXPECT_TRUE(here != 1 || section.table->rows.size() == 1)
+                    << lines << ": " << qPrintable(section.title);
+                EXPECT_TRUE(!page.contains(section.title) || here > 0)
+                    << lines << ": " << qPrintable(section.title);
+            }
+        }
+    }
+}
+
 TEST_F(ReportTest, TheDialogAsksForTitleAndContentsByKeyboard)
 {
     makeWindow(kWithPanels);
