@@ -471,6 +471,13 @@ Status setPlane(const MeasuredTerrain& terrain,
     return Done{};
 }
 
+// Of level bases, above and below 0.
+double farthestBaseM(const Ground& ground) noexcept
+{
+    constexpr double kOnPlaneM = 1e8; // more than the radius of any planet
+    return ground.ellipsoid() ? ground.ellipsoid()->equatorial_m : kOnPlaneM;
+}
+
 } // namespace
 
 Result<TerrainArea> measureArea(MeasuredTerrain& terrain,
@@ -484,6 +491,15 @@ Result<TerrainArea> measureArea(MeasuredTerrain& terrain,
     const Ground& ground = terrain.ground();
     if (Status status = checkPositions(ground, vertices, 3, "an area"); !status) {
         return std::move(status).error();
+    }
+    if (options.base == VolumeBase::Elevation &&
+        !(std::abs(options.base_m) <= farthestBaseM(ground))) {
+        return Error{ErrorCode::OutOfRange,
+                     fmt::format("a base at an elevation of {:g} m is farther from 0 than {}; use "
+                                 "one between {:.0f} and {:.0f} m",
+                                 options.base_m,
+                                 ground.ellipsoid() ? "the body's radius" : "any terrain",
+                                 -farthestBaseM(ground), farthestBaseM(ground))};
     }
     const GroundPolygon polygon = ground.polygon(vertices);
     Result<PolygonOutline> edges = outlineOf(terrain, vertices);

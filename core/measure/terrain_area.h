@@ -49,9 +49,9 @@ struct TerrainArea {
 /// scaled by the distance to the body's center. The plane through the border is that of elevations
 /// over east and north in the local frame, so it follows the curvature of the body.
 ///
-/// Invalid for fewer than three vertices and coordinates that are none; OutOfRange if the edges
-/// leave the map's projection, a plane is asked for across more than a sixth of the body's
-/// circumference, or the hypsometry has too many classes; Canceled; errors of reading.
+/// Invalid for fewer than three vertices and coordinates that are none; OutOfRange if edges leave
+/// the map's projection, a level base is farther from 0 than the body's radius, a plane reaches
+/// across a sixth of its circumference, or classes are too many; Canceled; errors of reading.
 Result<TerrainArea> measureArea(MeasuredTerrain& terrain,
                                 std::span<const GroundPosition> vertices,
                                 const AreaOptions& options,

@@ -336,6 +336,14 @@ TEST(MeasureArea, IsThatOfPlanimeterWithVolumesOnRequest)
                     .contains("volume_below_m3"));
     EXPECT_EQ(measured("area", bundledMars(), polygon, {"--base", "high"}).exit_status, 2);
     EXPECT_EQ(measured("area", bundledMars(), polygon, {"--base", "nan"}).exit_status, 2);
+    for (const char* base : {"1e30", "-1e30", "3396001"}) { // Mars has 3 396 000 m
+        const ProgramOutput absurd = measured("area", bundledMars(), polygon, {"--base", base});
+        EXPECT_EQ(absurd.exit_status, 1);
+        EXPECT_EQ(absurd.out, "");
+        EXPECT_THAT(absurd.err, HasSubstr("is farther from 0 than the body's radius; use one "
+                                          "between -3396000 and 3396000 m"));
+    }
+    EXPECT_EQ(measured("area", bundledMars(), polygon, {"--base", "3396000"}).exit_status, 0);
     const ProgramOutput outside =
         measured("area", bundledMountain(), "-122.2 46.19\n-121 46.2\n-122 47\n");
     EXPECT_EQ(outside.exit_status, 0);
