@@ -76,6 +76,12 @@ struct Report {
     bool is_out_of_memory = false;
 };
 
+// Signals that other processes send and the kernel sends for lack of memory, not those of a fault.
+bool isFromOutside(int signal)
+{
+    return signal == SIGKILL || signal == SIGTERM || signal == SIGINT || signal == SIGHUP;
+}
+
 Report reportIn(const std::string& out)
 {
     Report report;
@@ -211,6 +217,13 @@ probeNames(const std::vector<std::string>& names, std::size_t bytes, const JobMo
         return outcome.error();
     }
     Report report = reportIn(outcome->out);
+    if (outcome->end == ChildEnd::Killed && isFromOutside(outcome->signal) &&
+        !report.is_out_of_memory) {
+        return Error{
+            ErrorCode::Unreadable,
+            "the process that opens it was ended from outside, perhaps because the machine "
+            "has too little memory; try again"};
+    }
     ProbeAnswer answer;
     answer.prints = !outcome->err.empty();
     answer.name = std::min(report.name, names.size() - 1);

@@ -34,7 +34,8 @@ struct ProbeAnswer {
 
 /// Lets a child open the first of the names that GDAL opens and read samples for a moment. Limits:
 /// probeMemoryBytes(), and probeSeconds() for files of `bytes` in total. Canceled if the job,
-/// which may be null, is canceled; Unreadable if the child cannot be started.
+/// which may be null, is canceled; Unreadable if the child cannot be started, or is ended from
+/// outside.
 Result<ProbeAnswer>
 probeNames(const std::vector<std::string>& names, std::size_t bytes, const JobMonitor* job);
 

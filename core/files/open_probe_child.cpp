@@ -52,6 +52,13 @@ void limit(__rlimit_resource_t resource, rlim_t most)
     setrlimit(resource, &bounds);
 }
 
+// At its hard limit a process gets SIGKILL, which anybody may send; before that, SIGXCPU.
+void limitSeconds(rlim_t most)
+{
+    const rlimit bounds{most, most + 1};
+    setrlimit(RLIMIT_CPU, &bounds);
+}
+
 void send(const Json& line)
 {
     const std::string text = line.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -323,7 +330,7 @@ int probeMain(const std::vector<std::string>& arguments)
     }
     prctl(PR_SET_DUMPABLE, 0);
     limit(RLIMIT_CORE, 0);
-    limit(RLIMIT_CPU, std::strtoull(arguments[1].c_str(), nullptr, 10) + 1);
+    limitSeconds(std::strtoull(arguments[1].c_str(), nullptr, 10) + 1);
 #ifndef MARSVIEW_UNLIMITED_MEMORY
     limit(RLIMIT_DATA, std::strtoull(arguments[0].c_str(), nullptr, 10));
 #endif

@@ -205,7 +205,8 @@ void cacheProbe(const std::vector<std::string>& names, const ProbeAnswer& answer
 {
     const bool is_failure =
         answer.kind == ProbeAnswer::Kind::Crashed || answer.kind == ProbeAnswer::Kind::TimedOut;
-    if (answer.kind != ProbeAnswer::Kind::Opened && (!is_failure || answer.driver == "VRT")) {
+    if (answer.kind != ProbeAnswer::Kind::Opened &&
+        (!is_failure || answer.driver == "VRT" || answer.driver.empty())) {
         return;
     }
     Remembered remembered{answer, {}, now()};

@@ -16,8 +16,8 @@ namespace marsview {
 std::optional<ProbeAnswer> cachedProbe(const std::vector<std::string>& names, double limit_s);
 
 /// Remembers that the names open, or that a driver crashes on a file or does not end. Does not
-/// store results that may differ next time: lack of memory, files that no driver opens, virtual
-/// rasters that do not open, names without files on a disk.
+/// store results that may differ next time: lack of memory, files that no driver opens, failures
+/// before a driver began, virtual rasters that do not open, names without files on a disk.
 void cacheProbe(const std::vector<std::string>& names, const ProbeAnswer& answer);
 
 } // namespace marsview

@@ -2,6 +2,7 @@
 // those of the window and of the command line are, and not loaded anew each.
 
 #include "core/files/open_probe.h"
+#include "tests/support/scoped_variable.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +11,14 @@ namespace {
 
 class ForkedProbes final : public testing::Environment {
 public:
-    void SetUp() override { prestartProbes(); } // before any thread of a test
+    void SetUp() override // before any thread of a test
+    {
+#ifdef MARSVIEW_TEST_GDAL_DRIVERS
+        // Children have the environment of now.
+        const ScopedVariable drivers("GDAL_DRIVER_PATH", MARSVIEW_TEST_GDAL_DRIVERS);
+#endif
+        prestartProbes();
+    }
 };
 
 const testing::Environment* const kForkedProbes =

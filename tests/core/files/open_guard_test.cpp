@@ -85,6 +85,21 @@ TEST_F(OpenGuardTest, ARasterIsProbedAgainWhenFilesThatItNamesChange)
     EXPECT_THAT(opened.error().message, HasSubstr("crashed on this file"));
 }
 
+TEST_F(OpenGuardTest, AFileIsNotBlamedForAChildThatIsEndedFromOutside)
+{
+    const std::string path = folder_.write("map.faulty", "FAULTY killed\n");
+    const auto opened = RasterFile::open(path);
+    ASSERT_FALSE(opened);
+    EXPECT_THAT(opened.error().message, HasSubstr("ended from outside"));
+    EXPECT_FALSE(remembersSomething());
+
+    folder_.write("map.faulty", "FAULTY crash\n");
+    const auto crashed = RasterFile::open(path);
+    ASSERT_FALSE(crashed);
+    EXPECT_THAT(crashed.error().message, HasSubstr("the FAULTY driver of GDAL crashed"));
+    EXPECT_TRUE(remembersSomething());
+}
+
 TEST_F(OpenGuardTest, CancelingEndsTheChild)
 {
     const std::string path = folder_.write("map.faulty", "FAULTY hang\n");

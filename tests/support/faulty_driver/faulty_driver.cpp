@@ -121,6 +121,8 @@ GDALDataset* open(GDALOpenInfo* info)
         hang();
     } else if (fault == "memory") {
         takeMemory();
+    } else if (fault == "killed") {
+        std::raise(SIGKILL); // as the kernel does when the machine has no memory left
     } else if (fault == "print") {
         std::fprintf(stderr, "library: first\nlibrary: second\n");
         std::printf("library: on stdout\n");
