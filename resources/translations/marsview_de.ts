@@ -5681,6 +5681,11 @@ Bewegen Sie die Karte zu einer Ansicht, die Sie behalten wollen, und drücken Si
         <translation>≈ %1</translation>
     </message>
     <message>
+        <source>no data</source>
+        <extracomment>In place of an elevation: the map has none there</extracomment>
+        <translation>keine Daten</translation>
+    </message>
+    <message>
         <source>Read from a preview; exact once the overviews are built</source>
         <translation>Aus einer Vorschau gelesen; genau, sobald die Übersichten erstellt sind</translation>
     </message>

@@ -225,6 +225,21 @@ TEST_F(MapMenuTest, OffersNothingOutsideTheTerrain)
     }
 }
 
+TEST_F(MapMenuTest, OffersCoordinatesWhereTheMapHasNoData)
+{
+    const TestMaps::Shape beside{.x_lower_left = 800000.0};
+    const QString hollow =
+        maps_.write(QStringLiteral("hollow.asc"), beside, [](int column, int row) {
+            return std::hypot(column - 29.5, row - 19.5) < 8.0 ? std::nan("") : 100.0;
+        });
+    ASSERT_TRUE(openAndWait(*window_, hollow));
+    rightClick(middle());
+    ASSERT_NE(menu(), nullptr);
+    EXPECT_TRUE(entry("Copy Coordinates")->isEnabled());
+    EXPECT_TRUE(entry("Center Here")->isEnabled());
+    EXPECT_FALSE(entry("Copy Elevation")->isEnabled());
+}
+
 TEST_F(MapMenuTest, TheCardOutlivesItsLayer)
 {
     rightClick(placeOf({20.0, 12.0}));

@@ -21,6 +21,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace marsview {
 namespace {
@@ -113,6 +114,25 @@ TEST_F(StatusReadoutTest, ReadsTheMiddleOfThePictureForTheKeyboard)
     EXPECT_EQ(readout().sourceLabel(), QStringLiteral("Pointer"));
     readout().coordinateField()->setFocus(Qt::TabFocusReason);
     EXPECT_TRUE(crosshair->isVisible());
+}
+
+// Straight down, a pixel shows the same place of the map at any elevation.
+TEST_F(StatusReadoutTest, ReadsWhereTheMapHasNoData)
+{
+    ASSERT_TRUE(openAndWait(*window_, maps_.ring()));
+    OrbitCamera camera = view().camera();
+    camera.target.x = 0.0; // the middle of the hole
+    camera.target.y = 0.0;
+    camera.tilt = {};
+    view().setCamera(camera);
+    ASSERT_TRUE(waitUntilSettled(*window_));
+    ASSERT_TRUE(movePointer(view(), view().rect().center()));
+    const QPointF from_center = QPointF(view().rect().center()) - middle();
+    const double point_m = view().metersPerPoint(RayHit{.grid = {29.5, 19.5}, .height_m = NAN});
+    const GridPoint there{29.5 + from_center.x() * point_m / 30.0,
+                          19.5 + from_center.y() * point_m / 30.0};
+    EXPECT_TRUE(isRead(positionText(readout().format(), *view().map(), there, point_m)));
+    EXPECT_EQ(readout().heightLabel(), QStringLiteral("no data"));
 }
 
 TEST_F(StatusReadoutTest, ReadsThePlaceUnderTheStylusOfADevice)

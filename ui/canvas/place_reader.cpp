@@ -59,10 +59,10 @@ std::optional<GroundPoint> PlaceReader::groundRead() const
         if (typed_place_ && typed_place_->goal == parts_.camera.goal()) {
             return parts_.scene.groundBelow(typed_place_->place);
         }
-        return parts_.projection.groundUnder(parts_.projection.center());
+        return parts_.projection.placeUnder(parts_.projection.center());
     }
     const auto& pointer = parts_.touch.pointer();
-    return pointer ? parts_.projection.groundUnder(*pointer) : std::nullopt;
+    return pointer ? parts_.projection.placeUnder(*pointer) : std::nullopt;
 }
 
 ReadingSource PlaceReader::source() const

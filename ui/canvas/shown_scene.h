@@ -28,7 +28,10 @@ public:
     /// The terrain straight above or below a place.
     std::optional<GroundPoint> groundBelow(const ScenePoint& place) const;
     std::optional<GroundPoint> cast(const Ray& ray) const;
-    /// Where a point of the terrain is in the scene.
+    /// Where a map has no data, the place behind its hole: on the level of elevation 0, or of the
+    /// topmost map's lowest or highest terrain. Its height is NaN. For rays that meet no terrain.
+    std::optional<GroundPoint> voidOn(const Ray& ray) const;
+    /// Where a point of the terrain is in the scene; without a height, as of voidOn().
     ScenePoint placeOf(const GroundPoint& ground) const;
     /// The same for a place on the topmost map's grid. Not for an empty scene.
     ScenePoint placeOf(GridPoint grid, double height_m) const;
@@ -39,6 +42,9 @@ public:
     DrawStyle style;
 
 private:
+    double voidLevelM() const;
+    double sceneHeight(double height_m) const;
+
     std::vector<ShownLayer> layers_;
     SceneSurface ground_;
 };

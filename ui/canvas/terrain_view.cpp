@@ -244,7 +244,7 @@ void TerrainView::goTo(GridPoint grid)
 
 std::optional<RayHit> TerrainView::surfaceAt(QPointF position) const
 {
-    const std::optional<GroundPoint> ground = projection_.groundUnder(position);
+    const std::optional<GroundPoint> ground = projection_.placeUnder(position);
     return ground ? std::optional(scene_.onTopmost(*ground)) : std::nullopt;
 }
 

@@ -113,12 +113,13 @@ public:
     void lookAt(const ScenePoint& place) { camera_.lookAt(place); }
 
     /// The ground behind a position in widget coordinates, at full resolution: where it is on the
-    /// topmost map's grid, which lower maps may reach beyond.
+    /// topmost map's grid, which lower maps may reach beyond. Where a map has no data, the place
+    /// there, with a height of NaN.
     std::optional<RayHit> surfaceAt(QPointF position) const;
     /// The same with the map that it is on, and the place on that map's own grid.
-    std::optional<GroundPoint> groundUnder(QPointF position) const
+    std::optional<GroundPoint> placeUnder(QPointF position) const
     {
-        return projection_.groundUnder(position);
+        return projection_.placeUnder(position);
     }
     /// The place that is read: under the stylus of a haptic device, unless the pointer or a key has
     /// just moved; otherwise under the pointer; or at the crosshair in the middle of the picture,

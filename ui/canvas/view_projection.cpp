@@ -43,6 +43,13 @@ std::optional<GroundPoint> ViewProjection::groundUnder(QPointF position) const
     return scene_.cast(pickRay(camera_.camera(), viewportOf(view_), pixelAt(position)));
 }
 
+std::optional<GroundPoint> ViewProjection::placeUnder(QPointF position) const
+{
+    const Ray ray = pickRay(camera_.camera(), viewportOf(view_), pixelAt(position));
+    const auto hit = scene_.cast(ray);
+    return hit ? hit : scene_.voidOn(ray);
+}
+
 ScenePoint ViewProjection::anchorAt(QPointF position, const OrbitCamera& camera) const
 {
     const Ray ray = pickRay(camera_.camera(), viewportOf(view_), pixelAt(position));

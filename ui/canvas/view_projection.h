@@ -27,6 +27,8 @@ public:
     PixelPoint pixelAt(QPointF position) const;
     /// The terrain behind a position, at full resolution.
     std::optional<GroundPoint> groundUnder(QPointF position) const;
+    /// The same; where a map has no data, the place there, without a height.
+    std::optional<GroundPoint> placeUnder(QPointF position) const;
     /// The same; off the terrain, anchorBesideMap() of `camera`.
     ScenePoint anchorAt(QPointF position, const OrbitCamera& camera) const;
     /// Nothing where the place is behind the eye.

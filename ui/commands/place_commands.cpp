@@ -104,7 +104,7 @@ MapMenu* PlaceCommands::makeMenu()
     };
     const MapMenu::Source source{
         .place_at = [view](QPointF position) -> std::optional<MenuPlace> {
-            const auto ground = view->groundUnder(position);
+            const auto ground = view->placeUnder(position);
             const auto hit = view->surfaceAt(position);
             if (!ground || !hit) {
                 return std::nullopt;

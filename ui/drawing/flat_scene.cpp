@@ -92,7 +92,7 @@ std::optional<DrawingScene::Place> FlatScene::placeOf(const RayHit& hit,
     if (!vertex) {
         return std::nullopt;
     }
-    const auto ground = position ? view_.groundUnder(*position) : std::nullopt;
+    const auto ground = position ? view_.placeUnder(*position) : std::nullopt;
     return Place{*vertex, ground ? view_.ground().maps()[ground->index].map : view_.map()};
 }
 

@@ -300,6 +300,10 @@ StatusReadout::ReadHeight StatusReadout::heightAt(const RayHit& hit) const
         if (heightfield.isTiled() && is_exact) {
             height_m = heightfield.heightNow(grid); // the ray may have come a moment too early
         }
+        if (std::isnan(height_m)) {
+            //: In place of an elevation: the map has none there
+            return ReadHeight{.text = tr("no data"), .why_rough = {}};
+        }
         ReadHeight height{.text =
                               heightText(map.info(), heightfield.range().value_or(HeightRange{}),
                                          height_m, unit_)};
