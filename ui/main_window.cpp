@@ -41,13 +41,16 @@
 #include "ui/window/window_memory.h"
 #include "ui/window/window_place.h"
 
+#include <QAbstractSpinBox>
 #include <QActionGroup>
 #include <QCloseEvent>
+#include <QComboBox>
 #include <QCoreApplication>
 #include <QDockWidget>
 #include <QDragEnterEvent>
 #include <QGridLayout>
 #include <QKeyEvent>
+#include <QLineEdit>
 #include <QListWidget>
 #include <QMenu>
 #include <QMenuBar>
@@ -85,6 +88,13 @@ const Layer* titleLayer(const Session& session)
     const std::vector<const Layer*> shown = shownLayers(session);
     const bool is_shown = std::find(shown.begin(), shown.end(), active) != shown.end();
     return is_shown || shown.empty() ? active : shown.front();
+}
+
+bool isEntry(const QWidget& focus)
+{
+    return qobject_cast<const QLineEdit*>(&focus) != nullptr ||
+           qobject_cast<const QAbstractSpinBox*>(&focus) != nullptr ||
+           qobject_cast<const QComboBox*>(&focus) != nullptr;
 }
 
 // The style comes before the first widget.
@@ -142,6 +152,9 @@ MainWindow::MainWindow(const WindowOptions& options, QWidget* parent)
     fillViewMenus();
     explainControls({.view = view_,
                      .overlays = overlays_,
+                     .globe = globe_,
+                     .globe_overlays = globe_overlays_,
+                     .notices = notice_bar_,
                      .readout = readout_,
                      .load_status = load_status_,
                      .docks = docks_,
@@ -454,16 +467,24 @@ bool MainWindow::eventFilter(QObject* watched, QEvent* event)
     return QMainWindow::eventFilter(watched, event);
 }
 
-// Nothing else took the key. Outside the map, Esc leaves a field or panel, and nothing on the map.
+// Nothing else took the key. Outside the map, Esc leaves a field or panel, and nothing on the map;
+// it leaves full screen, too, unless something was being entered.
 void MainWindow::keyPressEvent(QKeyEvent* event)
 {
-    const QWidget* focus = focusWidget();
     if (event->key() != Qt::Key_Escape || event->modifiers() != Qt::NoModifier) {
         QMainWindow::keyPressEvent(event);
-    } else if (QWidget* map = globe_->isHidden() ? static_cast<QWidget*>(view_) : globe_;
-               focus != nullptr && focus != map && !map->isAncestorOf(focus)) {
+        return;
+    }
+    const QWidget* focus = focusWidget();
+    QWidget* map = globe_->isHidden() ? static_cast<QWidget*>(view_) : globe_;
+    const bool is_elsewhere = focus != nullptr && focus != map && !map->isAncestorOf(focus);
+    if (is_elsewhere) {
         map->setFocus(Qt::ShortcutFocusReason);
-    } else if (isFullScreen()) {
+    }
+    if (is_elsewhere && (!isFullScreen() || isEntry(*focus))) {
+        return;
+    }
+    if (isFullScreen()) {
         actions_->full_screen->trigger();
     } else if (commands_->places.features().hasFeature()) {
         commands_->places.features().clear();

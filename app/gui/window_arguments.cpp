@@ -7,7 +7,9 @@
 #include <array>
 #include <charconv>
 #include <cstddef>
+#include <filesystem>
 #include <fmt/format.h>
+#include <fstream>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -55,7 +57,7 @@ Options:
   --size WxH           size of the window in pixels, from 320x240 to 8192x8192
   --geometry WxH+X+Y   size and position of the window
 
-Qt's own options are accepted too, for example -style fusion, -platform offscreen,
+Qt's own options are accepted too, for example -style fusion, -platform xcb,
 -reverse, -stylesheet FILE.
 )";
 
@@ -176,14 +178,15 @@ private:
         const QtOption* const of_qt = is_style ? nullptr : qtOption(withoutDashes(name));
         if (name != "--screenshot" && name != "--size" && !is_geometry && !is_style &&
             of_qt == nullptr) {
-            return usage(name, "unknown option" + didYouMean(name, knownNames()));
+            return usage(name, "unknown option" + suggestionFor(name));
         }
         if (of_qt != nullptr) {
             arguments_.for_qt.push_back(word);
         }
-        if (of_qt != nullptr && (!of_qt->has_value || value)) {
+        if (of_qt != nullptr && !of_qt->has_value) {
             return std::nullopt;
         }
+        const bool is_separate = !value;
         if (!value) {
             if (at_ == given_.size()) {
                 return usage(name, "a value is missing");
@@ -191,8 +194,10 @@ private:
             value = given_[at_++];
         }
         if (of_qt != nullptr) {
-            arguments_.for_qt.push_back(*value);
-            return std::nullopt;
+            if (is_separate) {
+                arguments_.for_qt.push_back(*value);
+            }
+            return of_qt->name == "stylesheet" ? checkStylesheet(name, *value) : std::nullopt;
         }
         if (is_style) {
             arguments_.style = *value;
@@ -200,6 +205,19 @@ private:
         }
         return name == "--screenshot" ? takeScreenshot(*value)
                                       : takeGeometry(name, *value, is_geometry);
+    }
+
+    // Qt goes on without a style sheet that it cannot read.
+    static std::optional<Error> checkStylesheet(const std::string& name, const std::string& file)
+    {
+        const Result<std::string> path = localPathOf(file);
+        if (!path) {
+            return usage(name, path.error().message);
+        }
+        if (!std::ifstream(*path) || std::filesystem::is_directory(*path)) {
+            return usage(name, *path + " is not a file that can be read");
+        }
+        return std::nullopt;
     }
 
     std::optional<Error> takeScreenshot(const std::string& file)
@@ -238,14 +256,21 @@ private:
         return std::nullopt;
     }
 
-    static std::vector<std::string> knownNames()
+    // Dashes are not counted: Qt's options have one or two.
+    static std::string suggestionFor(const std::string& name)
     {
-        std::vector<std::string> names{"--help", "--version", "--screenshot", "--size",
-                                       "--geometry"};
+        std::vector<std::string> names{"help", "version", "screenshot", "size", "geometry"};
+        const std::size_t own_count = names.size();
         for (const QtOption& option : kQtOptions) {
-            names.push_back("-" + std::string(option.name));
+            names.emplace_back(option.name);
         }
-        return names;
+        const std::string nearest = nearestWord(withoutDashes(name), names);
+        if (nearest.empty()) {
+            return {};
+        }
+        const auto own_end = names.begin() + static_cast<std::ptrdiff_t>(own_count);
+        const bool is_own = std::find(names.begin(), own_end, nearest) != own_end;
+        return fmt::format(". Did you mean \"{}{}\"?", is_own ? "--" : "-", nearest);
     }
 
     const std::vector<std::string>& given_;

@@ -1446,20 +1446,12 @@
         <translation>Das Gelände. Ziehen mit der linken Taste tut, was das Werkzeug sagt: verschieben, ertasten oder drehen. Ziehen mit der rechten Taste dreht und neigt, das Rad vergrößert zum Zeiger hin, ein Doppelklick fliegt dorthin, und ein Rechtsklick öffnet ein Menü für den Ort.</translation>
     </message>
     <message>
-        <source>The whole topmost map. The outline is what the view shows. Click or drag to look at another place.</source>
-        <translation>Die ganze oberste Karte. Der Umriss ist, was die Ansicht zeigt. Klicken oder ziehen Sie, um einen anderen Ort zu sehen.</translation>
-    </message>
-    <message>
         <source>The needle points north. Click to turn north to the top.</source>
         <translation>Die Nadel zeigt nach Norden. Ein Klick dreht Norden nach oben.</translation>
     </message>
     <message>
         <source>The length of the bar on the terrain in the middle of the picture.</source>
         <translation>Die Länge des Balkens auf dem Gelände in der Bildmitte.</translation>
-    </message>
-    <message>
-        <source>What the colors of the terrain represent.</source>
-        <translation>Was die Farben des Geländes bedeuten.</translation>
     </message>
     <message>
         <source>Position and elevation under the pointer or under the stylus of a haptic device, read from the full-resolution surface, and how far the drawn surface is off, in pixels.</source>
@@ -1504,6 +1496,22 @@
     <message>
         <source>Shows all layers of one body where they lie on it, or the flat map again.</source>
         <translation>Zeigt alle Layer eines Himmelskörpers dort, wo sie auf ihm liegen, oder wieder die ebene Karte.</translation>
+    </message>
+    <message>
+        <source>The whole topmost map, or all of a body that is seen as a globe. The outline is what the view shows. Click or drag to look at another place.</source>
+        <translation>Die ganze oberste Karte oder, auf dem Globus, der ganze Himmelskörper. Der Umriss ist, was die Ansicht zeigt. Klicken oder ziehen Sie, um einen anderen Ort zu sehen.</translation>
+    </message>
+    <message>
+        <source>What the colors of the terrain represent. Arrows at the ends mean that values beyond them have the color of the end.</source>
+        <translation>Was die Farben des Geländes bedeuten. Pfeile an den Enden bedeuten, dass Werte jenseits davon die Farbe des Endes haben.</translation>
+    </message>
+    <message>
+        <source>How to move over the map with mouse and keys. Each way that was tried gets a check mark. Esc closes the hint, and Help › Keys and Mouse lists everything.</source>
+        <translation>Wie Sie sich mit Maus und Tasten über die Karte bewegen. Was Sie ausprobiert haben, bekommt ein Häkchen. Esc schließt den Hinweis, und Hilfe › Tastatur und Maus nennt alles.</translation>
+    </message>
+    <message>
+        <source>A notice about the active layer, the picture, a file or a device. Its button solves the problem or offers a choice, Details shows where it comes from, and × closes it.</source>
+        <translation>Ein Hinweis zum aktiven Layer, zum Bild, zu einer Datei oder zu einem Gerät. Seine Schaltfläche löst das Problem oder bietet eine Auswahl, „Einzelheiten“ zeigt, woher er kommt, und × schließt ihn.</translation>
     </message>
 </context>
 <context>
@@ -2876,6 +2884,16 @@ y %2</translation>
         <extracomment>A list that is read aloud: %1 is what comes before, %2 a sentence</extracomment>
         <translation>%1. %2</translation>
     </message>
+    <message>
+        <source>T, then drag</source>
+        <extracomment>In the hint over the map: choose the tool by its key, then drag</extracomment>
+        <translation>T, dann ziehen</translation>
+    </message>
+    <message>
+        <source>feel the terrain</source>
+        <extracomment>In the hint over the map: what a drag with the tool Touch does</extracomment>
+        <translation>das Gelände spüren</translation>
+    </message>
 </context>
 <context>
     <name>marsview::GlobeHandScene</name>
@@ -4106,6 +4124,22 @@ Der Hinweis über der Karte sucht oder entfernt sie.</translation>
     <message>
         <source>What to draw</source>
         <translation>Was gezeichnet wird</translation>
+    </message>
+    <message>
+        <source>Chooses what the colors of the terrain represent: elevations with or without shading, the light alone, or slopes. Contour lines can be added.</source>
+        <translation>Wählt, was die Farben des Geländes bedeuten: Höhen mit oder ohne Schattierung, nur das Licht oder die Neigung. Höhenlinien können dazukommen.</translation>
+    </message>
+    <message>
+        <source>Chooses the color ramp of the active layer. The legend shows which color stands for which elevation.</source>
+        <translation>Wählt die Farbskala des aktiven Layers. Die Legende zeigt, welche Farbe für welche Höhe steht.</translation>
+    </message>
+    <message>
+        <source>Chooses the range over which the color ramp of the active layer is spread: the whole range, most elevations, those in the picture, or limits of your own.</source>
+        <translation>Wählt den Bereich, über den die Farbskala des aktiven Layers gespreizt wird: den ganzen Bereich, die meisten Höhen, die Höhen im Bild oder eigene Grenzen.</translation>
+    </message>
+    <message>
+        <source>Finds places of the body in the picture by their names. Type some letters, choose a name from the list or press Return, and the map flies there.</source>
+        <translation>Findet Orte des gezeigten Himmelskörpers nach ihren Namen. Tippen Sie einige Buchstaben und wählen Sie einen Namen aus der Liste oder drücken Sie die Eingabetaste: Die Karte fliegt dorthin.</translation>
     </message>
 </context>
 <context>
@@ -6890,14 +6924,19 @@ A scene: the one that suits the layers</extracomment>
         <translation>%1 öffnen</translation>
     </message>
     <message>
-        <source>%1 (%2 × %3)</source>
-        <extracomment>In a list of rasters: %1 is a name, %2 and %3 are its columns and rows</extracomment>
-        <translation>%1 (%2 × %3)</translation>
-    </message>
-    <message>
         <source>Open Another…</source>
         <extracomment>On a button that lists the other rasters of an archive</extracomment>
         <translation>Weiteres öffnen…</translation>
+    </message>
+    <message>
+        <source>%1 (%2)</source>
+        <extracomment>In a list of rasters: %1 is a name, %2 its size in columns and rows</extracomment>
+        <translation>%1 (%2)</translation>
+    </message>
+    <message>
+        <source>%1 × %2</source>
+        <extracomment>The columns and rows of a raster</extracomment>
+        <translation>%1 × %2</translation>
     </message>
 </context>
 <context>

@@ -1,4 +1,4 @@
-// The maps that come with the program, opened from their menu.
+// Opening files: the maps that come with the program, and files of which some cannot be opened.
 
 #include "tests/support/shared_data.h"
 #include "tests/ui/map_window.h"
@@ -8,6 +8,7 @@
 #include "ui/window/window_actions.h"
 
 #include <QAction>
+#include <QLabel>
 #include <QMenu>
 
 #include <gtest/gtest.h>
@@ -40,6 +41,21 @@ TEST_F(FileOpeningTest, BundledMapsOpenFromTheirMenuAndAreNoRecentFiles)
     bundled().actions().front()->trigger();
     EXPECT_EQ(window_->session().layers.size(), 2U);
     EXPECT_EQ(activeLayer(window_->session())->name, "mars_mola_4ppd.tif");
+}
+
+TEST_F(FileOpeningTest, AMissingProjectDoesNotKeepTheMapsAfterItFromOpening)
+{
+    WindowOptions options = testWindowOptions();
+    options.failures = WindowOptions::Failures::AsNotices;
+    makeWindow(kSmall, options);
+    window_->openAll({maps_.path(QStringLiteral("missing.mvproj")), maps_.hill()});
+    ASSERT_TRUE(waitFor([this] { return !window_->session().layers.empty(); }));
+    ASSERT_TRUE(waitUntilSettled(*window_));
+    EXPECT_EQ(window_->session().layers.size(), 1U);
+    const auto* notice = window_->findChild<QLabel*>(QStringLiteral("noticeText"));
+    EXPECT_TRUE(notice->isVisible());
+    EXPECT_TRUE(notice->text().contains(QStringLiteral("missing.mvproj")))
+        << notice->text().toStdString();
 }
 
 TEST_F(FileOpeningTest, AProgramWithoutItsMapsHasNoMenuOfThem)

@@ -4,11 +4,16 @@
 #include "tests/ui/test_map.h"
 #include "tests/ui/timeout.h"
 #include "ui/canvas/terrain_view.h"
+#include "ui/globe/globe_view.h"
+#include "ui/overlay/compass.h"
 #include "ui/overlay/gesture_hint.h"
 #include "ui/overlay/legend.h"
 #include "ui/overlay/map_overlays.h"
 #include "ui/overlay/minimap.h"
+#include "ui/overlay/scale_bar_view.h"
+#include "ui/widgets/notice_bar.h"
 #include "ui/window/keys_dialog.h"
+#include "ui/window/main_tool_bar.h"
 #include "ui/window/window_actions.h"
 
 #include <QAction>
@@ -17,6 +22,7 @@
 #include <QGroupBox>
 #include <QHelpEvent>
 #include <QLabel>
+#include <QLineEdit>
 #include <QMenu>
 #include <QMenuBar>
 #include <QSettings>
@@ -29,6 +35,7 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <utility>
 
 namespace marsview {
 namespace {
@@ -79,8 +86,8 @@ TEST_F(FirstMinuteTest, TheHintNamesTheGesturesUntilItIsClosed)
     open();
     ASSERT_TRUE(hint().isVisible());
     EXPECT_FALSE(hint().accessibleName().isEmpty());
-    for (const char* word : {"Drag or arrow keys", "Right-drag or Q, E, R, F", "Wheel or Page Up/Down",
-                             "Double-click", "Choose Touch (T)"}) {
+    for (const char* word : {"Drag or arrow keys", "Right-drag or Q, E, R, F",
+                             "Wheel or Page Up/Down", "Double-click", "Choose Touch (T)"}) {
         EXPECT_TRUE(hint().accessibleDescription().contains(QString::fromLatin1(word))) << word;
     }
     for (const QWidget* other : std::initializer_list<const QWidget*>{
@@ -194,6 +201,41 @@ TEST_F(FirstMinuteTest, TheHintGoesWhenAllWasTried)
     EXPECT_FALSE(hint().isVisible());
 }
 
+TEST_F(FirstMinuteTest, KeysCountAsTheGesturesTheyStandFor)
+{
+    const auto press_all = [this](QWidget& map, const GestureHint& shown) {
+        for (const auto& [key, action] :
+             {std::pair{Qt::Key_Left, MapAction::Pan}, std::pair{Qt::Key_Q, MapAction::Orbit},
+              std::pair{Qt::Key_PageUp, MapAction::Zoom}}) {
+            EXPECT_FALSE(shown.isDone(action)) << key;
+            QTest::keyClick(&map, key);
+            EXPECT_TRUE(shown.isDone(action)) << key;
+        }
+    };
+    open();
+    press_all(view(), hint());
+    window_->actionSet().globe->trigger();
+    GlobeView& globe = *window_->globe();
+    ASSERT_TRUE(QTest::qWaitFor([&] { return globe.isVisible(); }, kTimeout));
+    globe.setFocus();
+    ASSERT_TRUE(QTest::qWaitFor([&] { return globe.hasFocus(); }, kTimeout));
+    press_all(globe, *globe.findChild<GestureHint*>());
+}
+
+// With large fonts or scaling the window has this size in points.
+TEST_F(FirstMinuteTest, ASmallWindowKeepsTheSearchReachable)
+{
+    open();
+    window_->resize(640, 390);
+    auto* more =
+        window_->toolBar()->findChild<QToolButton*>(QStringLiteral("qt_toolbar_ext_button"));
+    ASSERT_TRUE(QTest::qWaitFor([&] { return more->isVisible(); }, kTimeout));
+    const QLineEdit& field = window_->toolBar()->searchField();
+    ASSERT_FALSE(field.isVisible());
+    QTest::mouseClick(more, Qt::LeftButton);
+    EXPECT_TRUE(QTest::qWaitFor([&] { return field.isVisible(); }, kTimeout));
+}
+
 TEST_F(FirstMinuteTest, ThereIsNoHintInPicturesOfTheWindow)
 {
     open(WindowOptions::Geometry::Fixed);
@@ -215,6 +257,18 @@ TEST_F(FirstMinuteTest, FullScreenIsEnteredAndLeftByKey)
     ASSERT_TRUE(QTest::qWaitFor([&] { return !window_->isFullScreen(); }, kTimeout));
     EXPECT_FALSE(window_->actionSet().full_screen->isChecked());
     EXPECT_TRUE(hint().isVisible()) << "one thing at a time";
+    // The same from a button, but not from a field.
+    window_->actionSet().full_screen->trigger();
+    ASSERT_TRUE(QTest::qWaitFor([&] { return window_->isFullScreen(); }, kTimeout));
+    window_->toolBar()->searchField().setFocus();
+    QTest::keyClick(&window_->toolBar()->searchField(), Qt::Key_Escape);
+    EXPECT_TRUE(window_->actionSet().full_screen->isChecked());
+    EXPECT_TRUE(view().hasFocus());
+    QWidget* button = window_->findChild<QToolButton*>(QStringLiteral("trueScale"));
+    button->setFocus();
+    QTest::keyClick(button, Qt::Key_Escape);
+    ASSERT_TRUE(QTest::qWaitFor([&] { return !window_->isFullScreen(); }, kTimeout));
+    EXPECT_TRUE(view().hasFocus());
 }
 
 TEST_F(FirstMinuteTest, WhatsThisExplainsTheMainControls)
@@ -232,6 +286,27 @@ TEST_F(FirstMinuteTest, WhatsThisExplainsTheMainControls)
     }
     for (const QAction* action : window_->actionSet().tools->actions()) {
         EXPECT_GT(action->whatsThis().size(), 20);
+    }
+    window_->actionSet().globe->trigger();
+    GlobeView& globe = *window_->globe();
+    ASSERT_TRUE(QTest::qWaitFor([&] { return globe.isVisible(); }, kTimeout));
+    QWidgetList others{&globe,
+                       globe.findChild<Legend*>(),
+                       globe.findChild<Minimap*>(),
+                       globe.findChild<Compass*>(),
+                       globe.findChild<ScaleBarView*>(),
+                       &window_->toolBar()->searchField(),
+                       window_->findChild<NoticeBar*>()};
+    for (QToolButton* button :
+         window_->toolBar()->findChildren<QToolButton*>(QString(), Qt::FindDirectChildrenOnly)) {
+        if (button->objectName() != QStringLiteral("qt_toolbar_ext_button")) {
+            others.append(button);
+        }
+    }
+    EXPECT_GT(others.size(), 17);
+    for (QWidget* control : std::as_const(others)) {
+        EXPECT_GT(control->whatsThis().size(), 20)
+            << control->metaObject()->className() << control->accessibleName().toStdString();
     }
 }
 

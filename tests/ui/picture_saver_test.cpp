@@ -17,6 +17,9 @@
 #include <QFile>
 #include <QFileDialog>
 #include <QFileInfo>
+#include <QLabel>
+#include <QMessageBox>
+#include <QPointer>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QSignalSpy>
@@ -119,6 +122,56 @@ TEST_F(PictureSaverTest, IsBackAtTheSizesIfNoFileIsChosen)
     saveAs(dialog, file);
     EXPECT_EQ(QImage(file).width(), 321);
     EXPECT_EQ(window_->findChild<SavePictureDialog*>(), nullptr);
+}
+
+TEST_F(PictureSaverTest, RefusesAnUnknownEndingBeforeItDraws)
+{
+    SavePictureDialog* dialog = ask();
+    ASSERT_NE(dialog, nullptr);
+    auto* saver = window_->findChild<PictureSaver*>();
+    QSignalSpy drawing(saver, &PictureSaver::progressed);
+    Q_EMIT dialog->fileRequested();
+    QPointer<QFileDialog> files = window_->findChild<QFileDialog*>();
+    ASSERT_NE(files, nullptr);
+    Q_EMIT files->fileSelected(maps_.path(QStringLiteral("p1.xyz")));
+    files->reject();
+    ASSERT_TRUE(waitFor([&] { return files.isNull(); }));
+    EXPECT_EQ(drawing.count(), 0);
+    EXPECT_FALSE(saver->isSaving());
+    auto* refusal = window_->findChild<QMessageBox*>(QStringLiteral("pictureRefused"));
+    ASSERT_NE(refusal, nullptr);
+    EXPECT_TRUE(refusal->text().contains(QStringLiteral(".png, .jpg or .tif")));
+    refusal->accept();
+    // The name is asked for again, with an ending that is known.
+    files = window_->findChild<QFileDialog*>();
+    ASSERT_NE(files, nullptr);
+    ASSERT_FALSE(files->selectedFiles().isEmpty());
+    EXPECT_EQ(QFileInfo(files->selectedFiles().constFirst()).fileName(), QStringLiteral("p1.png"));
+    const QString file = maps_.path(QStringLiteral("p1.png"));
+    Q_EMIT files->fileSelected(file);
+    files->reject();
+    ASSERT_TRUE(waitFor([&] { return drawing.count() > 0 && !saver->isSaving(); }));
+    EXPECT_TRUE(QFileInfo::exists(file));
+}
+
+TEST_F(PictureSaverTest, ASuccessClosesTheNoticeOfTheFailureBefore)
+{
+    WindowOptions options = testWindowOptions();
+    options.failures = WindowOptions::Failures::AsNotices;
+    makeWindow({900, 600}, options);
+    ASSERT_TRUE(openAndWait(*window_, maps_.hill()));
+    auto* saver = window_->findChild<PictureSaver*>();
+    const auto* notice = window_->findChild<QLabel*>(QStringLiteral("noticeText"));
+    const auto has_failure = [notice] {
+        return notice->isVisible() &&
+               notice->text().contains(QStringLiteral("Cannot Save Picture"));
+    };
+    saver->save(QStringLiteral("/no/such/folder/x.png"), view().camera(), choiceOf({64, 48}));
+    ASSERT_TRUE(waitFor([&] { return !saver->isSaving(); }));
+    EXPECT_TRUE(has_failure());
+    saver->save(maps_.path(QStringLiteral("x.png")), view().camera(), choiceOf({64, 48}));
+    ASSERT_TRUE(waitFor([&] { return !saver->isSaving(); }));
+    EXPECT_FALSE(has_failure());
 }
 
 TEST_F(PictureSaverTest, DrawsTheOfferedSizes)

@@ -1,21 +1,28 @@
 // Numbers with their units in a window that runs from right to left: each in its own order.
 
+#include "tests/support/run_program.h"
 #include "tests/ui/hand_window.h"
 #include "tests/ui/widget_walk.h"
 #include "ui/commands/window_commands.h"
 #include "ui/dialogs/preferences_dialog.h"
 #include "ui/dialogs/save_picture_dialog.h"
+#include "ui/panels/georeferencing_panel.h"
 #include "ui/panels/haptics_panel.h"
 #include "ui/views/fly_through_dialog.h"
 #include "ui/views/fly_through_tools.h"
 #include "ui/views/saved_views.h"
+#include "ui/widgets/elided_label.h"
+#include "ui/widgets/notice_bar.h"
 #include "ui/window/status_readout.h"
 #include "ui/window/window_actions.h"
 
 #include <QAction>
 #include <QApplication>
+#include <QLabel>
+#include <QMenu>
 #include <QProgressBar>
 #include <QRegularExpression>
+#include <QToolButton>
 
 #include <gtest/gtest.h>
 
@@ -71,6 +78,59 @@ TEST_F(RightToLeftTest, NumbersStayBeforeTheirUnits)
             << found.place.toStdString() << ": " << found.text.toStdString();
     }
     EXPECT_EQ(outsideIsolates(force->format()), QString());
+}
+
+TEST_F(RightToLeftTest, CaptionsOfFactsAreAtTheSideOfTheirValues)
+{
+    makeWindow(kWithPanels);
+    ASSERT_TRUE(openAndWait(*window_, maps_.mars()));
+    int count = 0;
+    for (const QLabel* label : window_->georeferencingPanel()->findChildren<QLabel*>()) {
+        if (qobject_cast<const ElidedLabel*>(label) == nullptr && label->isVisible() &&
+            !label->text().isEmpty()) {
+            ++count;
+            // Absolute: Qt would go by the letters, which are English here.
+            EXPECT_TRUE(label->alignment().testFlags(Qt::AlignRight | Qt::AlignAbsolute))
+                << label->text().toStdString();
+        }
+    }
+    EXPECT_GT(count, 20);
+}
+
+TEST_F(RightToLeftTest, SizesInTheMenuOfANoticeKeepTheirOrder)
+{
+    makeWindow(kWithPanels);
+    TestMaps::Shape shape;
+    shape.columns = 60;
+    for (const char* name : {"a.asc", "b.asc", "c.asc"}) {
+        maps_.write(QString::fromLatin1(name), shape,
+                    [](int column, int row) { return column + row; });
+    }
+    const QString archive = maps_.path(QStringLiteral("maps.zip"));
+    test::runTool({"python3", "-c",
+                   "import sys, zipfile\n"
+                   "with zipfile.ZipFile(sys.argv[1], 'w') as z:\n"
+                   "    for name in ('a.asc', 'b.asc', 'c.asc'):\n"
+                   "        z.write(sys.argv[2] + name, name)",
+                   archive.toStdString(), maps_.path(QString()).toStdString() + "/"});
+    ASSERT_TRUE(openAndWait(*window_, archive));
+    const auto* bar = window_->findChild<NoticeBar*>();
+    const auto* button = bar->findChild<QToolButton*>(QStringLiteral("noticeAction"));
+    const auto is_of_archive = [bar, button] {
+        const auto* text = bar->findChild<QLabel*>(QStringLiteral("noticeText"));
+        return text->text().contains(QStringLiteral("maps.zip")) && button->menu() != nullptr;
+    };
+    for (int i = 0; i < 5 && !is_of_archive(); ++i) {
+        bar->findChild<QToolButton*>(QStringLiteral("noticeNext"))->click();
+    }
+    ASSERT_TRUE(is_of_archive());
+    ASSERT_EQ(button->menu()->actions().size(), 2);
+    for (const QAction* action : button->menu()->actions()) {
+        EXPECT_TRUE(action->text().contains(QStringLiteral("60 × 40")))
+            << action->text().toStdString();
+        EXPECT_FALSE(outsideIsolates(action->text()).contains(QStringLiteral("×")))
+            << action->text().toStdString();
+    }
 }
 
 TEST_F(RightToLeftTest, NumbersInDialogsAreIsolated)

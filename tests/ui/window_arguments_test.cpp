@@ -46,6 +46,8 @@ TEST(WindowArguments, AnswersHelpAndVersion)
     EXPECT_EQ(*parsed({"--version"})->answer, "marsview 1.2.3\n");
     EXPECT_NE(parsed({"a.tif", "--help"})->answer->find("--screenshot FILE"), std::string::npos);
     EXPECT_FALSE(parsed({})->answer);
+    // The program draws with OpenGL, which this platform of Qt does not have.
+    EXPECT_EQ(parsed({"--help"})->answer->find("-platform offscreen"), std::string::npos);
 }
 
 TEST(WindowArguments, AreRefusedWithTheOptionAndTheReason)
@@ -57,6 +59,11 @@ TEST(WindowArguments, AreRefusedWithTheOptionAndTheReason)
     for (const Case& c :
          {Case{{"--sise", "1x1"}, "--sise: unknown option. Did you mean \"--size\"?"},
           Case{{"-stlye", "fusion"}, "-stlye: unknown option. Did you mean \"-style\"?"},
+          Case{{"--stile", "fusion"}, "--stile: unknown option. Did you mean \"-style\"?"},
+          Case{{"-sise", "1x1"}, "-sise: unknown option. Did you mean \"--size\"?"},
+          Case{{"--stylesheet", "/no/such/file.qss"},
+               "--stylesheet: /no/such/file.qss is not a file that can be read"},
+          Case{{"-stylesheet=/"}, "-stylesheet: / is not a file that can be read"},
           Case{{"--size", "big"}, "--size: \"big\" is not a size"},
           Case{{"--size", "100x100"}, "--size: "}, Case{{"--size", "800x600+1+1"}, "--size: "},
           Case{{"--size"}, "--size: a value is missing"},

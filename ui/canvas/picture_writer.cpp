@@ -8,6 +8,7 @@
 #include <QSaveFile>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 
 namespace marsview {
@@ -53,27 +54,37 @@ Status writeAsTiff(const QImage& image, const QString& file)
 
 } // namespace
 
+Status checkPictureName(const QString& file)
+{
+    constexpr std::array kEndings{"png", "jpg", "jpeg", "tif", "tiff"};
+    const QString ending = QFileInfo(file).suffix().toLower();
+    if (std::any_of(kEndings.begin(), kEndings.end(),
+                    [&](const char* known) { return ending == QLatin1String(known); })) {
+        return Done{};
+    }
+    return Error{ErrorCode::Unsupported,
+                 //: %1 is a file
+                 QCoreApplication::translate(
+                     "PictureWriter",
+                     "%1: unknown picture format; choose a name that ends in .png, .jpg or .tif")
+                     .arg(file)
+                     .toStdString()};
+}
+
 Status writePictureFile(const QImage& picture, const QString& file, const JobMonitor* monitor)
 {
     const Error canceled{ErrorCode::Canceled, "canceled"};
     if (monitor != nullptr && monitor->isCanceled()) {
         return canceled;
     }
+    if (const Status known = checkPictureName(file); !known) {
+        return known.error();
+    }
     const QString ending = QFileInfo(file).suffix().toLower();
     if (ending == QLatin1String("tif") || ending == QLatin1String("tiff")) {
         return writeAsTiff(picture, file);
     }
     const bool is_jpeg = ending == QLatin1String("jpg") || ending == QLatin1String("jpeg");
-    if (!is_jpeg && ending != QLatin1String("png")) {
-        return Error{ErrorCode::Unsupported,
-                     //: %1 is a file
-                     QCoreApplication::translate(
-                         "PictureWriter",
-                         "%1: unknown picture format; choose a name that ends in .png, .jpg or "
-                         ".tif")
-                         .arg(file)
-                         .toStdString()};
-    }
     QSaveFile out(file);
     const auto refusal = [&](const QString& why) {
         return Error{

@@ -6,6 +6,7 @@
 #include <QDir>
 #include <QFileDialog>
 #include <QFileInfo>
+#include <QMessageBox>
 #include <QPainter>
 #include <QRegularExpression>
 #include <QSettings>
@@ -88,10 +89,32 @@ void PictureSaver::chooseFile(SavePictureDialog& sizes,
         dialog->selectFile(base + QLatin1Char('.') + ending);
     });
     connect(dialog, &QFileDialog::fileSelected, this, [this, &sizes, camera](const QString& file) {
+        // Native dialogs cannot be made to check the ending.
+        if (const Status known = checkPictureName(file); !known) {
+            refuse(QString::fromStdString(known.error().message), sizes,
+                   [this, &sizes, file, camera] {
+                       chooseFile(sizes, QFileInfo(file).completeBaseName(), camera);
+                   });
+            return;
+        }
         sizes.accept();
         save(file, camera, sizes.choice());
     });
     dialog->open();
+}
+
+// Before anything is drawn, which may take long. The name is asked for again then.
+void PictureSaver::refuse(const QString& problem,
+                          SavePictureDialog& sizes,
+                          const std::function<void()>& ask_again)
+{
+    auto* box =
+        new QMessageBox(QMessageBox::Warning, tr("Save Picture"), problem, QMessageBox::Ok, &sizes);
+    box->setObjectName(QStringLiteral("pictureRefused"));
+    box->setTextFormat(Qt::PlainText);
+    box->setAttribute(Qt::WA_DeleteOnClose);
+    connect(box, &QMessageBox::finished, &sizes, ask_again);
+    box->open();
 }
 
 void PictureSaver::save(const QString& file, const SceneCamera& camera, const PictureChoice& choice)

@@ -10,6 +10,7 @@
 #include <QObject>
 #include <QString>
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -51,6 +52,9 @@ Q_SIGNALS:
 
 private:
     void chooseFile(SavePictureDialog& sizes, const QString& name, const SceneCamera& camera);
+    void refuse(const QString& problem,
+                SavePictureDialog& sizes,
+                const std::function<void()>& ask_again);
     void write(QImage picture);
     void end();
 

@@ -47,6 +47,10 @@ PlaceCommands::PlaceCommands(const Parts& parts)
     connect(actions.add_annotation_point, &QAction::triggered, this,
             [this] { askPoint([this](GridPoint grid) { parts_.annotating.addPointAt(grid); }); });
     connect(actions.copy_coordinates, &QAction::triggered, this, [this] { copyCoordinates(); });
+    connect(&parts_.tool_bar, &MainToolBar::entryCompleted, this, [this] {
+        QWidget& map = parts_.globe.isHidden() ? static_cast<QWidget&>(parts_.view) : parts_.globe;
+        map.setFocus(Qt::OtherFocusReason);
+    });
     connectReadout();
     connectClicks();
 }

@@ -16,6 +16,30 @@
 #include <utility>
 
 namespace marsview {
+namespace {
+
+// A key counts as the gesture with the same effect.
+MapAction actionOf(NavigationStep step)
+{
+    switch (step) {
+    case NavigationStep::PanLeft:
+    case NavigationStep::PanRight:
+    case NavigationStep::PanAway:
+    case NavigationStep::PanNearer:
+        return MapAction::Pan;
+    case NavigationStep::ZoomIn:
+    case NavigationStep::ZoomOut:
+        return MapAction::Zoom;
+    case NavigationStep::TurnLeft:
+    case NavigationStep::TurnRight:
+    case NavigationStep::TiltUp:
+    case NavigationStep::TiltDown:
+        return MapAction::Orbit;
+    }
+    return MapAction::None;
+}
+
+} // namespace
 
 ViewCommands::ViewCommands(const Parts& parts)
     : parts_(parts)
@@ -40,7 +64,13 @@ ViewCommands::ViewCommands(const Parts& parts)
     for (QAction* action : std::as_const(actions.steps)) {
         connect(action, &QAction::triggered, view,
                 [view, globe, step = static_cast<NavigationStep>(action->data().toInt())] {
-                    globe->isHidden() ? view->step(step) : globe->step(step);
+                    if (globe->isHidden()) {
+                        view->step(step);
+                        Q_EMIT view->gestureMade(actionOf(step));
+                    } else {
+                        globe->step(step);
+                        Q_EMIT globe->gestureMade(actionOf(step));
+                    }
                 });
     }
     connect(actions.next_panel, &QAction::triggered, this,

@@ -16,6 +16,8 @@ namespace marsview {
 namespace {
 
 constexpr int kHintIconSide = 14; // points
+constexpr int kColumnSpacing = 10;
+constexpr int kRowSpacing = 3;
 
 // Both zooms are one line.
 MapAction lineOf(MapAction action)
@@ -38,10 +40,10 @@ GestureHint::GestureHint(QWidget* parent)
     }
     setPalette(colors);
 
-    auto* title = new QLabel(tr("Move over the map"), this);
-    QFont bold = title->font();
+    title_ = new QLabel(tr("Move over the map"), this);
+    QFont bold = title_->font();
     bold.setBold(true);
-    title->setFont(bold);
+    title_->setFont(bold);
     auto* close = new QToolButton(this);
     close->setObjectName(QStringLiteral("closeHint"));
     close->setIcon(lineIcon(QStringLiteral("close"), overlayTextColor()));
@@ -54,10 +56,11 @@ GestureHint::GestureHint(QWidget* parent)
 
     auto* grid = new QGridLayout(this);
     grid->setContentsMargins(kPlatePadding + 3, kPlatePadding, kPlatePadding, kPlatePadding + 1);
-    grid->setHorizontalSpacing(10);
-    grid->setVerticalSpacing(3);
-    grid->addWidget(title, 0, 0, 1, 3);
-    grid->addWidget(close, 0, 3, Qt::AlignRight);
+    grid->setHorizontalSpacing(kColumnSpacing);
+    grid->setVerticalSpacing(kRowSpacing);
+    grid->addWidget(title_, 0, 0, 1, 3);
+    // Over two rows: without the title the button is next to the first line.
+    grid->addWidget(close, 0, 4, 2, 1, Qt::AlignRight | Qt::AlignTop);
     struct Text {
         MapAction action;
         QString gesture;
@@ -70,19 +73,24 @@ GestureHint::GestureHint(QWidget* parent)
         Text{MapAction::Zoom, tr("Wheel"), tr("Page Up/Down"), tr("zoom")},
         Text{MapAction::FlyThere, tr("Double-click"), {}, tr("fly there")},
     };
-    const auto add_mark = [this, grid](std::size_t i, MapAction action, int row) {
+    const auto make_mark = [this, grid](int row) {
         auto* mark = new QLabel(this);
         mark->setFixedSize(kHintIconSide, kHintIconSide);
         grid->addWidget(mark, row, 3, Qt::AlignRight | Qt::AlignVCenter);
-        lines_[i] = {.action = action, .mark = mark};
+        return mark;
     };
-    QString all = title->text();
+    QString all = title_->text();
     int row = 1;
     for (std::size_t i = 0; i < texts.size(); ++i, ++row) {
-        grid->addWidget(new QLabel(texts[i].gesture, this), row, 0);
-        grid->addWidget(new QLabel(texts[i].keys, this), row, 1);
-        grid->addWidget(new QLabel(texts[i].effect, this), row, 2);
-        add_mark(i, texts[i].action, row);
+        Line& line = lines_[i];
+        line.action = texts[i].action;
+        line.gesture = new QLabel(texts[i].gesture, this);
+        line.keys = new QLabel(texts[i].keys, this);
+        line.effect = new QLabel(texts[i].effect, this);
+        grid->addWidget(line.gesture, row, 0);
+        grid->addWidget(line.keys, row, 1);
+        grid->addWidget(line.effect, row, 2);
+        line.mark = make_mark(row);
         const QString ways = texts[i].keys.isEmpty()
                                  ? texts[i].gesture
                                  //: %1 is a gesture of the mouse, %2 keys with the same effect
@@ -90,14 +98,47 @@ GestureHint::GestureHint(QWidget* parent)
         //: A list for screen readers: %1 is the list so far, %2 a gesture, %3 its effect
         all = tr("%1. %2: %3").arg(all, ways, texts[i].effect);
     }
-    auto* touch = new QLabel(tr("Choose Touch (T) and drag to feel the terrain"), this);
-    touch->setFont(bold);
-    grid->setRowMinimumHeight(row, 2);
-    ++row;
-    grid->addWidget(touch, row, 0, 1, 3);
-    add_mark(texts.size(), MapAction::Touch, row);
+    invitation_ = new QLabel(tr("Choose Touch (T) and drag to feel the terrain"), this);
+    invitation_->setFont(bold);
+    grid->addWidget(invitation_, row, 0, 1, 3);
+    Line& touch = lines_.back();
+    touch.action = MapAction::Touch;
+    //: In the hint over the map: choose the tool by its key, then drag
+    touch.gesture = new QLabel(tr("T, then drag"), this);
+    //: In the hint over the map: what a drag with the tool Touch does
+    touch.effect = new QLabel(tr("feel the terrain"), this);
+    touch.gesture->hide();
+    touch.effect->hide();
+    grid->addWidget(touch.gesture, row, 0);
+    grid->addWidget(touch.effect, row, 2);
+    touch.mark = make_mark(row);
     //: A list that is read aloud: %1 is what comes before, %2 a sentence
-    setAccessibleDescription(tr("%1. %2").arg(all, touch->text()));
+    setAccessibleDescription(tr("%1. %2").arg(all, invitation_->text()));
+}
+
+void GestureHint::setForm(Form form)
+{
+    if (form == form_) {
+        return;
+    }
+    form_ = form;
+    title_->setVisible(form < Form::WithoutTitle);
+    const bool is_full = form == Form::Full;
+    for (const Line& line : lines_) {
+        const bool is_shown = (line.action != MapAction::FlyThere || form < Form::WithoutFlights) &&
+                              (line.action != MapAction::Orbit || form < Form::MoveZoomTouch);
+        const bool is_sentence = is_full && line.action == MapAction::Touch;
+        line.gesture->setVisible(is_shown && !is_sentence);
+        line.effect->setVisible(is_shown && !is_sentence);
+        line.mark->setVisible(is_shown);
+        if (line.keys != nullptr) {
+            line.keys->setVisible(is_full);
+        }
+    }
+    invitation_->setVisible(is_full);
+    auto* grid = static_cast<QGridLayout*>(layout());
+    grid->setHorizontalSpacing(is_full ? kColumnSpacing : kColumnSpacing / 2);
+    grid->setVerticalSpacing(is_full ? kRowSpacing : 1);
 }
 
 void GestureHint::markDone(MapAction action)

@@ -19,6 +19,13 @@ class GestureHint final : public QWidget {
 public:
     explicit GestureHint(QWidget* parent = nullptr);
 
+    /// What is shown, from the largest to the smallest.
+    enum class Form { Full, WithoutKeys, WithoutTitle, WithoutFlights, MoveZoomTouch };
+    static constexpr std::array kForms{Form::Full, Form::WithoutKeys, Form::WithoutTitle,
+                                       Form::WithoutFlights, Form::MoveZoomTouch};
+    /// Changes the size hint.
+    void setForm(Form form);
+
     /// The gesture was made on the map.
     void markDone(MapAction action);
     bool isDone(MapAction action) const;
@@ -35,11 +42,17 @@ protected:
 private:
     struct Line {
         MapAction action = MapAction::None;
+        QLabel* gesture = nullptr;
+        QLabel* keys = nullptr; // null without
+        QLabel* effect = nullptr;
         QLabel* mark = nullptr;
         bool is_done = false;
     };
 
+    QLabel* title_ = nullptr;
+    QLabel* invitation_ = nullptr; // to touch, where there is room for a sentence
     std::array<Line, 5> lines_;
+    Form form_ = Form::Full;
 };
 
 } // namespace marsview

@@ -12,6 +12,7 @@
 #include "ui/overlay/compass.h"
 #include "ui/overlay/contour_labels_view.h"
 #include "ui/overlay/crosshair.h"
+#include "ui/overlay/explained_part.h"
 #include "ui/overlay/force_meter.h"
 #include "ui/overlay/gesture_hint.h"
 #include "ui/overlay/hand_pointer.h"
@@ -29,10 +30,8 @@
 
 #include <QAction>
 #include <QApplication>
-#include <QHelpEvent>
 #include <QMouseEvent>
 #include <QPainter>
-#include <QToolTip>
 
 #include <algorithm>
 #include <cmath>
@@ -536,12 +535,9 @@ bool GlobeOverlays::eventFilter(QObject* watched, QEvent* event)
     if (event->type() == QEvent::Enter && watched != &globe_) {
         globe_.forgetPointer();
     }
-    if (event->type() == QEvent::ToolTip && watched == &globe_ && legend_->isVisible()) {
-        const auto* help = static_cast<QHelpEvent*>(event);
-        if (legend_->geometry().contains(help->pos())) {
-            QToolTip::showText(help->globalPos(), legend_->summary(), &globe_, legend_->geometry());
-            return true;
-        }
+    if (watched == &globe_ &&
+        (explainAt(*event, *legend_, legend_->summary()) || explainAt(*event, *scale_bar_, {}))) {
+        return true;
     }
     if (watched == &globe_ && (event->type() == QEvent::MouseButtonPress ||
                                event->type() == QEvent::MouseButtonRelease)) {

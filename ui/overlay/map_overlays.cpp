@@ -7,6 +7,7 @@
 #include "ui/overlay/compass.h"
 #include "ui/overlay/contour_labels_view.h"
 #include "ui/overlay/crosshair.h"
+#include "ui/overlay/explained_part.h"
 #include "ui/overlay/force_meter.h"
 #include "ui/overlay/gesture_hint.h"
 #include "ui/overlay/hand_pointer.h"
@@ -22,11 +23,9 @@
 
 #include <QAction>
 #include <QApplication>
-#include <QHelpEvent>
 #include <QImage>
 #include <QMouseEvent>
 #include <QPainter>
-#include <QToolTip>
 
 #include <algorithm>
 #include <chrono>
@@ -301,12 +300,9 @@ void MapOverlays::setHeightUnit(HeightUnit unit)
 
 bool MapOverlays::eventFilter(QObject* watched, QEvent* event)
 {
-    if (event->type() == QEvent::ToolTip && watched == &view_ && legend_->isVisible()) {
-        const auto* help = static_cast<QHelpEvent*>(event);
-        if (legend_->geometry().contains(help->pos())) {
-            QToolTip::showText(help->globalPos(), legend_->summary(), &view_, legend_->geometry());
-            return true;
-        }
+    if (watched == &view_ &&
+        (explainAt(*event, *legend_, legend_->summary()) || explainAt(*event, *scale_bar_, {}))) {
+        return true;
     }
     if (watched == &view_ && (event->type() == QEvent::MouseButtonPress ||
                               event->type() == QEvent::MouseButtonRelease)) {

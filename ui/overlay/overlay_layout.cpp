@@ -168,7 +168,11 @@ void OverlayLayout::arrange()
         hide(parts_.legend);
     }
     if (isNeeded(parts_.hint)) {
-        put(parts_.hint, inside.topLeft());
+        std::any_of(GestureHint::kForms.begin(), GestureHint::kForms.end(),
+                    [&](GestureHint::Form form) {
+                        parts_.hint->setForm(form);
+                        return put(parts_.hint, inside.topLeft());
+                    });
     } else {
         hide(parts_.hint);
     }

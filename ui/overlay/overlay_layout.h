@@ -30,8 +30,9 @@ struct OverlayParts {
 /// Keeps overlays in the corners of a widget: the minimap in the upper right, compass and scale bar
 /// in the lower right, the legend in the lower left, the hint in the upper left, the force meter at
 /// the bottom in the middle, or as near to that as possible. Mirrored in right-to-left layouts. No
-/// two overlap: in a small view the hint is hidden first, then the legend, the minimap, the compass
-/// and the scale bar. Showing or hiding the force meter neither moves nor hides another overlay.
+/// two overlap: in a small view the hint loses lines and is hidden first, then the legend, the
+/// minimap, the compass and the scale bar. Showing or hiding the force meter neither moves nor
+/// hides another overlay.
 class OverlayLayout final : public QObject {
     Q_OBJECT
 

@@ -143,14 +143,16 @@ void GeoreferencingPanel::edit()
     }
 }
 
-void GeoreferencingPanel::showNotice(const QString& notice)
+void GeoreferencingPanel::showNotice(const QString& notice, NoticeFocus focus)
 {
     pages_->setCurrentWidget(facts_page_);
     const QString text = QStringLiteral("• ") + asSentence(notice);
     for (int i = 0; i < notices_->count(); ++i) {
         auto* label = qobject_cast<QLabel*>(notices_->itemAt(i)->widget());
         if (label != nullptr && label->text() == text) {
-            label->setFocus(Qt::OtherFocusReason);
+            if (focus == NoticeFocus::Take) {
+                label->setFocus(Qt::OtherFocusReason);
+            }
             // Queued: a panel that was closed has no layout yet.
             QMetaObject::invokeMethod(
                 label, [this, label] { facts_page_->ensureWidgetVisible(label); },

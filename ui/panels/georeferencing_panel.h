@@ -36,8 +36,10 @@ public:
 
     /// Switches to the form.
     void edit();
-    /// Reveals one of the notices among the facts.
-    void showNotice(const QString& notice);
+    enum class NoticeFocus { Take, Leave };
+    /// Reveals one of the notices among the facts. It takes the keyboard focus where the user
+    /// works with the keyboard.
+    void showNotice(const QString& notice, NoticeFocus focus);
     /// Why overrides were refused; shows the form.
     void showFailure(const QString& problem);
 

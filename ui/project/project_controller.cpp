@@ -155,7 +155,8 @@ void ProjectController::startNew()
 }
 
 void ProjectController::read(const QString& file,
-                             const std::function<void(const ReadProject&)>& then)
+                             const std::function<void(const ReadProject&)>& then,
+                             const std::function<void()>& otherwise)
 {
     const QString path = QFileInfo(file).absoluteFilePath();
     readSoon(
@@ -163,13 +164,14 @@ void ProjectController::read(const QString& file,
         [path = path.toStdString(), bundled = options_.bundled](JobMonitor& monitor) {
             return readProject(path, bundled, monitor);
         },
-        then);
+        then, otherwise);
 }
 
 // On the pool's thread.
 void ProjectController::readSoon(const QString& file,
                                  const std::function<Result<Project>(JobMonitor&)>& read,
-                                 const std::function<void(const ReadProject&)>& then)
+                                 const std::function<void(const ReadProject&)>& then,
+                                 const std::function<void()>& otherwise)
 {
     const QString text = file.isEmpty()
                              //: In the status bar, of a project that was never saved
@@ -178,16 +180,19 @@ void ProjectController::readSoon(const QString& file,
                              : tr("Reading %1").arg(QFileInfo(file).fileName());
     const auto monitor = work_.begin(*this, text, file);
     readings_.push_back(monitor);
-    pool_.start([this, file, monitor, read, then] {
+    pool_.start([this, file, monitor, read, then, otherwise] {
         const auto project = std::make_shared<const Result<Project>>(read(*monitor));
         QMetaObject::invokeMethod(
             this,
-            [this, file, monitor, then, project] {
+            [this, file, monitor, then, otherwise, project] {
                 std::erase(readings_, monitor);
                 if (*project) {
                     then({.file = file, .project = **project});
                 } else if (project->error().code != ErrorCode::Canceled) {
                     Q_EMIT failed(QString::fromStdString(project->error().message));
+                    if (otherwise) {
+                        otherwise();
+                    }
                 }
                 work_.end(monitor);
                 Q_EMIT idle();

@@ -76,8 +76,11 @@ public:
 
     /// Replaces the session by an empty one.
     void startNew();
-    /// Reads a project file for open(). Calls `then` with it, or emits failed().
-    void read(const QString& file, const std::function<void(const ReadProject&)>& then);
+    /// Reads a project file for open(). Calls `then` with it, or emits failed() and calls
+    /// `otherwise`; neither if reading is canceled.
+    void read(const QString& file,
+              const std::function<void(const ReadProject&)>& then,
+              const std::function<void()>& otherwise = {});
     /// Replaces the session by that of the file.
     void open(const ReadProject& read);
     /// To file(), which is not empty, as the project is now. Emits saved() and calls `then` once it
@@ -129,7 +132,8 @@ private:
 
     void readSoon(const QString& file,
                   const std::function<Result<Project>(JobMonitor&)>& read,
-                  const std::function<void(const ReadProject&)>& then);
+                  const std::function<void(const ReadProject&)>& then,
+                  const std::function<void()>& otherwise = {});
     void takeSaved(const QString& path, const Status& status, const std::function<void()>& then);
     // The outcome of writing the files next to a project.
     struct Companions {

@@ -177,12 +177,13 @@ void ProjectMenu::chooseProject()
 void ProjectMenu::open(const QString& project, const QStringList& maps)
 {
     Q_EMIT requested();
-    parts_.project.read(project, [this, maps](const ReadProject& read) {
+    const auto open_it = [this, maps](const ReadProject& read) {
         saveThen([this, maps, read] {
             parts_.project.open(read);
             parts_.session.open(maps);
         });
-    });
+    };
+    parts_.project.read(project, open_it, [this, maps] { parts_.session.open(maps); });
 }
 
 void ProjectMenu::offerRecovery()

@@ -46,7 +46,8 @@ public:
     void saveThen(const std::function<void()>& next);
     /// Whether saveThen() would ask.
     bool hasQuestion() const;
-    /// Reads a project, opens it once nothing would be lost, and then opens maps on top of it.
+    /// Reads a project, opens it once nothing would be lost, and then opens maps on top of it. If
+    /// the project cannot be read, the maps are opened alone.
     void open(const QString& project, const QStringList& maps = {});
     /// Asks whether to restore what a crash left behind, if anything. A program that was killed a
     /// moment ago may take seconds to end: until then its copy is watched.

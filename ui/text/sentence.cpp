@@ -6,6 +6,7 @@
 #include <QRegularExpression>
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -154,12 +155,24 @@ QRegularExpression patternOf(const char* message)
                               QRegularExpression::DotMatchesEverythingOption);
 }
 
-// A count in groups, as the window shows numbers. Other words, and what the user typed, which is in
-// quotes, stay.
-QString grouped(const QString& words, bool is_quoted)
+// A number as the window shows numbers: a count in groups, others with the digits that resolve a
+// millimeter in 1000 km. Very large and very small ones, other words, and what the user typed,
+// which is in quotes, stay.
+QString asShown(const QString& words, bool is_quoted)
 {
     static const QRegularExpression kCount(QStringLiteral("^[1-9][0-9]{3,14}$"));
-    return is_quoted || !kCount.match(words).hasMatch() ? words : countText(words.toULongLong());
+    static const QRegularExpression kDecimal(QStringLiteral("^-?[0-9]{1,9}[.][0-9]+$"));
+    constexpr int kDigits = 9;
+    constexpr double kLeast = 1e-4; // smaller ones would get an exponent
+    if (is_quoted) {
+        return words;
+    }
+    if (kCount.match(words).hasMatch()) {
+        return countText(words.toULongLong());
+    }
+    const bool is_decimal =
+        kDecimal.match(words).hasMatch() && std::abs(words.toDouble()) >= kLeast;
+    return is_decimal ? shortNumberText(words.toDouble(), kDigits) : words;
 }
 
 // What fills a place may contain percent signs: everything is filled in one pass.
@@ -171,7 +184,7 @@ QString filled(const QString& text, const QRegularExpressionMatch& match)
         if (place > 0) {
             const QString words = match.captured(place);
             result +=
-                translationOf(words).value_or(grouped(words, result.endsWith(QLatin1Char('"'))));
+                translationOf(words).value_or(asShown(words, result.endsWith(QLatin1Char('"'))));
             ++at;
         } else {
             result += text[at];

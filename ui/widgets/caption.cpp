@@ -2,6 +2,7 @@
 
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QStyle>
 
 namespace marsview {
 
@@ -17,6 +18,9 @@ QLabel* makeCaption(const QString& text, QWidget* parent)
     auto* caption = new QLabel(text, parent);
     caption->setForegroundRole(QPalette::PlaceholderText);
     caption->setFont(captionFont(caption->font()));
+    // By the layout: Qt goes by the letters of the text, which may be of another language.
+    caption->setAlignment(QStyle::visualAlignment(caption->layoutDirection(), Qt::AlignLeft) |
+                          Qt::AlignAbsolute | Qt::AlignVCenter);
     return caption;
 }
 

@@ -3,8 +3,11 @@
 #include "ui/text/number_text.h"
 
 #include <QHBoxLayout>
+#include <QKeyEvent>
+#include <QLineEdit>
 #include <QLocale>
 #include <QPainter>
+#include <QScopedValueRollback>
 #include <QSignalBlocker>
 #include <QStyle>
 #include <QStyleOptionSlider>
@@ -12,7 +15,9 @@
 #include <QToolTip>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <utility>
 
 namespace marsview {
 namespace {
@@ -21,6 +26,7 @@ constexpr int kStepsADecade = 6;
 constexpr int kDecimals = 7; // of factors of maps in degrees without georeferencing
 constexpr int kDigitsShown = 4;
 constexpr double kTolerance = 1.001;
+constexpr std::chrono::milliseconds kStepPause{600}; // later steps are another drag
 
 // The slider's position for a factor, rounded down.
 int positionOf(double exaggeration)
@@ -44,10 +50,21 @@ ExaggerationBox::ExaggerationBox(QWidget* parent)
     setAccessibleName(tr("Vertical exaggeration factor"));
     setToolTip(tr("Vertical exaggeration: type a factor, or press + and − in the map"));
     setCorrectionMode(QAbstractSpinBox::CorrectToNearestValue);
+    setFocusPolicy(Qt::StrongFocus); // not by the wheel
+    connect(
+        lineEdit(), &QLineEdit::returnPressed, this,
+        [this] {
+            // The tooltip with the range disappears when the focus moves.
+            if (!std::exchange(is_corrected_, false)) {
+                Q_EMIT entered();
+            }
+        },
+        Qt::QueuedConnection); // the value has been read by then
 }
 
 void ExaggerationBox::stepBy(int steps)
 {
+    const QScopedValueRollback<bool> stepping(is_stepping_, true);
     setValue(steppedExaggeration(value(), steps));
 }
 
@@ -88,7 +105,22 @@ void ExaggerationBox::fixup(QString& text) const
                        //: %1 and %2 are factors of vertical exaggeration
                        tr("Vertical exaggeration goes from ×%1 to ×%2.")
                            .arg(textFromValue(minimum()), textFromValue(maximum())));
+    is_corrected_ = true;
     text = prefix() + textFromValue(std::clamp(valueFromText(text), minimum(), maximum()));
+}
+
+// With nothing typed there is nothing to undo in the box: the keys are those of the window.
+bool ExaggerationBox::event(QEvent* event)
+{
+    if (event->type() == QEvent::ShortcutOverride) {
+        const auto& press = static_cast<const QKeyEvent&>(*event);
+        const bool is_undo = press.matches(QKeySequence::Undo) || press.matches(QKeySequence::Redo);
+        if (is_undo && text() == prefix() + textFromValue(value())) {
+            event->ignore();
+            return true;
+        }
+    }
+    return QDoubleSpinBox::event(event);
 }
 
 ExaggerationSlider::ExaggerationSlider(QWidget* parent)
@@ -96,6 +128,7 @@ ExaggerationSlider::ExaggerationSlider(QWidget* parent)
 {
     setAccessibleName(tr("Vertical exaggeration"));
     setToolTip(tr("Vertical exaggeration (+ and −); the mark is at ×1"));
+    setFocusPolicy(Qt::TabFocus);
     setPageStep(2);
     setMinimumWidth(70);
     setMaximumWidth(130);
@@ -157,16 +190,37 @@ ExaggerationControl::ExaggerationControl(QWidget* parent)
         if (slider_->isSliderDown()) {
             Q_EMIT dragged(chosen);
         } else {
+            step(chosen);
+        }
+    });
+    step_pause_.setSingleShot(true);
+    step_pause_.setInterval(kStepPause);
+    connect(&step_pause_, &QTimer::timeout, this, &ExaggerationControl::dragEnded);
+    connect(slider_, &QSlider::sliderPressed, &step_pause_, &QTimer::stop);
+    connect(slider_, &QSlider::sliderPressed, this, &ExaggerationControl::dragEnded);
+    connect(slider_, &QSlider::sliderReleased, this, &ExaggerationControl::dragEnded);
+    connect(box_, &QDoubleSpinBox::valueChanged, this, [this](double chosen) {
+        if (box_->isStepping()) {
+            step(chosen);
+        } else {
             Q_EMIT requested(chosen);
         }
     });
-    connect(slider_, &QSlider::sliderPressed, this, &ExaggerationControl::dragEnded);
-    connect(slider_, &QSlider::sliderReleased, this, &ExaggerationControl::dragEnded);
-    connect(box_, &QDoubleSpinBox::valueChanged, this, &ExaggerationControl::requested);
+    connect(box_, &ExaggerationBox::entered, this, &ExaggerationControl::entered);
     connect(true_scale_, &QToolButton::clicked, this, [this] {
         true_scale_->setChecked(shown_ == 1.0); // until it is granted
         Q_EMIT requested(1.0);
     });
+}
+
+// Notches of the wheel and repeated keys belong together, as a drag does.
+void ExaggerationControl::step(double exaggeration)
+{
+    if (!step_pause_.isActive()) {
+        Q_EMIT dragEnded();
+    }
+    step_pause_.start();
+    Q_EMIT dragged(exaggeration);
 }
 
 void ExaggerationControl::setRange(const ExaggerationRange& range)

@@ -5,6 +5,7 @@
 
 #include <QDoubleSpinBox>
 #include <QSlider>
+#include <QTimer>
 #include <QWidget>
 
 class QToolButton;
@@ -24,9 +25,24 @@ public:
     double valueFromText(const QString& text) const override;
     QValidator::State validate(QString& text, int& position) const override;
     void fixup(QString& text) const override;
+
+    /// While arrows or the wheel change the value.
+    bool isStepping() const noexcept { return is_stepping_; }
+
+Q_SIGNALS:
+    /// Return was pressed after a factor within the range.
+    void entered();
+
+protected:
+    bool event(QEvent* event) override;
+
+private:
+    bool is_stepping_ = false;
+    mutable bool is_corrected_ = false; // what was typed was beyond the range
 };
 
-/// Round factors, six a decade, counted from ×1 = 0, which is marked.
+/// Round factors, six a decade, counted from ×1 = 0, which is marked. A click does not move the
+/// keyboard focus here.
 class ExaggerationSlider final : public QSlider {
     Q_OBJECT
 
@@ -49,15 +65,20 @@ public:
 
 Q_SIGNALS:
     void requested(double exaggeration);
-    /// As requested(), while the slider is dragged.
+    /// As requested(), while the slider is dragged or follows wheel and keys.
     void dragged(double exaggeration);
-    /// The slider was pressed or released.
+    /// The slider was pressed or released, or wheel and keys pause.
     void dragEnded();
+    /// A factor was typed and completed with Return.
+    void entered();
 
 private:
+    void step(double exaggeration);
+
     ExaggerationSlider* slider_ = nullptr;
     ExaggerationBox* box_ = nullptr;
     QToolButton* true_scale_ = nullptr;
+    QTimer step_pause_; // runs while steps of wheel and keys are one drag
     double shown_ = 1.0;
 };
 

@@ -7,6 +7,7 @@
 #include <QActionGroup>
 #include <QCursor>
 #include <QEvent>
+#include <QKeyEvent>
 #include <QLabel>
 #include <QLineEdit>
 #include <QMenu>
@@ -42,12 +43,14 @@ MainToolBar::MainToolBar(const WindowActions& actions, QWidget* parent)
     caption_ = addWidget(caption);
     addWidget(exaggeration_);
     addSeparator();
-    const auto add_menu = [this](QMenu* menu, const QString& text, const QString& tip) {
+    const auto add_menu = [this](QMenu* menu, const QString& text, const QString& tip,
+                                 const QString& explanation) {
         auto* button = new QToolButton(this);
         button->setText(text);
         button->setIcon(menu->icon());
         button->setToolTip(tip);
         button->setAccessibleName(tip);
+        button->setWhatsThis(explanation);
         button->setMenu(menu);
         button->setPopupMode(QToolButton::InstantPopup);
         // While the menu is open the button does not see that the pointer leaves it.
@@ -58,11 +61,17 @@ MainToolBar::MainToolBar(const WindowActions& actions, QWidget* parent)
         });
         addWidget(button);
     };
-    add_menu(actions.shading, tr("Shading"), tr("What the terrain colors represent"));
+    add_menu(actions.shading, tr("Shading"), tr("What the terrain colors represent"),
+             tr("Chooses what the colors of the terrain represent: elevations with or without "
+                "shading, the light alone, or slopes. Contour lines can be added."));
     //: On a button: color ramps
-    add_menu(actions.ramps, tr("Colors"), tr("Color ramp of the active layer"));
+    add_menu(actions.ramps, tr("Colors"), tr("Color ramp of the active layer"),
+             tr("Chooses the color ramp of the active layer. The legend shows which color stands "
+                "for which elevation."));
     //: On a button: over which elevations the color ramp is spread
-    add_menu(actions.stretches, tr("Stretch"), tr("Color stretch of the active layer"));
+    add_menu(actions.stretches, tr("Stretch"), tr("Color stretch of the active layer"),
+             tr("Chooses the range over which the color ramp of the active layer is spread: the "
+                "whole range, most elevations, those in the picture, or limits of your own."));
     actions.light->setIconText(tr("Light"));
     addAction(actions.light);
     light_button_ = widgetForAction(actions.light);
@@ -76,7 +85,11 @@ MainToolBar::MainToolBar(const WindowActions& actions, QWidget* parent)
     search_->addAction(actions.find_name->icon(), QLineEdit::LeadingPosition);
     search_->setClearButtonEnabled(true);
     search_->setFixedWidth(search_->fontMetrics().averageCharWidth() * kSearchCharacters);
-    search_action_ = addWidget(search_);
+    search_->installEventFilter(this);
+    search_->setWhatsThis(
+        tr("Finds places of the body in the picture by their names. Type some letters, choose a "
+           "name from the list or press Return, and the map flies there."));
+    addWidget(search_);
     // Qt leaves tool buttons out of the round of the Tab key.
     for (QToolButton* button : findChildren<QToolButton*>(QString(), Qt::FindDirectChildrenOnly)) {
         if (button->objectName() != QStringLiteral("qt_toolbar_ext_button")) {
@@ -95,6 +108,7 @@ MainToolBar::MainToolBar(const WindowActions& actions, QWidget* parent)
             &MainToolBar::exaggerationRequested);
     connect(exaggeration_, &ExaggerationControl::dragged, this, &MainToolBar::exaggerationDragged);
     connect(exaggeration_, &ExaggerationControl::dragEnded, this, &MainToolBar::dragEnded);
+    connect(exaggeration_, &ExaggerationControl::entered, this, &MainToolBar::entryCompleted);
     exaggeration_->setEnabled(false);
 }
 
@@ -133,6 +147,20 @@ void MainToolBar::setExaggerationEnabled(bool is_enabled)
     exaggeration_->setEnabled(is_enabled);
 }
 
+// A field without anything to undo leaves the keys to the window.
+bool MainToolBar::eventFilter(QObject* watched, QEvent* event)
+{
+    if (watched == search_ && event->type() == QEvent::ShortcutOverride) {
+        const auto& press = static_cast<const QKeyEvent&>(*event);
+        if ((press.matches(QKeySequence::Undo) && !search_->isUndoAvailable()) ||
+            (press.matches(QKeySequence::Redo) && !search_->isRedoAvailable())) {
+            event->ignore();
+            return true;
+        }
+    }
+    return QToolBar::eventFilter(watched, event);
+}
+
 void MainToolBar::resizeEvent(QResizeEvent* event)
 {
     QToolBar::resizeEvent(event);
@@ -147,8 +175,8 @@ void MainToolBar::changeEvent(QEvent* event)
     }
 }
 
-// As many texts as there is room for, so that nothing moves into the menu at the end: on all
-// buttons, on those whose icons are less known, or on none.
+// As many texts as there is room for, so that little moves into the menu at the end: on all
+// buttons, on those whose icons are less known, or on none. The field for names moves first.
 void MainToolBar::fitTexts()
 {
     const auto set = [](const QList<QToolButton*>& buttons, Qt::ToolButtonStyle style) {
@@ -157,7 +185,6 @@ void MainToolBar::fitTexts()
         }
     };
     caption_->setVisible(true);
-    search_action_->setVisible(true);
     set(general_buttons_, Qt::ToolButtonTextBesideIcon);
     set(special_buttons_, Qt::ToolButtonTextBesideIcon);
     if (sizeHint().width() > width()) {
@@ -168,9 +195,6 @@ void MainToolBar::fitTexts()
     }
     if (sizeHint().width() > width()) {
         caption_->setVisible(false);
-    }
-    if (sizeHint().width() > width()) {
-        search_action_->setVisible(false); // Go to Place finds names, too
     }
 }
 

@@ -25,12 +25,13 @@ public:
     void showExaggeration(double exaggeration);
     void setExaggerationRange(const ExaggerationRange& range);
     void setExaggerationEnabled(bool is_enabled);
-    /// The field for names; hidden where there is no room.
+    /// The field for names; in the menu at the end where there is no room.
     QLineEdit& searchField() const noexcept { return *search_; }
     /// The button of the light, or the toolbar if that button is hidden for lack of space.
     const QWidget& lightAnchor() const;
 
 protected:
+    bool eventFilter(QObject* watched, QEvent* event) override;
     void resizeEvent(QResizeEvent* event) override;
     void changeEvent(QEvent* event) override;
 
@@ -40,6 +41,8 @@ Q_SIGNALS:
     void exaggerationDragged(double exaggeration);
     /// A drag of the slider begins or has ended.
     void dragEnded();
+    /// A field has been completed: the map gets the keyboard focus.
+    void entryCompleted();
 
 private:
     void addKinds(const WindowActions& actions,
@@ -55,7 +58,6 @@ private:
     ExaggerationControl* exaggeration_ = nullptr;
     QWidget* light_button_ = nullptr;
     QLineEdit* search_ = nullptr;
-    QAction* search_action_ = nullptr;
 };
 
 } // namespace marsview

@@ -2,10 +2,13 @@
 
 #include "ui/canvas/terrain_view.h"
 #include "ui/overlay/compass.h"
+#include "ui/overlay/gesture_hint.h"
+#include "ui/overlay/globe_overlays.h"
 #include "ui/overlay/legend.h"
 #include "ui/overlay/map_overlays.h"
 #include "ui/overlay/minimap.h"
 #include "ui/overlay/scale_bar_view.h"
+#include "ui/widgets/notice_bar.h"
 #include "ui/window/load_status.h"
 #include "ui/window/status_readout.h"
 #include "ui/window/window_actions.h"
@@ -24,25 +27,43 @@ QString helpTr(const char* text)
     return QCoreApplication::translate("WhatsThis", text);
 }
 
-} // namespace
-
-void explainControls(const ExplainedControls& controls)
+// The flat map and the globe have the same parts.
+template <typename Overlays>
+void explainMap(QWidget& map, const Overlays& overlays)
 {
-    controls.view->setWhatsThis(helpTr(QT_TRANSLATE_NOOP(
+    map.setWhatsThis(helpTr(QT_TRANSLATE_NOOP(
         "WhatsThis",
         "The terrain. A drag with the left button uses the selected tool: pan, touch or orbit. "
         "A drag with the right button turns and tilts, the wheel zooms to the pointer, a double "
         "click flies there, and a right click opens a menu for the place.")));
-    controls.overlays->minimap()->setWhatsThis(helpTr(QT_TRANSLATE_NOOP(
+    overlays.minimap()->setWhatsThis(helpTr(QT_TRANSLATE_NOOP(
         "WhatsThis",
-        "The whole topmost map. The outline is what the view shows. Click or drag to "
-        "look at another place.")));
-    controls.overlays->compass()->setWhatsThis(helpTr(QT_TRANSLATE_NOOP(
+        "The whole topmost map, or all of a body that is seen as a globe. The outline is what the "
+        "view shows. Click or drag to look at another place.")));
+    overlays.compass()->setWhatsThis(helpTr(QT_TRANSLATE_NOOP(
         "WhatsThis", "The needle points north. Click to turn north to the top.")));
-    controls.overlays->scaleBar()->setWhatsThis(helpTr(QT_TRANSLATE_NOOP(
+    overlays.scaleBar()->setWhatsThis(helpTr(QT_TRANSLATE_NOOP(
         "WhatsThis", "The length of the bar on the terrain in the middle of the picture.")));
-    controls.overlays->legend()->setWhatsThis(
-        helpTr(QT_TRANSLATE_NOOP("WhatsThis", "What the colors of the terrain represent.")));
+    overlays.legend()->setWhatsThis(helpTr(QT_TRANSLATE_NOOP(
+        "WhatsThis",
+        "What the colors of the terrain represent. Arrows at the ends mean that values beyond "
+        "them have the color of the end.")));
+    overlays.hint()->setWhatsThis(helpTr(QT_TRANSLATE_NOOP(
+        "WhatsThis",
+        "How to move over the map with mouse and keys. Each way that was tried gets a check mark. "
+        "Esc closes the hint, and Help › Keys and Mouse lists everything.")));
+}
+
+} // namespace
+
+void explainControls(const ExplainedControls& controls)
+{
+    explainMap(*controls.view, *controls.overlays);
+    explainMap(*controls.globe, *controls.globe_overlays);
+    controls.notices->setWhatsThis(helpTr(QT_TRANSLATE_NOOP(
+        "WhatsThis",
+        "A notice about the active layer, the picture, a file or a device. Its button solves the "
+        "problem or offers a choice, Details shows where it comes from, and × closes it.")));
     controls.readout->setWhatsThis(helpTr(QT_TRANSLATE_NOOP(
         "WhatsThis",
         "Position and elevation under the pointer or under the stylus of a haptic "

@@ -1,10 +1,14 @@
 // The texts of the What's This mode (Shift+F1).
 #pragma once
 
+class QWidget;
+
 namespace marsview {
 
+class GlobeOverlays;
 class LoadStatus;
 class MapOverlays;
+class NoticeBar;
 class StatusReadout;
 class TerrainView;
 class WindowDocks;
@@ -14,6 +18,9 @@ struct WindowActions;
 struct ExplainedControls {
     TerrainView* view = nullptr;
     MapOverlays* overlays = nullptr;
+    QWidget* globe = nullptr;
+    GlobeOverlays* globe_overlays = nullptr;
+    NoticeBar* notices = nullptr;
     StatusReadout* readout = nullptr;
     LoadStatus* load_status = nullptr;
     WindowDocks* docks = nullptr;

@@ -26,6 +26,7 @@ void WindowMessages::show(const QString& message)
 
 void WindowMessages::showSaved(const QString& file)
 {
+    forgetFailures(); // such as that of the attempt before
     //: In the status bar, for a few seconds; %1 is a file
     show(tr("Saved %1").arg(isolated(QDir::toNativeSeparators(file))));
 }

@@ -228,8 +228,11 @@ void WindowNotices::addRasters(Notice& notice, const RasterInfo& info) const
             info.in_archive.size() == 2
                 //: On a button: open another raster of an archive; %1 is its name
                 ? tr("Open %1").arg(name)
-                //: In a list of rasters: %1 is a name, %2 and %3 are its columns and rows
-                : tr("%1 (%2 × %3)").arg(name, countText(raster.columns), countText(raster.rows));
+                //: In a list of rasters: %1 is a name, %2 its size in columns and rows
+                : tr("%1 (%2)").arg(name,
+                                    //: The columns and rows of a raster
+                                    leftToRight(tr("%1 × %2").arg(countText(raster.columns),
+                                                                  countText(raster.rows))));
         notice.actions.append(
             {withoutMnemonics(text),
              [&session, file = QString::fromStdString(raster.name)] { session.open({file}); }});

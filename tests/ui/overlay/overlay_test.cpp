@@ -705,6 +705,25 @@ TEST_F(OverlayLayoutTest, KeepsTheScaleLongestInASmallWindow)
     EXPECT_EQ(checkedCount(), 6) << "all come back";
 }
 
+TEST_F(OverlayLayoutTest, TheHintGetsShorterBeforeItIsHidden)
+{
+    host_.show();
+    resize(1000, 700);
+    const QSize full = hint_->size();
+    // A little less room than all lines with mouse and keys need.
+    resize(10 + full.width() - 1 + 10, 700);
+    ASSERT_FALSE(hint_->isHidden());
+    EXPECT_LT(hint_->width(), full.width());
+    // The map of a window of 1280 × 800 pixels that is scaled to twice its size.
+    resize(432, 294);
+    EXPECT_FALSE(hint_->isHidden());
+    EXPECT_FALSE(legend_->isHidden());
+    EXPECT_FALSE(minimap_->isHidden());
+    checkedCount();
+    resize(1000, 700);
+    EXPECT_EQ(hint_->size(), full);
+}
+
 TEST_F(OverlayLayoutTest, TouchingMovesNothing)
 {
     host_.show();

@@ -8,6 +8,8 @@
 #include "ui/text/sentence.h"
 
 #include <QCoreApplication>
+#include <QLocale>
+#include <QScopeGuard>
 #include <QTranslator>
 
 #include <gtest/gtest.h>
@@ -127,6 +129,25 @@ TEST(TranslatedMessage, LeavesWhatItDoesNotKnow)
          {"", ": ", "out of memory", "/a: b: the moon is full", "CRS: unknown"}) {
         EXPECT_EQ(translatedMessage(QString::fromUtf8(message)), QString::fromUtf8(message));
     }
+}
+
+TEST(TranslatedMessage, ShowsNumbersAsTheWindowDoes)
+{
+    const QLocale before;
+    QLocale::setDefault(QLocale(QLocale::English));
+    const auto restore = qScopeGuard([before] { QLocale::setDefault(before); });
+    const auto shown = [](const char* message) {
+        return translatedMessage(QString::fromUtf8(message)).toStdString();
+    };
+    EXPECT_EQ(
+        shown("\"WGS 84\" (unit degree) cannot place a grid that covers x 376313.6554542635 to "
+              "410000 and y -1.25 to 0.5; choose a projected CRS, or set a geotransform in "
+              "degrees"),
+        "\"WGS 84\" (unit degree) cannot place a grid that covers x 376,313.655 to 410,000 and "
+        "y −1.25 to 0.5; choose a projected CRS, or set a geotransform in degrees");
+    EXPECT_EQ(shown("\"376313.6554542635\" is unknown; use m, km, ft or \"US survey ft\""),
+              "\"376313.6554542635\" is unknown; use m, km, ft or \"US survey ft\"")
+        << "as it was typed";
 }
 
 TEST(TranslatedMessage, HasNoColonBetweenAFileAndItsVerb)

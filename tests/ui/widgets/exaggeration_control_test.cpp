@@ -7,15 +7,18 @@
 #include <QApplication>
 #include <QLineEdit>
 #include <QMouseEvent>
+#include <QSignalSpy>
 #include <QStyle>
 #include <QStyleOptionSlider>
 #include <QTest>
 #include <QToolButton>
 #include <QToolTip>
+#include <QWheelEvent>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <initializer_list>
 
 namespace marsview {
 namespace {
@@ -160,6 +163,85 @@ TEST_F(ExaggerationTest, ADragOfTheSliderIsOneStep)
     }
     QTest::mouseRelease(&slider(), Qt::LeftButton, {}, begin);
     EXPECT_DOUBLE_EQ(view().exaggeration(), 1.0);
+    EXPECT_EQ(steps().index(), count);
+}
+
+TEST_F(ExaggerationTest, ReturnGivesTheKeysBackToTheMap)
+{
+    window_->controller().setExaggeration(2.0);
+    box().setFocus();
+    ASSERT_TRUE(QTest::qWaitFor([this] { return box().hasFocus(); }, kTimeout));
+    type(QStringLiteral("50"));
+    EXPECT_DOUBLE_EQ(view().exaggeration(), 50.0);
+    ASSERT_TRUE(QTest::qWaitFor([this] { return view().hasFocus(); }, kTimeout));
+    QTest::keyClick(QApplication::focusWidget(), Qt::Key_Z, Qt::ControlModifier);
+    EXPECT_DOUBLE_EQ(view().exaggeration(), 2.0);
+    // A factor beyond the range stays to be corrected, with the tooltip that names the range.
+    box().setFocus();
+    ASSERT_TRUE(QTest::qWaitFor([this] { return box().hasFocus(); }, kTimeout));
+    type(QStringLiteral("5000"));
+    QCoreApplication::processEvents();
+    EXPECT_TRUE(box().hasFocus());
+}
+
+TEST_F(ExaggerationTest, TheBoxUndoesWhatIsTypedAndOtherwiseTheWindowDoes)
+{
+    window_->controller().setExaggeration(2.0);
+    window_->controller().setExaggeration(3.0);
+    box().setFocus();
+    ASSERT_TRUE(QTest::qWaitFor([this] { return box().hasFocus(); }, kTimeout));
+    QTest::keyClick(&box(), Qt::Key_Z, Qt::ControlModifier);
+    EXPECT_DOUBLE_EQ(view().exaggeration(), 2.0);
+    QTest::keyClick(&box(), Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
+    EXPECT_DOUBLE_EQ(view().exaggeration(), 3.0);
+    box().selectAll();
+    QTest::keyClicks(&box(), QStringLiteral("7"));
+    ASSERT_NE(box().text(), QStringLiteral("×3"));
+    QTest::keyClick(&box(), Qt::Key_Z, Qt::ControlModifier);
+    EXPECT_EQ(box().text(), QStringLiteral("×3"));
+    EXPECT_DOUBLE_EQ(view().exaggeration(), 3.0);
+}
+
+TEST_F(ExaggerationTest, AClickOnTheSliderKeepsTheKeysOfTheMap)
+{
+    window_->controller().setExaggeration(1.0);
+    view().setFocus();
+    ASSERT_TRUE(QTest::qWaitFor([this] { return view().hasFocus(); }, kTimeout));
+    QTest::mouseClick(&slider(), Qt::LeftButton, {}, handle());
+    EXPECT_TRUE(view().hasFocus());
+    QTest::keyClick(QApplication::focusWidget(), Qt::Key_Plus);
+    EXPECT_DOUBLE_EQ(view().exaggeration(), 1.5);
+}
+
+TEST_F(ExaggerationTest, NotchesOfTheWheelAreOneStepUntilItPauses)
+{
+    window_->controller().setExaggeration(1.0);
+    const int count = steps().count();
+    QSignalSpy pauses(window_->findChild<ExaggerationControl*>(), &ExaggerationControl::dragEnded);
+    const auto roll = [](QWidget& over) {
+        for (int i = 0; i < 3; ++i) {
+            const QPointF at = QRectF(over.rect()).center();
+            QWheelEvent event(at, over.mapToGlobal(at), {}, {0, 120}, Qt::NoButton, Qt::NoModifier,
+                              Qt::NoScrollPhase, false);
+            QApplication::sendEvent(&over, &event);
+        }
+    };
+    for (QWidget* over : std::initializer_list<QWidget*>{&slider(), &box()}) {
+        const double before = view().exaggeration();
+        const int index = steps().index();
+        pauses.clear();
+        roll(*over);
+        EXPECT_GT(view().exaggeration(), before * 2.0);
+        EXPECT_EQ(steps().index(), index + 1);
+        ASSERT_EQ(pauses.count(), 1) << "at the beginning";
+        ASSERT_TRUE(pauses.wait(kTimeout));
+        roll(*over);
+        EXPECT_EQ(steps().index(), index + 2) << "after a pause";
+        ASSERT_TRUE(pauses.wait(kTimeout));
+        steps().undo();
+        steps().undo();
+        EXPECT_DOUBLE_EQ(view().exaggeration(), before);
+    }
     EXPECT_EQ(steps().index(), count);
 }
 

@@ -232,13 +232,13 @@ TEST_F(NoticesTest, DetailsRevealsTheNoticeAmongTheFacts)
         << "the panel shows everything; make the window lower";
     scroll->setValue(scroll->maximum());
     ASSERT_TRUE(fact()->visibleRegion().isEmpty());
+    window_->view()->setFocus();
+    ASSERT_TRUE(QTest::qWaitFor([&] { return window_->view()->hasFocus(); }, kTimeout));
     QTest::mouseClick(noticeButton(bar(), "noticeDetails"), Qt::LeftButton);
     EXPECT_TRUE(QTest::qWaitFor(
-        [&] {
-            return fact()->visibleRegion().boundingRect().height() == fact()->height() &&
-                   fact()->hasFocus();
-        },
+        [&] { return fact()->visibleRegion().boundingRect().height() == fact()->height(); },
         kTimeout));
+    EXPECT_TRUE(window_->view()->hasFocus()) << "the keys of the map stay in effect";
     // The same with the panel closed, and by keyboard.
     window_->docks()->georeferencing()->close();
     noticeButton(bar(), "noticeDetails")->setFocus();
