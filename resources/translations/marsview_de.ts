@@ -1244,6 +1244,10 @@
         <translation>%1 (%2)</translation>
     </message>
     <message>
+        <source>Equal-area net of the lower hemisphere: planes, poles, and their 95 % confidence; dotted: the mean plane, with its pole in a ring</source>
+        <translation>Flächentreues Netz der unteren Halbkugel: Ebenen, Pole und ihre 95-%-Vertrauensbereiche; gepunktet: die mittlere Ebene, ihr Pol im Ring</translation>
+    </message>
+    <message>
         <source>Equal-area net of the lower hemisphere: planes, poles, and their 95 % confidence</source>
         <translation>Flächentreues Netz der unteren Halbkugel: Ebenen, Pole und ihre 95-%-Vertrauensbereiche</translation>
     </message>
@@ -3391,12 +3395,16 @@ y %2</translation>
         <translation>Die Pfeiltasten nach oben und unten lesen den Anteil der Fläche über einer Höhe ab</translation>
     </message>
     <message>
-        <source>Area (km²)</source>
-        <translation>Fläche (km²)</translation>
+        <source>Bars: area (km²)</source>
+        <translation>Balken: Fläche (km²)</translation>
     </message>
     <message>
-        <source>Area (m²)</source>
-        <translation>Fläche (m²)</translation>
+        <source>Bars: area (m²)</source>
+        <translation>Balken: Fläche (m²)</translation>
+    </message>
+    <message>
+        <source>Line: share of the area above</source>
+        <translation>Linie: Anteil der Fläche darüber</translation>
     </message>
     <message>
         <source>Elevation (%1), approximate</source>
@@ -3804,10 +3812,10 @@ Legen Sie hier ein Geländemodell ab, oder öffnen Sie eines mit %1.</translatio
     </message>
     <message>
         <source>Missing: %1.
-The notice above the map locates or removes them.</source>
+Locate or remove what is missing in the notice above the map.</source>
         <extracomment>%1 are the names of layers of a project</extracomment>
         <translation>Es fehlen: %1.
-Der Hinweis über der Karte sucht oder entfernt sie.</translation>
+Was fehlt, lässt sich im Hinweis über der Karte suchen oder entfernen.</translation>
     </message>
     <message>
         <source>Opening…</source>
@@ -4486,10 +4494,6 @@ Der Hinweis über der Karte sucht oder entfernt sie.</translation>
     <message>
         <source>hypsometry</source>
         <translation>hypsometrie</translation>
-    </message>
-    <message>
-        <source>Bars: area of each class, below. Line: share of the area above, at the top.</source>
-        <translation>Balken: Fläche jeder Klasse, unten. Linie: Anteil der Fläche darüber, oben.</translation>
     </message>
     <message>
         <source>Without volumes: no plane fits so large or so empty a border.</source>

@@ -18,15 +18,18 @@
 #include "ui/panels/annotation_list.h"
 #include "ui/panels/annotation_panel.h"
 #include "ui/project/project_controller.h"
+#include "ui/text/coordinate_text.h"
 #include "ui/window/window_actions.h"
 #include "ui/window/window_docks.h"
 
 #include <QActionGroup>
 #include <QApplication>
+#include <QDir>
 #include <QDockWidget>
 #include <QFile>
 #include <QLineEdit>
 #include <QMessageBox>
+#include <QSignalSpy>
 #include <QStatusBar>
 #include <QTest>
 #include <QUndoStack>
@@ -473,6 +476,32 @@ TEST_F(AnnotationTest, FilesOfOtherProgramsComeAndGo)
                                     QItemSelectionModel::Deselect | QItemSelectionModel::Rows);
     EXPECT_EQ(exportTo(QStringLiteral("two.csv")), QString());
     EXPECT_TRUE(importFrom(QStringLiteral("two.csv")).startsWith(QStringLiteral("2 annot")));
+}
+
+// A Shapefile holds one kind of shape.
+TEST_F(AnnotationTest, TheMessageNamesTheShapefilesThatWereWritten)
+{
+    ASSERT_NO_FATAL_FAILURE(drawOneOfEach());
+    const auto named = [this](const QString& name) {
+        QSignalSpy exported(&commands(), &AnnotationCommands::exported);
+        EXPECT_EQ(exportTo(name), QString());
+        QString file = exported.value(0).value(0).toString();
+        EXPECT_TRUE(withPlainDirections(window_->statusBar()->currentMessage())
+                        .endsWith(QDir::toNativeSeparators(file)));
+        return file;
+    };
+    QFile stale(maps_.path(QStringLiteral("a.shp"))); // of an earlier export
+    ASSERT_TRUE(stale.open(QIODevice::WriteOnly));
+    stale.close();
+    EXPECT_EQ(named(QStringLiteral("a.shp")), maps_.path(QStringLiteral("a-*.shp")));
+    for (const char* written : {"a-points.shp", "a-lines.shp", "a-polygons.shp"}) {
+        EXPECT_TRUE(QFile::exists(maps_.path(QString::fromLatin1(written)))) << written;
+    }
+    EXPECT_EQ(named(QStringLiteral("a.gpkg")), maps_.path(QStringLiteral("a.gpkg")));
+    annotating().removeItems({annotating().state().items[2].id, annotating().state().items[1].id});
+    ASSERT_EQ(annotating().annotations().size(), 1U);
+    EXPECT_EQ(named(QStringLiteral("b.shp")), maps_.path(QStringLiteral("b.shp")));
+    EXPECT_TRUE(QFile::exists(maps_.path(QStringLiteral("b.shp"))));
 }
 
 TEST_F(AnnotationTest, AFileOfAnotherBodyIsRefusedWithTheReason)

@@ -26,6 +26,7 @@
 #include <QListWidget>
 #include <QMenu>
 #include <QMouseEvent>
+#include <QScreen>
 #include <QSignalSpy>
 #include <QTest>
 #include <QToolButton>
@@ -264,6 +265,17 @@ TEST_F(VectorToolsTest, AClickSelectsAFeatureAndShowsItsAttributes)
     click(outcrop + QPoint(3, -2));
     EXPECT_EQ(shown(), QStringLiteral("Vector file: ridges.gpkg\nname: Outcrop\nage: 3.5"));
     EXPECT_TRUE(view().hasFocus()) << "the keys are still those of the map";
+    EXPECT_FALSE(
+        picker.card()->frameGeometry().contains(view().mapToGlobal(outcrop + QPoint(3, -2))));
+    EXPECT_EQ(picker.card()->windowType(), Qt::Tool);
+    EXPECT_FALSE(picker.card()->windowFlags().testFlag(Qt::WindowMaximizeButtonHint));
+    // In the lower right corner of the screen there is room only on the other sides.
+    const QPoint corner = picker.card()->screen()->availableGeometry().bottomRight() - QPoint(9, 9);
+    picker.card()->showAt(corner);
+    EXPECT_FALSE(picker.card()->frameGeometry().contains(corner));
+    EXPECT_TRUE(picker.card()->screen()->availableGeometry().contains(
+        picker.card()->frameGeometry().topLeft()));
+    picker.card()->showAt(view().mapToGlobal(outcrop));
     EXPECT_GT(light_around(outcrop), 20);
     click(place_of(18.0, 17.8));
     EXPECT_EQ(shown(), QStringLiteral("Vector file: units.gpkg\nunit: Plains"));

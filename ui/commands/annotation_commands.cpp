@@ -19,6 +19,7 @@
 #include <QMenu>
 #include <QMessageBox>
 
+#include <algorithm>
 #include <utility>
 
 namespace marsview {
@@ -217,15 +218,20 @@ void AnnotationCommands::exportFile(const QString& file)
         const auto written = writeAnnotations(annotations, file.toStdString(), *monitor);
         const std::optional<Error> problem =
             written ? std::nullopt : std::optional(written.error());
-        outlet->post([this, file, monitor, problem] {
+        // Shapefiles hold one kind of shape each.
+        const bool is_one =
+            QFileInfo(file).suffix().compare(QLatin1String("shp"), Qt::CaseInsensitive) != 0 ||
+            std::all_of(annotations.begin(), annotations.end(),
+                        [&annotations](const Annotation& annotation) {
+                            return annotation.shape == annotations.front().shape;
+                        });
+        outlet->post([this, file, monitor, problem, is_one] {
             parts_.work.end(monitor);
             if (!problem) {
-                // Shapefiles hold one kind of shape each.
                 const QFileInfo one(file);
-                Q_EMIT exported(one.exists()
-                                    ? file
-                                    : one.path() + QLatin1Char('/') + one.completeBaseName() +
-                                          QStringLiteral("-*.") + one.suffix());
+                Q_EMIT exported(is_one ? file
+                                       : one.path() + QLatin1Char('/') + one.completeBaseName() +
+                                             QStringLiteral("-*.") + one.suffix());
             } else if (problem->code != ErrorCode::Canceled) {
                 Q_EMIT failed(QString::fromStdString(problem->message));
             }

@@ -7,6 +7,7 @@
 #include "ui/controllers/vector_overlays.h"
 #include "ui/dialogs/place_dialog.h"
 
+#include <QLayout>
 #include <QWidget>
 
 #include <algorithm>
@@ -80,6 +81,10 @@ void FeaturePicker::showCard(const PlaceFacts& facts, QPoint at)
     const auto read = [facts] { return facts; };
     if (card_ && card_->isVisible()) { // it stays where the user has put it
         card_->setReader(read);
+        card_->layout()->activate();
+        if (card_->frameGeometry().contains(at)) { // it has become larger
+            card_->showAt(at);
+        }
         return;
     }
     closeCard();

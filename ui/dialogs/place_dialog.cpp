@@ -27,7 +27,8 @@ constexpr double kScreenShareMax = 0.5; // of its height
 } // namespace
 
 PlaceDialog::PlaceDialog(std::function<PlaceFacts()> read, QWidget* parent)
-    : QDialog(parent)
+    : QDialog(parent,
+              Qt::Tool | Qt::WindowTitleHint | Qt::WindowCloseButtonHint | Qt::CustomizeWindowHint)
     , read_(std::move(read))
     , scroll_(new QScrollArea(this))
 {
@@ -112,9 +113,20 @@ void PlaceDialog::showAt(QPoint place)
     QWidget::show();
     const QScreen* at = QGuiApplication::screenAt(place);
     const QRect screen = (at != nullptr ? at : this->screen())->availableGeometry();
-    QRect card(place + QPoint(12, 12), frameGeometry().size());
-    card.moveRight(std::min(card.right(), screen.right()));
+    // Beside the place, and where both sides lack the room, above or below it.
+    constexpr int kGap = 12;
+    QRect card(place + QPoint(kGap, kGap), frameGeometry().size());
+    if (card.right() > screen.right()) {
+        card.moveRight(place.x() - kGap);
+    }
+    if (card.left() < screen.left()) {
+        card.moveLeft(std::max(screen.left(), screen.right() - card.width()));
+        if (card.bottom() > screen.bottom()) {
+            card.moveBottom(place.y() - kGap);
+        }
+    }
     card.moveBottom(std::min(card.bottom(), screen.bottom()));
+    card.moveTop(std::max(card.top(), screen.top()));
     move(card.topLeft());
 }
 

@@ -86,12 +86,31 @@ void DrawnMarks::noteMove()
     }
 }
 
-const std::vector<DrawnMarks::Mark>& DrawnMarks::knownMarks() const
+// Labels of the neighbor change without a change here: its results arrive, or have other units.
+void DrawnMarks::giveWayToNeighbor()
+{
+    gives_way_ = true;
+    connect(neighbor_, &DrawnMarks::marksChanged, this, [this] {
+        if (marks_ && !areMarksKnown()) {
+            update();
+            Q_EMIT marksChanged();
+        }
+    });
+}
+
+bool DrawnMarks::areMarksKnown() const
 {
     const std::uint64_t revision = drawing_ ? drawing_->handlesRevision() : 0;
-    if (!marks_ || marks_of_ != revision) {
+    return marks_ && marks_of_ == revision &&
+           (!gives_way_ || !drawing_ || given_way_to_ == neighbor_->labelBoxes());
+}
+
+const std::vector<DrawnMarks::Mark>& DrawnMarks::knownMarks() const
+{
+    if (!areMarksKnown()) {
+        given_way_to_ = gives_way_ && drawing_ ? neighbor_->labelBoxes() : std::vector<QRectF>();
         marks_ = drawing_ ? marks() : std::vector<Mark>();
-        marks_of_ = revision;
+        marks_of_ = drawing_ ? drawing_->handlesRevision() : 0;
     }
     return *marks_;
 }
@@ -163,7 +182,7 @@ DrawnMarks::LabelRoom DrawnMarks::roomBeside(const std::vector<QRectF>& marks) c
     }
     if (neighbor_ != nullptr) {
         if (gives_way_) {
-            for (const QRectF& box : neighbor_->labelBoxes()) {
+            for (const QRectF& box : given_way_to_) {
                 room.labels.add(box);
             }
         }

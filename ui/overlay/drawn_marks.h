@@ -40,7 +40,7 @@ public:
     /// is other room.
     void setNeighbor(const DrawnMarks& neighbor) { neighbor_ = &neighbor; }
     /// The labels of the neighbor take their room first. Not for both of two neighbors.
-    void giveWayToNeighbor() { gives_way_ = true; }
+    void giveWayToNeighbor();
     /// Of the labels as they are drawn now, in points. None overlap, also not those of neighbors.
     std::vector<QRectF> labelBoxes() const;
     /// What names of places keep clear of: labels, points and lines.
@@ -102,6 +102,7 @@ private:
     std::optional<QRectF> labelBox(QPointF place, const QSizeF& size, const LabelRoom& room) const;
     QRectF placeOf(const QWidget& obstacle) const;
     const std::vector<Mark>& knownMarks() const;
+    bool areMarksKnown() const;
     void forget();
     void noteMove();
     void showNew();
@@ -112,6 +113,7 @@ private:
     bool gives_way_ = false;
     mutable std::optional<std::vector<Mark>> marks_; // since the last change
     mutable std::uint64_t marks_of_ = 0;             // DrawingBase::handlesRevision()
+    mutable std::vector<QRectF> given_way_to_;       // labels of the neighbor
     mutable QHash<QString, LabelStamp> label_stamps_;
     mutable double label_scale_ = 1.0; // pixels a point, of the stamps
     std::uint64_t painted_of_ = 0;

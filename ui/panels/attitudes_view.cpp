@@ -4,6 +4,7 @@
 #include "ui/controllers/measure_controller.h"
 #include "ui/panels/save_chart_dialog.h"
 #include "ui/plots/stereonet_plot.h"
+#include "ui/text/attitude_text.h"
 #include "ui/text/measure_text.h"
 
 #include <QComboBox>
@@ -14,7 +15,6 @@
 #include <QSaveFile>
 #include <QVBoxLayout>
 
-#include <cmath>
 #include <utility>
 
 namespace marsview {
@@ -76,24 +76,7 @@ QString AttitudesView::statisticsText() const
     if (known->count < 2) {
         return tr("Further attitudes are added to this diagram, with their mean.");
     }
-    const auto whole = [](double degrees) { return measuredAngleText(degrees, 0); };
-    QString text = tr("Attitudes: %1").arg(countText(known->count));
-    //: Of planes: %1 is the strike, %2 the dip
-    text += QLatin1Char('\n') + tr("Mean plane: strike %1, dip %2")
-                                    .arg(whole(known->mean.strike_deg), whole(known->mean.dip_deg));
-    //: Of planes: %1 is the trend, %2 the plunge
-    text +=
-        QLatin1Char('\n') +
-        tr("Mean pole: trend %1, plunge %2").arg(whole(known->trend_deg), whole(known->plunge_deg));
-    if (std::isfinite(known->kappa)) {
-        //: Fisher's concentration of poles
-        text +=
-            QLatin1Char('\n') + tr("Fisher's κ: %1").arg(significantNumberText(known->kappa, 3));
-        text += QLatin1Char('\n') +
-                //: %1 is the half angle of a cone
-                tr("95 % cone: %1").arg(measuredAngleText(known->confidence_deg, 1));
-    }
-    return text;
+    return orientationLines(*known).join(QLatin1Char('\n'));
 }
 
 void AttitudesView::askFile()

@@ -154,7 +154,7 @@ QString LayersPanel::emptyText() const
     }
     if (!missing.isEmpty()) {
         //: %1 are the names of layers of a project
-        return tr("Missing: %1.\nThe notice above the map locates or removes them.")
+        return tr("Missing: %1.\nLocate or remove what is missing in the notice above the map.")
             .arg(QLocale().createSeparatedList(missing));
     }
     return model_->session().missing.empty()

@@ -290,13 +290,8 @@ void MeasurePanel::makeHypsometry()
     save->setToolTip(tr("Save the area by classes of elevation as CSV, PNG, SVG or PDF"));
     save->setObjectName(QStringLiteral("saveHypsometry"));
     connect(save, &QPushButton::clicked, this, &MeasurePanel::saveHypsometry);
-    auto* note = new ElidedLabel(
-        tr("Bars: area of each class, below. Line: share of the area above, at the top."),
-        hypsometry_side_);
-    note->setObjectName(QStringLiteral("hypsometryNote"));
-    note->setForegroundRole(QPalette::PlaceholderText);
     auto* line = new QHBoxLayout;
-    line->addWidget(note, 1);
+    line->addStretch(1);
     line->addWidget(save);
     auto* layout = new QVBoxLayout(hypsometry_side_);
     layout->setContentsMargins(0, 0, 0, 0);

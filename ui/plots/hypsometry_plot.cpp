@@ -21,7 +21,7 @@ constexpr std::size_t kBarsMax = 40;
 constexpr double kSquareKilometersFrom = 1e6; // areas below are labeled in square meters
 constexpr double kBarShare = 0.92;            // of the width of a class
 
-// "20 %": the axis needs no other words.
+// "20 %".
 class PercentTicker final : public QCPAxisTicker {
 public:
     QString
@@ -116,7 +116,8 @@ void HypsometryPlot::fill()
         }
     }
     parts_->curve->data()->set(curve, true);
-    plot.xAxis->setLabel(is_large ? tr("Area (km²)") : tr("Area (m²)"));
+    plot.xAxis->setLabel(is_large ? tr("Bars: area (km²)") : tr("Bars: area (m²)"));
+    plot.xAxis2->setLabel(tr("Line: share of the area above"));
     plot.yAxis->setLabel(
         (is_approximate_ ? tr("Elevation (%1), approximate") : tr("Elevation (%1)"))
             .arg(unitSymbol(unit_)));
@@ -137,6 +138,10 @@ void HypsometryPlot::applyColors()
     const QPalette& colors = palette();
     QCustomPlot& plot = *parts_->plot;
     paintAxes(plot, {plot.xAxis, plot.xAxis2, plot.yAxis}, colors, font());
+    // Half of the last number of an axis lies beyond its end; numbers that are cut are not drawn.
+    const int beyond =
+        QFontMetrics(plot.xAxis2->tickLabelFont()).horizontalAdvance(QStringLiteral("1,000,000"));
+    plot.axisRect()->setMinimumMargins({0, 0, beyond / 2 + 2, 0});
     const PlotInk ink = plotInk(colors);
     QColor bar = ink.text;
     bar.setAlpha(70);

@@ -7,6 +7,7 @@
 #include "ui/plots/profile_plot.h"
 #include "ui/plots/stereonet_plot.h"
 #include "ui/text/annotation_text.h"
+#include "ui/text/attitude_text.h"
 #include "ui/text/body_text.h"
 #include "ui/text/coordinate_text.h"
 #include "ui/text/measure_text.h"
@@ -378,15 +379,24 @@ std::optional<ReportSection> attitudesSection(const ReportSource& source)
     StereonetPlot plot;
     plot.setFont(figureFont(StereonetPlot::pictureSize().width(), 0.5));
     plot.setPlanes(std::move(planes), 0);
-    auto figure =
-        figureOf(plot, reportTr(QT_TRANSLATE_NOOP(
-                           "Report",
-                           "Equal-area net of the lower hemisphere: planes, poles, and their 95 % "
-                           "confidence")));
+    const bool has_mean = plot.statistics()->count > 1;
+    auto figure = figureOf(
+        plot, has_mean
+                  ? reportTr(QT_TRANSLATE_NOOP(
+                        "Report",
+                        "Equal-area net of the lower hemisphere: planes, poles, and their 95 % "
+                        "confidence; dotted: the mean plane, with its pole in a ring"))
+                  : reportTr(QT_TRANSLATE_NOOP(
+                        "Report",
+                        "Equal-area net of the lower hemisphere: planes, poles, and their 95 % "
+                        "confidence")));
     if (!figure) {
         return std::nullopt;
     }
     ReportSection section{.title = reportTr(QT_TRANSLATE_NOOP("Report", "Attitudes"))};
+    if (has_mean) {
+        section.note = orientationLines(*plot.statistics()).join(QStringLiteral(" · "));
+    }
     section.figures.append(std::move(*figure));
     return section;
 }

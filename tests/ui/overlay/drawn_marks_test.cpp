@@ -9,6 +9,7 @@
 #include "ui/overlay/place_mark.h"
 
 #include <QFontMetricsF>
+#include <QSignalSpy>
 
 #include <gtest/gtest.h>
 
@@ -100,6 +101,39 @@ TEST_F(DrawnMarksTest, ResultsAndNamesLeaveEachOthersPointsUncovered)
     for (const DrawnHandle& handle : window_->measuring()->handles()) {
         EXPECT_FALSE(overlaps(names, QRectF(handle.place - QPointF(4.0, 4.0), QSizeF(8.0, 8.0))));
     }
+}
+
+// The name lies where the result will have its label, which the results do not give up.
+TEST_F(DrawnMarksTest, NamesMakeWayForResultsThatArriveLater)
+{
+    const int start = window_->undoStack().index();
+    ASSERT_NO_FATAL_FAILURE(measure({12.0, 15.0}, {20.0, 15.0}));
+    ASSERT_TRUE(isAtRest());
+    ASSERT_EQ(measurements_->labelBoxes().size(), 1U);
+    const QPointF goal = measurements_->labelBoxes()[0].center();
+    window_->undoStack().setIndex(start);
+    const auto name_at = [&](QPointF position) {
+        const auto hit = view().surfaceAt(position);
+        ASSERT_TRUE(hit);
+        annotate(hit->grid);
+        view().setFocus(); // the name is kept
+        ASSERT_TRUE(isAtRest());
+        ASSERT_EQ(annotations_->labelBoxes().size(), 1U);
+    };
+    ASSERT_NO_FATAL_FAILURE(name_at(goal));
+    const QPointF beside = annotations_->labelBoxes()[0].center() - goal;
+    window_->undoStack().setIndex(start);
+    ASSERT_NO_FATAL_FAILURE(name_at(goal - beside));
+    const std::vector<QRectF> before = annotations_->labelBoxes();
+
+    QSignalSpy changed(annotations_, &DrawnMarks::marksChanged);
+    ASSERT_NO_FATAL_FAILURE(measure({12.0, 15.0}, {20.0, 15.0}));
+    ASSERT_TRUE(isAtRest());
+    const std::vector<QRectF> results = measurements_->labelBoxes();
+    ASSERT_EQ(results.size(), 1U);
+    EXPECT_TRUE(overlaps(before, results[0])) << "the name has to make way";
+    EXPECT_FALSE(overlaps(annotations_->labelBoxes(), results[0]));
+    EXPECT_GE(changed.count(), 1) << "names of places make way, too";
 }
 
 TEST_F(DrawnMarksTest, ALabelHasRoomForItsTextInLargerLetters)

@@ -289,7 +289,9 @@ TEST_F(ProjectWindowTest, MeasurementsNameTheLayerThatIsMissing)
     const auto labels = panel->findChildren<QLabel*>();
     EXPECT_TRUE(std::any_of(labels.begin(), labels.end(), [](const QLabel* label) {
         return label->isVisible() &&
-               withPlainDirections(label->text()).startsWith(QStringLiteral("Missing: one.asc."));
+               withPlainDirections(label->text())
+                   .startsWith(
+                       QStringLiteral("Missing: one.asc.\nLocate or remove what is missing "));
     }));
     window_->controller().locate(window_->session().missing.front().id, path("elsewhere.asc"));
     ASSERT_TRUE(waitFor([this] { return window_->session().missing.empty(); }));

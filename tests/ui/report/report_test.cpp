@@ -166,10 +166,12 @@ TEST_F(ReportTest, TheWebPageHoldsEverythingAndNeedsNoOtherFile)
     const QRegularExpression view_box(QStringLiteral("viewBox=\"0 0 (\\d+) "));
     const QRegularExpression size(QStringLiteral("font-size=\"(\\d+)\"[^>]*>\\s*<text"));
     int labels = 0;
+    int whole = 0;
     for (auto it = drawn.globalMatch(page); it.hasNext();) {
         const QRegularExpressionMatch figure = it.next();
         const QString svg =
             QString::fromUtf8(QByteArray::fromBase64(figure.captured(2).toLatin1()));
+        whole += svg.contains(withUnit(QStringLiteral("100"), QStringLiteral("%"))) ? 1 : 0;
         const double pixels = (figure.captured(1) == QStringLiteral("square") ? 420.0 : 720.0) /
                               view_box.match(svg).captured(1).toDouble();
         for (auto label = size.globalMatch(svg); label.hasNext(); ++labels) {
@@ -177,6 +179,7 @@ TEST_F(ReportTest, TheWebPageHoldsEverythingAndNeedsNoOtherFile)
         }
     }
     EXPECT_GT(labels, 20);
+    EXPECT_EQ(whole, 1) << "the last number of the axis of shares is drawn";
     EXPECT_LT(page.indexOf(QStringLiteral("class=\"drawing\"")),
               page.indexOf(QStringLiteral(">Point</th>")))
         << "a diagram is below the results, not below all points";
@@ -299,6 +302,21 @@ TEST_F(ReportTest, NorthIsWhereTheCameraTurnedIt)
                                     .annotating = *window_->annotating()},
                                    {.title = QStringLiteral("x")}, {800, 600});
     EXPECT_NEAR(report.map.north_deg, -30.0, 1e-3);
+}
+
+// 2026-11: they were in the panel alone.
+TEST_F(ReportTest, StatisticsOfAttitudesAreNextToTheStereonet)
+{
+    openMars();
+    measure(MeasurementKind::Attitude, {{500.0, 300.0}, {512.0, 302.0}, {505.0, 312.0}});
+    const QString one = QString::fromUtf8(exported("one.html", {.title = QStringLiteral("x")}));
+    EXPECT_FALSE(one.contains(QStringLiteral("Mean plane")));
+    EXPECT_FALSE(one.contains(QStringLiteral("dotted: the mean plane")));
+    measure(MeasurementKind::Attitude, {{540.0, 300.0}, {552.0, 302.0}, {545.0, 312.0}});
+    const QString two = QString::fromUtf8(exported("two.html", {.title = QStringLiteral("x")}));
+    EXPECT_TRUE(two.contains(QStringLiteral("dotted: the mean plane")));
+    EXPECT_TRUE(two.contains(QRegularExpression(
+        QStringLiteral("Attitudes: 2 · Mean plane: strike \\d+°, dip \\d+° · Mean pole: trend"))));
 }
 
 TEST_F(ReportTest, UnitsAreThoseOfThePreferences)
