@@ -259,6 +259,25 @@ TEST_F(MainWindowTest, TakesAndUndoesToldGeoreferencing)
     EXPECT_NE(view().map()->georeference().body(), nullptr);
 }
 
+// PROJ names a method in the CRS's name, in one word: Hotine_Oblique_Mercator_Azimuth_Center.
+TEST_F(MainWindowTest, LongNamesOfCrssStayInThePanel)
+{
+    ASSERT_TRUE(openAndWait(
+        *window_,
+        maps_.placed("oblique", "+proj=omerc +lat_0=40 +lonc=0 +alpha=35 +gamma=35 +R=3396000",
+                     {-20000.0, 1000.0, 0.0, 15000.0, 0.0, -1000.0})));
+    int count = 0;
+    const GeoreferencingPanel& panel = *window_->georeferencingPanel();
+    for (const QLabel* label : panel.findChildren<QLabel*>()) {
+        if (label->isVisible() && !label->text().isEmpty()) {
+            ++count;
+            EXPECT_LE(label->mapTo(&panel, QPoint(label->width(), 0)).x(), panel.width())
+                << label->text().toStdString();
+        }
+    }
+    EXPECT_GT(count, 20);
+}
+
 TEST_F(MainWindowTest, RefusesGeoreferencingThatMakesNoSenseInItsForm)
 {
     ASSERT_TRUE(openAndWait(*window_, maps_.hill()));

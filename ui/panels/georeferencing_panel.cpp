@@ -33,6 +33,15 @@ QString number(double value)
     return shortNumberText(value, 9);
 }
 
+// One that may be wider than the panel, where no line can break: PROJ's names of methods.
+bool hasLongWord(const QString& text)
+{
+    constexpr qsizetype kLettersMax = 24;
+    const QStringList words = text.split(QLatin1Char(' '));
+    return std::any_of(words.begin(), words.end(),
+                       [](const QString& word) { return word.size() > kLettersMax; });
+}
+
 QLabel* makeFact(QWidget* parent)
 {
     auto* label = new QLabel(parent);
@@ -285,7 +294,11 @@ void GeoreferencingPanel::addPlaceFacts(const Map& map)
         addFact(tr("Radii"), unknown);
     }
     const QString crs_name = info.crs ? QString::fromStdString(info.crs->name()) : QString();
-    addFact(tr("CRS"), info.crs ? (crs_name.isEmpty() ? tr("unnamed") : crs_name) : tr("none"));
+    if (hasLongWord(crs_name)) {
+        addLongFact(tr("CRS"), crs_name);
+    } else {
+        addFact(tr("CRS"), info.crs ? (crs_name.isEmpty() ? tr("unnamed") : crs_name) : tr("none"));
+    }
     if (info.crs) {
         addLongFact(tr("CRS definition (WKT)"), QString::fromStdString(info.crs->wkt()));
     }

@@ -9,8 +9,8 @@
 
 namespace marsview {
 
-/// Whether pictures of high contrast are drawn a second time, with many samples a pixel. In
-/// software that takes four times as long as the first time.
+/// Whether pictures of high contrast are drawn a second time, with nine samples a pixel. In
+/// software that can take several times as long as the first time.
 enum class PictureSmoothing {
     ByContrast,
     Never, // for pictures that are shown smaller than they are, or on paper

@@ -190,7 +190,7 @@ TEST_F(ReportTest, TheWebPageHoldsEverythingAndNeedsNoOtherFile)
     EXPECT_EQ(map.size(), QSize(2000, 1500));
 }
 
-// 2026-11: pictures of steep terrain were drawn a second time, at nine times the samples, for 22 s.
+// 2026-11: pictures of steep terrain were drawn a second time, at nine times the samples.
 TEST_F(ReportTest, PicturesOfHighContrastAreDrawnOnce)
 {
     openMars();
