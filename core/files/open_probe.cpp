@@ -76,7 +76,7 @@ struct Report {
     bool is_out_of_memory = false;
 };
 
-// Signals that other processes send and the kernel sends for lack of memory, not those of a fault.
+// Signals that other processes send, and the kernel when memory runs out; not those of a fault.
 bool isFromOutside(int signal)
 {
     return signal == SIGKILL || signal == SIGTERM || signal == SIGINT || signal == SIGHUP;

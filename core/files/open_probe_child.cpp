@@ -46,17 +46,10 @@ constexpr double kBlockBytesMax = 256e6;
 
 int answers = -1; // the original stdout, before it was redirected away from libraries
 
-void limit(__rlimit_resource_t resource, rlim_t most)
+void limit(__rlimit_resource_t resource, rlim_t soft, rlim_t hard)
 {
-    const rlimit bounds{most, most};
+    const rlimit bounds{soft, hard};
     setrlimit(resource, &bounds);
-}
-
-// At its hard limit a process gets SIGKILL, which anybody may send; before that, SIGXCPU.
-void limitSeconds(rlim_t most)
-{
-    const rlimit bounds{most, most + 1};
-    setrlimit(RLIMIT_CPU, &bounds);
 }
 
 void send(const Json& line)
@@ -329,10 +322,13 @@ int probeMain(const std::vector<std::string>& arguments)
         return 2;
     }
     prctl(PR_SET_DUMPABLE, 0);
-    limit(RLIMIT_CORE, 0);
-    limitSeconds(std::strtoull(arguments[1].c_str(), nullptr, 10) + 1);
+    limit(RLIMIT_CORE, 0, 0);
+    // The soft limit sends SIGXCPU, which says why; the hard one SIGKILL, as other processes may.
+    const rlim_t seconds = std::strtoull(arguments[1].c_str(), nullptr, 10) + 1;
+    limit(RLIMIT_CPU, seconds, seconds + 1);
 #ifndef MARSVIEW_UNLIMITED_MEMORY
-    limit(RLIMIT_DATA, std::strtoull(arguments[0].c_str(), nullptr, 10));
+    const rlim_t bytes = std::strtoull(arguments[0].c_str(), nullptr, 10);
+    limit(RLIMIT_DATA, bytes, bytes);
 #endif
     answers = dup(STDOUT_FILENO);
     // Output of libraries to stdout is redirected to stderr.

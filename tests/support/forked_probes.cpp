@@ -1,5 +1,5 @@
-// Part of test programs that open many rasters: the children that open them first are forked, as
-// those of the window and of the command line are, and not loaded anew each.
+// Part of test programs that open many rasters. The child processes that open them first are
+// forked, as in the window and the command line, because loading a program each time takes longer.
 
 #include "core/files/open_probe.h"
 #include "tests/support/scoped_variable.h"

@@ -227,9 +227,9 @@ TEST_F(MapMenuTest, OffersNothingOutsideTheTerrain)
 
 TEST_F(MapMenuTest, OffersCoordinatesWhereTheMapHasNoData)
 {
-    const TestMaps::Shape beside{.x_lower_left = 800000.0};
+    const TestMaps::Shape apart{.x_lower_left = 800000.0};
     const QString hollow =
-        maps_.write(QStringLiteral("hollow.asc"), beside, [](int column, int row) {
+        maps_.write(QStringLiteral("hollow.asc"), apart, [](int column, int row) {
             return std::hypot(column - 29.5, row - 19.5) < 8.0 ? std::nan("") : 100.0;
         });
     ASSERT_TRUE(openAndWait(*window_, hollow));

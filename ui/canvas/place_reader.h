@@ -38,7 +38,7 @@ public:
     /// The place under the stylus of a haptic device, unless the pointer or a key has just moved;
     /// otherwise under the pointer; or at the crosshair in the middle of the picture, while the
     /// view has the focus and the pointer is not over it or a key moved the camera last. Its height
-    /// is NaN where a map has no data; nothing beside all maps.
+    /// is NaN where a map has no data. Nothing outside all maps.
     std::optional<RayHit> reading() const;
     ReadingSource source() const;
     bool isCrosshairShown() const;

@@ -28,8 +28,8 @@ public:
     /// The terrain straight above or below a place.
     std::optional<GroundPoint> groundBelow(const ScenePoint& place) const;
     std::optional<GroundPoint> cast(const Ray& ray) const;
-    /// Where a map has no data, the place behind its hole: on the level of elevation 0, or of the
-    /// topmost map's lowest or highest terrain. Its height is NaN. For rays that meet no terrain.
+    /// For a ray that meets no terrain: where it passes through a hole of a map, with a height of
+    /// NaN. The hole counts as level, at the elevation of the topmost map that is nearest to 0.
     std::optional<GroundPoint> voidOn(const Ray& ray) const;
     /// Where a point of the terrain is in the scene; without a height, as of voidOn().
     ScenePoint placeOf(const GroundPoint& ground) const;

@@ -113,7 +113,7 @@ void PlaceDialog::showAt(QPoint place)
     QWidget::show();
     const QScreen* at = QGuiApplication::screenAt(place);
     const QRect screen = (at != nullptr ? at : this->screen())->availableGeometry();
-    // Beside the place, and where both sides lack the room, above or below it.
+    // To the right or left of the place, or above or below it where there is no room.
     constexpr int kGap = 12;
     QRect card(place + QPoint(kGap, kGap), frameGeometry().size());
     if (card.right() > screen.right()) {

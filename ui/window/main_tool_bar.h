@@ -25,7 +25,7 @@ public:
     void showExaggeration(double exaggeration);
     void setExaggerationRange(const ExaggerationRange& range);
     void setExaggerationEnabled(bool is_enabled);
-    /// The field for names; in the menu at the end where there is no room.
+    /// The name search. It moves to the overflow menu of the toolbar where there is no room.
     QLineEdit& searchField() const noexcept { return *search_; }
     /// The button of the light, or the toolbar if that button is hidden for lack of space.
     const QWidget& lightAnchor() const;

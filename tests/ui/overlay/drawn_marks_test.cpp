@@ -121,9 +121,9 @@ TEST_F(DrawnMarksTest, NamesMakeWayForResultsThatArriveLater)
         ASSERT_EQ(annotations_->labelBoxes().size(), 1U);
     };
     ASSERT_NO_FATAL_FAILURE(name_at(goal));
-    const QPointF beside = annotations_->labelBoxes()[0].center() - goal;
+    const QPointF offset = annotations_->labelBoxes()[0].center() - goal;
     window_->undoStack().setIndex(start);
-    ASSERT_NO_FATAL_FAILURE(name_at(goal - beside));
+    ASSERT_NO_FATAL_FAILURE(name_at(goal - offset));
     const std::vector<QRectF> before = annotations_->labelBoxes();
 
     QSignalSpy changed(annotations_, &DrawnMarks::marksChanged);
