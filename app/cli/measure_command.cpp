@@ -318,6 +318,9 @@ Status runArea(const AreaCommand& options)
     if (!input) {
         return std::move(input).error();
     }
+    if (const Status base = checkVolumeBase(input->terrain->ground(), options.options()); !base) {
+        return Error{base.error().code, "--base: " + base.error().message};
+    }
     LongJob job("measuring");
     const Result<TerrainArea> area =
         measureArea(*input->terrain, input->positions, options.options(), job.monitor());

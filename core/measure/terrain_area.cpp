@@ -480,6 +480,20 @@ double farthestBaseM(const Ground& ground) noexcept
 
 } // namespace
 
+Status checkVolumeBase(const Ground& ground, const AreaOptions& options)
+{
+    if (options.base != VolumeBase::Elevation ||
+        std::abs(options.base_m) <= farthestBaseM(ground)) {
+        return Done{};
+    }
+    return Error{ErrorCode::OutOfRange,
+                 fmt::format("an elevation of {:g} m is farther from 0 than {}; use one between "
+                             "{:.0f} and {:.0f} m",
+                             options.base_m,
+                             ground.ellipsoid() ? "the body's radius" : "any terrain",
+                             -farthestBaseM(ground), farthestBaseM(ground))};
+}
+
 Result<TerrainArea> measureArea(MeasuredTerrain& terrain,
                                 std::span<const GroundPosition> vertices,
                                 const AreaOptions& options,
@@ -492,14 +506,8 @@ Result<TerrainArea> measureArea(MeasuredTerrain& terrain,
     if (Status status = checkPositions(ground, vertices, 3, "an area"); !status) {
         return std::move(status).error();
     }
-    if (options.base == VolumeBase::Elevation &&
-        !(std::abs(options.base_m) <= farthestBaseM(ground))) {
-        return Error{ErrorCode::OutOfRange,
-                     fmt::format("a base at an elevation of {:g} m is farther from 0 than {}; use "
-                                 "one between {:.0f} and {:.0f} m",
-                                 options.base_m,
-                                 ground.ellipsoid() ? "the body's radius" : "any terrain",
-                                 -farthestBaseM(ground), farthestBaseM(ground))};
+    if (Status status = checkVolumeBase(ground, options); !status) {
+        return std::move(status).error();
     }
     const GroundPolygon polygon = ground.polygon(vertices);
     Result<PolygonOutline> edges = outlineOf(terrain, vertices);

@@ -44,14 +44,18 @@ struct TerrainArea {
     bool is_approximate = false;
 };
 
+/// OutOfRange if a level base is farther from elevation 0 than the body's radius, or than 1e8 m on
+/// a plane.
+Status checkVolumeBase(const Ground& ground, const AreaOptions& options);
+
 /// Of the closed polygon with these vertices, whose edges are geodesics. Triangles are clipped at
 /// the edges, each part of terrain counts with its own area on the ellipsoid: heights are not
 /// scaled by the distance to the body's center. The plane through the border is that of elevations
 /// over east and north in the local frame, so it follows the curvature of the body.
 ///
-/// Invalid for fewer than three vertices and coordinates that are none; OutOfRange if edges leave
-/// the map's projection, a level base is farther from 0 than the body's radius, a plane reaches
-/// across a sixth of its circumference, or classes are too many; Canceled; errors of reading.
+/// Invalid for fewer than three vertices and coordinates that are none; OutOfRange as
+/// checkVolumeBase(), if edges leave the map's projection, a plane reaches across a sixth of the
+/// body's circumference, or classes are too many; Canceled; errors of reading.
 Result<TerrainArea> measureArea(MeasuredTerrain& terrain,
                                 std::span<const GroundPosition> vertices,
                                 const AreaOptions& options,

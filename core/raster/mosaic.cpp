@@ -383,24 +383,26 @@ makeMosaic(const std::string& folder, const Listing& listing, int band)
         return Error{ErrorCode::Unsupported,
                      fmt::format("{}: its rasters do not form a mosaic: {}", folder, why)};
     };
+    const auto refuse_together = [&refuse](const std::string& why) {
+        return refuse(why + "; open them one by one");
+    };
     const RasterInfo& first = parts.front().info;
     std::vector<MosaicPart> grids;
     for (const Part& part : parts) {
         if (const std::string why = mismatch(part.info, first, nameOf(parts.front()));
             !why.empty()) {
-            return refuse(fmt::format("{} {}", nameOf(part), why));
+            return refuse_together(fmt::format("{} {}", nameOf(part), why));
         }
         grids.push_back({nameOf(part), *part.info.transform, {part.info.columns, part.info.rows}});
     }
     const Result<MosaicGrid> grid =
         layOutMosaic(grids, first.crs ? first.crs->turn() : std::nullopt);
     if (!grid) {
-        return refuse(grid.error().message);
+        return refuse_together(grid.error().message);
     }
     if (grid->covered < kCoveredMin) {
-        return refuse(
-            fmt::format("they are far apart and cover {:.1g} % of the rectangle around them; "
-                        "open them one by one",
+        return refuse_together(
+            fmt::format("they are far apart and cover {:.1g} % of the rectangle around them",
                         100.0 * grid->covered));
     }
     if (const Status size = checkMapSize(grid->size.columns, grid->size.rows); !size) {

@@ -340,6 +340,7 @@ TEST(MeasureArea, IsThatOfPlanimeterWithVolumesOnRequest)
         const ProgramOutput absurd = measured("area", bundledMars(), polygon, {"--base", base});
         EXPECT_EQ(absurd.exit_status, 1);
         EXPECT_EQ(absurd.out, "");
+        EXPECT_THAT(absurd.err, HasSubstr("--base: an elevation of "));
         EXPECT_THAT(absurd.err, HasSubstr("is farther from 0 than the body's radius; use one "
                                           "between -3396000 and 3396000 m"));
     }

@@ -361,9 +361,9 @@ TEST_F(MosaicTest, SaysWhatDoesNotFit)
     };
     const GridWindow east{30, 0, 31, kRows};
     EXPECT_THAT(refused_with(east, {"-ot", "Int16"}),
-                EndsWith("b.tif holds Int16 samples, a.tif holds Float32"));
+                EndsWith("b.tif holds Int16 samples, a.tif holds Float32; open them one by one"));
     EXPECT_THAT(refused_with(east, {"-a_srs", "EPSG:32611"}),
-                EndsWith("b.tif has the CRS WGS 84 / UTM zone 11N, a.tif has none"));
+                HasSubstr("b.tif has the CRS WGS 84 / UTM zone 11N, a.tif has none; open"));
     EXPECT_THAT(refused_with(east, {"-a_scale", "0.5"}),
                 HasSubstr("b.tif has elevations in another unit"));
     EXPECT_THAT(refused_with(east, {"-tr", "2", "2"}), HasSubstr("b.tif has pixels of 2 × -2"));
