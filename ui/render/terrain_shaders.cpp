@@ -388,10 +388,10 @@ vec3 rampColor(float share)
     return texture(u_ramp, vec2(share * (1.0 - 1.0 / RAMP_TEXELS) + 0.5 / RAMP_TEXELS, 0.5)).rgb;
 }
 
-#ifdef VOIDS
 const float kTexels = 256.0;
 const float kBorder = 8.0;
 
+#ifdef VOIDS
 // The triangles between samples, as core/terrain/triangulation.h cuts them.
 bool isInHole(vec2 place)
 {
@@ -511,11 +511,12 @@ bool isCovered()
 uniform vec2 u_contour;     // lines per metre, and the line at height 0
 uniform float u_contour_px; // the width of a line, in pixels that are drawn
 
-// The share of a line on this pixel: 1 width, every fifth 1.8.
-float contour(float height)
+// The share of a line on this pixel: 1 width, every fifth 1.8. The second number is by how much the
+// height differs between pixels.
+float contour(float height, float across)
 {
     float line = height * u_contour.x + u_contour.y;
-    float per_pixel = max(fwidth(line), 1e-6) * u_contour_px;
+    float per_pixel = max(across * u_contour.x, 1e-6) * u_contour_px;
     float nearest = floor(line + 0.5);
     float width = abs(nearest - 5.0 * floor(nearest / 5.0 + 0.5)) < 0.25 ? 1.8 : 1.0;
     float ink = clamp(0.5 * width + 0.5 - abs(line - nearest) / per_pixel, 0.0, 1.0);
@@ -524,13 +525,18 @@ float contour(float height)
 }
 #endif
 
+// From 0, where samples are at most half as wide as pixels, to 1, where they are as wide.
+float largeSamples()
+{
+    return clamp(2.0 * u_sample_px * gl_FragCoord.w - 1.0, 0.0, 1.0);
+}
+
 // Over the base. The relief's, which has a texel for a pixel whatever the mesh: a mesh that is as
 // exact as the picture shows can be much coarser than what colors and lines show. Where the mesh has
 // every sample and those are larger than pixels, that of the triangles between them.
 float colorHeight(float relief)
 {
-    float large = clamp(u_sample_px * gl_FragCoord.w - 1.0, 0.0, 1.0);
-    float own = max(v_color_heights.z, v_exact * large);
+    float own = max(v_color_heights.z, v_exact * largeSamples());
     return mix(relief * v_color_heights.x + v_color_heights.y, v_height, own);
 }
 
@@ -587,29 +593,105 @@ uniform vec4 u_grid;   // column per east, per north, row per east, per north
 const float kFacingMin = 0.1;       // of the sine of the angle between ray and ground
 const float kShiftMax = 6.0 / 272.0; // texels: fewer than a tile's border
 
+// Where samples are wider than pixels, colors are those of the triangles between them: the relief
+// is bent there. The mesh may have fewer samples; where each has a texel, its triangle, as
+// core/terrain/triangulation.h cuts them, is that of three texels.
+struct Triangle {
+    float height;
+    vec2 slope;  // per unit of v_relief
+    float share; // 0: the relief's height counts, 1: this one
+};
+
+Triangle triangleAt(vec2 place)
+{
+    float share = largeSamples() * (1.0 - v_color_heights.z);
+    if (v_exact >= 1.0 || fract(v_layer) < 0.1) {
+        share = 0.0;
+    }
+    if (share <= 0.0) {
+        return Triangle(0.0, vec2(0.0), 0.0);
+    }
+    float side = kTexels + 2.0 * kBorder;
+    vec2 texel = place * side - 0.5;
+    ivec3 cell = ivec3(floor(texel), int(v_layer + 0.5));
+    vec2 f = fract(texel);
+    bool is_upper = f.x >= f.y;
+    vec2 first = texelFetch(u_relief, cell, 0).ba;
+    vec2 third = texelFetch(u_relief, cell + (is_upper ? ivec3(1, 0, 0) : ivec3(0, 1, 0)), 0).ba;
+    vec2 last = texelFetch(u_relief, cell + ivec3(1, 1, 0), 0).ba;
+#ifdef VOIDS
+    share = min(first.y, min(third.y, last.y)) < 0.5 ? 0.0 : share;
+#endif
+    vec2 rise = vec2(third.x - first.x, last.x - third.x);
+    rise = is_upper ? rise : rise.yx;
+    return Triangle((first.x + dot(rise, f)) * v_color_heights.x + v_color_heights.y,
+                    rise * (side * v_color_heights.x), share);
+}
+
+float heightOn(Triangle triangle, float relief)
+{
+    return mix(colorHeight(relief), triangle.height, triangle.share);
+}
+
+// How a ray moves over the relief, per unit of `ray`, which is in meters.
+#ifdef BODY
+vec3 rayHere()
+{
+    return v_ray;
+}
+
+vec2 alongRelief(vec3 ray)
+{
+    ray.xy = ray.xy * v_turn; // in the directions of the relief
+#else
+vec3 rayHere()
+{
+    return u_ray[0] + gl_FragCoord.x * u_ray[1] + gl_FragCoord.y * u_ray[2];
+}
+
+vec2 alongRelief(vec3 ray)
+{
+#endif
+    return vec2(dot(u_grid.xy, ray.xy), dot(u_grid.zw, ray.xy)) * v_relief_per_sample;
+}
+
 // The mesh may be off by a pixel: where that shows other ground, colors are off by far more than a
 // pixel's worth on slopes. A Newton step along the ray from the mesh to the relief, with its slope.
-vec4 reliefOnRay(vec4 relief)
+// Also finds the triangle there.
+vec4 reliefOnRay(vec4 relief, out Triangle triangle)
 {
-#ifdef BODY
-    vec3 ray = v_ray;
+    vec3 ray = rayHere();
+    triangle = triangleAt(v_relief);
     float facing = dot(slopeOf(relief), ray.xy) * u_slope_unit_true - ray.z;
-    vec2 along = ray.xy * v_turn; // in the directions of the relief
-#else
-    vec3 ray = u_ray[0] + gl_FragCoord.x * u_ray[1] + gl_FragCoord.y * u_ray[2];
-    float facing = dot(relief.rg, ray.xy) * u_slope_unit_true - ray.z;
-    vec2 along = ray.xy;
-#endif
-    float way = (v_height - colorHeight(relief.b)) / max(facing, kFacingMin * length(ray));
-    vec2 shift = vec2(dot(u_grid.xy, along), dot(u_grid.zw, along)) * (way * v_relief_per_sample);
-    vec2 place = v_relief + clamp(shift, -kShiftMax, kShiftMax);
+    float way = (v_height - heightOn(triangle, relief.b)) / max(facing, kFacingMin * length(ray));
+    vec2 place = v_relief + clamp(alongRelief(ray) * way, -kShiftMax, kShiftMax);
     vec4 met = textureGrad(u_relief, vec3(place, v_layer), dFdx(v_relief), dFdy(v_relief));
 #ifdef VOIDS
-    return met.a < 0.5 ? relief : withoutVoids(met);
-#else
-    return met;
+    if (met.a < 0.5) {
+        return relief;
+    }
+    met = withoutVoids(met);
 #endif
+    triangle = triangleAt(place);
+    return met;
 }
+
+#ifdef CONTOURS
+// By how much the height differs between pixels. On a triangle that of its plane, which neighbors
+// on another triangle do not tell: rays of neighboring pixels meet the mesh where it tells, and go
+// on from there to the plane.
+float acrossPixels(float height, Triangle triangle)
+{
+    float seen = fwidth(height);
+    vec3 ray = rayHere();
+    float rise = dot(triangle.slope, alongRelief(ray));
+    float facing = max(rise - ray.z, kFacingMin * length(ray));
+    vec2 along_mesh = vec2(dot(triangle.slope, dFdx(v_relief)), dot(triangle.slope, dFdy(v_relief)));
+    vec2 to_plane = (vec2(dFdx(v_height), dFdy(v_height)) - along_mesh) / facing;
+    vec2 across = abs(along_mesh + rise * to_plane);
+    return mix(seen, across.x + across.y, triangle.share);
+}
+#endif
 #endif
 
 void main()
@@ -623,13 +705,22 @@ void main()
     float share = relief.a;
 #endif
 #ifdef RAY_CORRECTED
-    relief = reliefOnRay(relief);
-#endif
-    vec2 slope = slopeOf(relief);
+    Triangle triangle;
+    relief = reliefOnRay(relief, triangle);
+    float height = heightOn(triangle, relief.b);
+#else
     float height = colorHeight(relief.b);
 #endif
+    vec2 slope = slopeOf(relief);
+#endif
 #ifdef CONTOURS
-    float ink = contour(height); // before any pixel is given up: it takes differences between them
+    // Before any pixel is given up: these are differences between them.
+#if defined(RAY_CORRECTED) && !defined(WALL)
+    float across = acrossPixels(height, triangle);
+#else
+    float across = fwidth(height);
+#endif
+    float ink = contour(height, across);
 #endif
 #ifdef VOIDS
     vec2 texel = v_relief * (kTexels + 2.0 * kBorder);
