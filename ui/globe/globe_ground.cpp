@@ -1,6 +1,11 @@
 #include "ui/globe/globe_ground.h"
 
+#include "core/globe/body_motion.h"
+
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 
 namespace marsview {
 
@@ -26,6 +31,30 @@ std::optional<BodyScenePoint> GlobeGround::below(const ScenePoint& place,
                           .hit = {.grid = *grid,
                                   .height_m = scene.maps()[*index].heightOnGrid(*grid),
                                   .distance_m = length(place - eye)}};
+}
+
+std::optional<BodyScenePoint> GlobeGround::voidOn(const Ray& ray) const
+{
+    const HeightRange range = scene.range();
+    const double level_m = std::clamp(0.0, range.minimum_m, range.maximum_m) * style.exaggeration;
+    const ScenePoint point =
+        pointOnBody(ray, ellipsoid(), ScenePoint{ellipsoid().equatorial_m + level_m, 0.0, 0.0});
+    const double distance_m = dot(point - ray.origin, ray.direction);
+    constexpr double kOnRay = 1e-6; // of the body's radius: otherwise the ray passes the body
+    if (length(ray.at(distance_m) - point) > kOnRay * ellipsoid().equatorial_m) {
+        return std::nullopt;
+    }
+    const GeographicPoint foot = placeOf(point, ellipsoid()).foot;
+    for (std::size_t i = 0; i < scene.maps().size(); ++i) {
+        const auto grid = scene.maps()[i].gridAt(foot);
+        if (grid && std::isnan(scene.maps()[i].heightOnGrid(*grid))) {
+            return BodyScenePoint{.index = i,
+                                  .hit = {.grid = *grid,
+                                          .height_m = std::numeric_limits<double>::quiet_NaN(),
+                                          .distance_m = distance_m}};
+        }
+    }
+    return std::nullopt;
 }
 
 BodyLimits GlobeGround::limitsOf(const BodyTerrain& map) const

@@ -30,6 +30,10 @@ struct GlobeGround {
     {
         return scene.cast(ray, style.exaggeration);
     }
+    /// Where a layer has no data, the place behind its hole: on the ellipsoid raised to elevation
+    /// 0, or to the lowest or highest terrain. Its height is NaN. For rays that meet no terrain.
+    /// Not of an empty scene.
+    std::optional<BodyScenePoint> voidOn(const Ray& ray) const;
     /// The terrain straight below or above a place; its distance is that from `eye`. Nothing for an
     /// empty scene.
     std::optional<BodyScenePoint> below(const ScenePoint& place, const ScenePoint& eye) const;

@@ -146,7 +146,7 @@ GlobeScene::placeOf(const std::optional<BodyScenePoint>& ground) const
 
 std::optional<DrawingScene::Place> GlobeScene::placeAt(QPointF position) const
 {
-    return placeOf(globe_.groundAt(position));
+    return placeOf(globe_.placeAt(position));
 }
 
 std::optional<DrawingScene::Place> GlobeScene::placeRead() const

@@ -252,6 +252,16 @@ std::optional<BodyHit> GlobeView::hitAt(QPointF position) const
     return ground ? std::optional(ground->hit) : std::nullopt;
 }
 
+std::optional<BodyScenePoint> GlobeView::placeAt(QPointF position) const
+{
+    if (ground_.isEmpty()) {
+        return std::nullopt;
+    }
+    const Ray ray = camera_.rayThrough(pixelAt(position));
+    const auto ground = ground_.cast(ray);
+    return ground ? ground : ground_.voidOn(ray);
+}
+
 std::optional<BodyScenePoint> GlobeView::groundBelow(const ScenePoint& place) const
 {
     return ground_.isEmpty() ? std::nullopt : ground_.below(place, camera_.pose().eye);
@@ -301,7 +311,7 @@ std::optional<BodyScenePoint> GlobeView::reading() const
     if (!position && hasFocus()) {
         position = QRectF(rect()).center();
     }
-    return position ? groundAt(*position) : std::nullopt;
+    return position ? placeAt(*position) : std::nullopt;
 }
 
 bool GlobeView::isCrosshairShown() const
@@ -348,7 +358,7 @@ void GlobeView::report()
 {
     const auto ground = reading();
     Q_EMIT readingChanged(ground);
-    is_over_terrain_ = pointer_ && ground;
+    is_over_terrain_ = pointer_ && ground && std::isfinite(ground->hit.height_m);
     showCursor();
     if (isCrosshairShown() != std::exchange(was_crosshair_shown_, isCrosshairShown())) {
         Q_EMIT crosshairChanged(isCrosshairShown());

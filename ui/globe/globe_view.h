@@ -120,6 +120,8 @@ public:
     /// The terrain under a position of the widget: the layer, and where it is on its grid.
     std::optional<BodyScenePoint> groundAt(QPointF position) const;
     std::optional<BodyHit> hitAt(QPointF position) const;
+    /// The same; where a layer has no data, the place there, with a height of NaN.
+    std::optional<BodyScenePoint> placeAt(QPointF position) const;
     /// The terrain straight below or above a place of the body-fixed frame.
     std::optional<BodyScenePoint> groundBelow(const ScenePoint& place) const;
     /// The elevations of a layer in the picture; empty if the picture shows none of it.
@@ -127,7 +129,8 @@ public:
     /// Whether nothing but terrain before it can hide a place.
     bool isInPicture(const ScenePoint& place) const;
     /// Under the stylus of a device, unless the pointer has just moved; otherwise under the
-    /// pointer; at the middle while the pointer is elsewhere and the view has the focus.
+    /// pointer; at the middle while the pointer is elsewhere and the view has the focus. Its height
+    /// is NaN where a layer has no data.
     std::optional<BodyScenePoint> reading() const;
     /// What reading() is the place of.
     ReadingSource readingSource() const;

@@ -180,6 +180,33 @@ TEST_F(GlobeTest, ReadsTheFullResolutionElevationOfTheMapUnderThePointer)
     EXPECT_FALSE(window_->readout()->coordinateLabel().isEmpty());
 }
 
+TEST_F(GlobeTest, ReadsWhereTheMapHasNoData)
+{
+    const TestMaps::Shape degrees{.x_lower_left = 0.0, .y_lower_left = 0.0, .cell = 0.5};
+    const QString hollow =
+        maps_.write(QStringLiteral("hollow.asc"), degrees, [](int column, int row) {
+            return std::hypot(column - 29.5, row - 19.5) < 8.0 ? std::nan("") : 100.0;
+        });
+    writeMarsCrs(QStringLiteral("hollow.prj"));
+    ASSERT_TRUE(openAndWait(*window_, hollow));
+    window_->controller().setVisible(window_->session().layers.back().id, false);
+    ASSERT_TRUE(showGlobe());
+    const GridPoint middle{29.5, 19.5};
+    const GeographicPoint target = *globe().terrain()->map()->georeference().toGeographic(middle);
+    globe().setCamera({.target = target, .distance_m = 1e6});
+    move(globeMiddle());
+    EXPECT_FALSE(globe().groundAt(globeMiddle()));
+    const auto reading = globe().reading();
+    ASSERT_TRUE(reading);
+    EXPECT_TRUE(std::isnan(reading->hit.height_m));
+    EXPECT_NEAR(reading->hit.grid.column, middle.column, 1e-6); // straight down
+    EXPECT_NEAR(reading->hit.grid.row, middle.row, 1e-6);
+    EXPECT_EQ(window_->readout()->heightLabel(), QStringLiteral("no data"));
+    globe().setCamera({.target = target, .distance_m = 2e7});
+    move({1.0, 1.0}); // beside the body
+    EXPECT_FALSE(globe().reading());
+}
+
 TEST_F(GlobeTest, HasTheActionsOfTheFlatMap)
 {
     const auto enabled = [this] {

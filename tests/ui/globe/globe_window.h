@@ -10,6 +10,7 @@
 #include <QAction>
 #include <QActionGroup>
 #include <QApplication>
+#include <QFile>
 #include <QMouseEvent>
 #include <QWheelEvent>
 
@@ -36,6 +37,16 @@ protected:
     QPointF globeMiddle() { return QRectF(globe().rect()).center(); }
     const Ellipsoid& body() { return globe().terrain()->grid()->ellipsoid(); }
 
+    // Beside an ASCII grid of that name: longitude and latitude on Mars.
+    void writeMarsCrs(const QString& name)
+    {
+        QFile file(maps_.path(name));
+        ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+        file.write(
+            "GEOGCS[\"GCS_Mars_2000\",DATUM[\"D_Mars_2000\","
+            "SPHEROID[\"Mars_2000_IAU_IAG\",3396190.0,169.8944472236118]],"
+            "PRIMEM[\"Reference_Meridian\",0.0],UNIT[\"Degree\",0.0174532925199433]]");
+    }
     void wheel(QPointF at, int notches)
     {
         QWheelEvent event(at, globe().mapToGlobal(at), {}, {0, 120 * notches}, Qt::NoButton,
