@@ -24,12 +24,6 @@ GridPoint between(GridPoint a, GridPoint b, double t)
     return {a.column + (b.column - a.column) * t, a.row + (b.row - a.row) * t};
 }
 
-GridPoint clampedToSamples(const Georeference& georeference, GridPoint grid)
-{
-    return {std::clamp(grid.column, 0.0, static_cast<double>(georeference.columns()) - 1.0),
-            std::clamp(grid.row, 0.0, static_cast<double>(georeference.rows()) - 1.0)};
-}
-
 bool isInside(const Georeference& georeference, GeographicPoint place)
 {
     const auto grid = georeference.toGrid(place);
@@ -39,6 +33,12 @@ bool isInside(const Georeference& georeference, GeographicPoint place)
 }
 
 } // namespace
+
+GridPoint clampedToSamples(const Georeference& georeference, GridPoint grid)
+{
+    return {std::clamp(grid.column, 0.0, static_cast<double>(georeference.columns()) - 1.0),
+            std::clamp(grid.row, 0.0, static_cast<double>(georeference.rows()) - 1.0)};
+}
 
 MapExtent mapExtent(const Georeference& georeference)
 {

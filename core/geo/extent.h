@@ -25,6 +25,9 @@ struct GeographicExtent {
     Angle north;
 };
 
+/// The nearest position between the centers of the outermost pixels.
+GridPoint clampedToSamples(const Georeference& georeference, GridPoint grid);
+
 /// Of the pixels' outer edges; a pole inside the raster is included, with all longitudes. The edges
 /// are sampled in steps, so a curved edge may extend further by 1e-4 of its length. Empty if the
 /// map has no longitudes, or its outer samples lie outside its projection (a whole disk, for

@@ -2970,6 +2970,10 @@ y %2</translation>
         <translation>Dieser Ort liegt außerhalb der Karte, die %1 abdeckt.</translation>
     </message>
     <message>
+        <source>This place is outside all maps in the view.</source>
+        <translation>Dieser Ort liegt außerhalb aller Karten der Ansicht.</translation>
+    </message>
+    <message>
         <source>Go to Place</source>
         <translation>Gehe zu Ort</translation>
     </message>

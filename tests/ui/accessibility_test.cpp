@@ -6,10 +6,10 @@
 #include "ui/dialogs/preferences_dialog.h"
 #include "ui/dialogs/save_picture_dialog.h"
 #include "ui/dialogs/stretch_dialog.h"
-#include "ui/widgets/focus_frame.h"
 #include "ui/overlay/map_overlays.h"
 #include "ui/panels/georeferencing_panel.h"
 #include "ui/panels/haptics_panel.h"
+#include "ui/widgets/focus_frame.h"
 #include "ui/widgets/light_popup.h"
 #include "ui/window/window_actions.h"
 #include "ui/window/window_docks.h"
@@ -82,7 +82,7 @@ TEST_F(AccessibilityTest, EveryControlHasAName)
     expectNames(LightPopup(window_.get()));
     expectNames(SavePictureDialog({800, 600}, {}, window_.get()));
     expectNames(StretchDialog(window_.get()));
-    expectNames(GoToDialog(window_->view()->map(), {}, {}, {}, window_.get()));
+    expectNames(GoToDialog({window_->view()->map()}, {}, {}, {}, window_.get()));
 }
 
 TEST_F(AccessibilityTest, TheTabKeyReachesEveryControlOfTheWindow)
@@ -133,7 +133,7 @@ TEST_F(AccessibilityTest, TheTabKeyReachesEveryControlOfTheDialogs)
     QApplication::setActiveWindow(&address);
     expectReached(address);
     address.close();
-    GoToDialog go_to(window_->view()->map(), {}, {}, {}, window_.get());
+    GoToDialog go_to({window_->view()->map()}, {}, {}, {}, window_.get());
     go_to.show();
     QApplication::setActiveWindow(&go_to); // without a window manager
     expectReached(go_to);

@@ -126,7 +126,7 @@ TEST_F(FirstMinuteTest, EscClosesTheHint)
 TEST_F(FirstMinuteTest, EscInAFieldOrAMenuKeepsWhatIsOnTheMap)
 {
     open();
-    window_->overlays()->markPlace({5.0, 5.0});
+    window_->overlays()->markPlace(GridPoint{5.0, 5.0});
     const auto expect_kept = [this](const char* where) {
         EXPECT_TRUE(hint().isVisible()) << where;
         EXPECT_TRUE(window_->overlays()->isPlaceMarked()) << where;

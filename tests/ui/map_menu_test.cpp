@@ -122,7 +122,7 @@ TEST_F(MapMenuTest, RemovesThePinOfAPlaceThatWasFound)
 {
     rightClick(placeOf({25.0, 15.0}));
     EXPECT_EQ(entry("Remove Pin"), nullptr);
-    window_->overlays()->markPlace({20.0, 12.0});
+    window_->overlays()->markPlace(GridPoint{20.0, 12.0});
     rightClick(placeOf({25.0, 15.0}));
     ASSERT_NE(entry("Remove Pin"), nullptr);
     entry("Remove Pin")->trigger();

@@ -109,7 +109,7 @@ TEST_F(NameSearchTest, AFeatureBelowTheMapsResolutionIsShownWithItsSurroundings)
 TEST_F(NameSearchTest, ReturnInTheDialogTakesTheFirstName)
 {
     openMars();
-    GoToDialog dialog(view().map(), window_->preferences(), {},
+    GoToDialog dialog({view().map()}, window_->preferences(), {},
                       window_->commands().names.namesOnMap());
     std::vector<std::string> chosen;
     QObject::connect(&dialog, &GoToDialog::nameChosen, &dialog,

@@ -243,7 +243,7 @@ TEST_F(TranslationTest, ReachesEveryDialog)
     window_->actionSet().edit_stretch->trigger();
     expectMarked(*window_->stretch().dialog());
     window_->stretch().dialog()->close();
-    GoToDialog go_to(window_->view()->map(), {}, {}, {}, window_.get());
+    GoToDialog go_to({window_->view()->map()}, {}, {}, {}, window_.get());
     expectMarked(go_to);
     go_to.findChild<QLineEdit*>(QStringLiteral("coordinate"))->setText(QStringLiteral("15, 15"));
     expectMarked(go_to);
@@ -332,7 +332,7 @@ TEST_F(GermanTest, ReachesTheWindowAndItsDialogs)
     expectGerman(KeysDialog(*window.menuBar(), &window));
     expectGerman(PreferencesDialog({}, {}, &window));
     expectGerman(SavePictureDialog({800, 600}, {}, &window));
-    expectGerman(GoToDialog(window.view()->map(), {}, {}, {}, &window));
+    expectGerman(GoToDialog({window.view()->map()}, {}, {}, {}, &window));
 }
 
 // 2026-11: the hint told users to choose keys.
@@ -372,7 +372,7 @@ TEST(PseudoTranslation, KeepsTheWindowAndItsDialogsOnASmallScreen)
         expect_small(AddressDialog({}, &window));
         expect_small(PreferencesDialog({}, {}, &window));
         expect_small(SavePictureDialog({800, 600}, {}, &window));
-        expect_small(GoToDialog(window.view()->map(), {}, {}, {}, &window));
+        expect_small(GoToDialog({window.view()->map()}, {}, {}, {}, &window));
     }
     QGuiApplication::setLayoutDirection(Qt::LeftToRight);
     QCoreApplication::removeTranslator(&translator);

@@ -2,6 +2,7 @@
 
 #include "core/view/feature_view.h"
 #include "ui/canvas/terrain_view.h"
+#include "ui/commands/shown_maps.h"
 #include "ui/globe/globe_view.h"
 #include "ui/overlay/map_overlays.h"
 #include "ui/text/core_text.h"
@@ -115,12 +116,20 @@ const Body* NameSearch::body() const
     return map ? map->info().body : nullptr;
 }
 
+std::shared_ptr<const Map> NameSearch::mapAt(const PlaceName& place) const
+{
+    for (const auto& map : shownMaps(parts_.view, parts_.globe)) {
+        if (featureExtent(map->georeference(), place.position, 0.0)) {
+            return map;
+        }
+    }
+    return nullptr;
+}
+
 NamesOnMap NameSearch::namesOnMap()
 {
-    const auto map = parts_.view.map();
-    return {.names = lists_.namesOn(body()), .is_on_map = [map](const PlaceName& place) {
-                return map && featureExtent(map->georeference(), place.position, 0.0).has_value();
-            }};
+    return {.names = lists_.namesOn(body()),
+            .is_on_map = [this](const PlaceName& place) { return mapAt(place) != nullptr; }};
 }
 
 void NameSearch::showMap()
@@ -143,7 +152,7 @@ void NameSearch::goToText()
 
 void NameSearch::goTo(const PlaceName& place)
 {
-    const auto map = parts_.view.map();
+    const auto map = mapAt(place);
     const auto extent =
         map ? featureExtent(map->georeference(), place.position, place.diameter_m) : std::nullopt;
     if (!extent) {
@@ -156,12 +165,14 @@ void NameSearch::goTo(const PlaceName& place)
         across_m, kFilledShare, parts_.view.camera().field_of_view, parts_.view.viewport());
     if (parts_.globe.isHidden()) {
         parts_.view.setFocus(Qt::OtherFocusReason);
-        parts_.view.flyTo(extent->center, distance_m);
+        if (const auto center = onTopmost(parts_.view, *map, extent->center)) {
+            parts_.view.flyTo(*center, distance_m);
+        }
     } else {
         parts_.globe.setFocus(Qt::OtherFocusReason);
         parts_.globe.flyTo(place.position, distance_m);
     }
-    parts_.overlays.markPlace(extent->center);
+    parts_.overlays.markPlace(onTopmost(parts_.view, *map, extent->center), place.position);
 }
 
 void NameSearch::open(const QString& file)

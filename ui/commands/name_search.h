@@ -37,8 +37,10 @@ public:
     explicit NameSearch(const Parts& parts, QObject* parent = nullptr);
 
     NamesController& lists() noexcept { return lists_; }
-    /// The names on the topmost layer.
+    /// The names on the maps of the scene.
     NamesOnMap namesOnMap();
+    /// The uppermost of them that a place lies on; null if there is none.
+    std::shared_ptr<const Map> mapAt(const PlaceName& place) const;
     /// Flies there so that the feature fills the view, and marks it.
     void goTo(const PlaceName& place);
     /// Reads a file of names.

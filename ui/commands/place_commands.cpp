@@ -1,10 +1,12 @@
 #include "ui/commands/place_commands.h"
 
+#include "core/geo/extent.h"
 #include "core/session/measurement.h"
 #include "ui/canvas/terrain_view.h"
 #include "ui/commands/map_menu.h"
 #include "ui/commands/name_search.h"
 #include "ui/commands/preference_commands.h"
+#include "ui/commands/shown_maps.h"
 #include "ui/commands/vector_tools.h"
 #include "ui/controllers/annotation_controller.h"
 #include "ui/controllers/measure_controller.h"
@@ -42,10 +44,9 @@ PlaceCommands::PlaceCommands(const Parts& parts)
     const WindowActions& actions = parts_.actions;
     connect(actions.go_to_place, &QAction::triggered, this, &PlaceCommands::goToPlace);
     connect(actions.find_name, &QAction::triggered, this, &PlaceCommands::findName);
-    connect(actions.add_point, &QAction::triggered, this,
-            [this] { askPoint([this](GridPoint grid) { parts_.measuring.addPointAt(grid); }); });
+    connect(actions.add_point, &QAction::triggered, this, [this] { askPoint(parts_.measuring); });
     connect(actions.add_annotation_point, &QAction::triggered, this,
-            [this] { askPoint([this](GridPoint grid) { parts_.annotating.addPointAt(grid); }); });
+            [this] { askPoint(parts_.annotating); });
     connect(actions.copy_coordinates, &QAction::triggered, this, [this] { copyCoordinates(); });
     connect(&parts_.tool_bar, &MainToolBar::entryCompleted, this, [this] {
         QWidget& map = parts_.globe.isHidden() ? static_cast<QWidget&>(parts_.view) : parts_.globe;
@@ -146,7 +147,7 @@ MapMenu* PlaceCommands::makeGlobeMenu()
     };
     const MapMenu::Source source{
         .place_at = [globe](QPointF position) -> std::optional<MenuPlace> {
-            const auto ground = globe->groundAt(position);
+            const auto ground = globe->placeAt(position);
             if (!ground) {
                 return std::nullopt;
             }
@@ -236,8 +237,9 @@ void PlaceCommands::findName()
 
 GoToDialog* PlaceCommands::makeDialog()
 {
-    auto* dialog = new GoToDialog(parts_.view.map(), parts_.preferences.preferences(), last_place_,
-                                  parts_.names.namesOnMap(), &parts_.window);
+    auto* dialog =
+        new GoToDialog(shownMaps(parts_.view, parts_.globe), parts_.preferences.preferences(),
+                       last_place_, parts_.names.namesOnMap(), &parts_.window);
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     const auto remember = [this, dialog] { last_place_ = dialog->entry(); };
     connect(dialog, &GoToDialog::nameChosen, this, remember);
@@ -247,35 +249,49 @@ GoToDialog* PlaceCommands::makeDialog()
 
 void PlaceCommands::goToPlace()
 {
-    if (!parts_.view.map()) {
+    if (shownMaps(parts_.view, parts_.globe).empty()) {
         return;
     }
     GoToDialog* dialog = makeDialog();
     connect(dialog, &GoToDialog::nameChosen, &parts_.names, &NameSearch::goTo);
-    connect(dialog, &GoToDialog::placeChosen, this, [this](GridPoint grid) {
+    connect(dialog, &GoToDialog::placeChosen, this, [this](const FoundPlace& found) {
+        const Georeference& georeference = found.map->georeference();
         if (parts_.globe.isHidden()) {
-            parts_.view.goTo(grid);
-        } else if (const auto place = parts_.view.map()->georeference().toGeographic(grid)) {
+            // The flat map ends at its outermost samples.
+            const auto grid =
+                onTopmost(parts_.view, *found.map, clampedToSamples(georeference, found.grid));
+            if (grid) {
+                parts_.view.goTo(*grid);
+            }
+            parts_.overlays.markPlace(grid);
+        } else if (const auto place = georeference.toGeographic(found.grid)) {
             parts_.globe.flyTo(*place, 0.0);
+            parts_.overlays.markPlace(onTopmost(parts_.view, *found.map, found.grid), place);
         }
-        parts_.overlays.markPlace(grid);
     });
     dialog->open();
 }
 
-void PlaceCommands::askPoint(const std::function<void(GridPoint)>& add)
+template <typename Drawing>
+void PlaceCommands::askPoint(Drawing& drawing)
 {
-    if (!parts_.view.map()) {
+    if (shownMaps(parts_.view, parts_.globe).empty()) {
         return;
     }
     GoToDialog* dialog = makeDialog();
     dialog->setTexts(tr("Add Point"), tr("&Add"));
+    const auto add = [&drawing](const std::shared_ptr<const Map>& map, GridPoint grid) {
+        if (const auto vertex = vertexAt(map->georeference(), grid)) {
+            drawing.addPlace({.vertex = *vertex, .map = map});
+        }
+    };
     connect(dialog, &GoToDialog::nameChosen, this, [this, add](const PlaceName& place) {
-        if (const auto grid = parts_.view.map()->georeference().toGrid(place.position)) {
-            add(*grid);
+        if (const auto map = parts_.names.mapAt(place)) {
+            add(map, *map->georeference().toGrid(place.position));
         }
     });
-    connect(dialog, &GoToDialog::placeChosen, this, add);
+    connect(dialog, &GoToDialog::placeChosen, this,
+            [add](const FoundPlace& place) { add(place.map, place.grid); });
     dialog->open();
 }
 

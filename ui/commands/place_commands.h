@@ -54,7 +54,8 @@ public:
     /// Asks for a name or a coordinate.
     void goToPlace();
     /// The same, for a point that is drawn there.
-    void askPoint(const std::function<void(GridPoint)>& add);
+    template <typename Drawing>
+    void askPoint(Drawing& drawing);
     /// Focuses the search field, or asks for a name where the toolbar has no room for it.
     void findName();
     /// Puts the position that the status bar shows on the clipboard.

@@ -468,7 +468,7 @@ void SessionController::setVisible(LayerId id, bool is_visible)
         const QString text = is_visible ? tr("Show %1") : tr("Hide %1");
         const QString name = nameOf(*layer);
         const Session after =
-            is_visible ? withLayerShown(session_, id) : withVisibility(session_, id, false);
+            is_visible ? withLayerInScene(*layer) : withVisibility(session_, id, false);
         if (is_visible && shownLayers(after).front()->id == id) {
             to_reveal_ = id;
         }

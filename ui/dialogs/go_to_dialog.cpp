@@ -104,18 +104,13 @@ bool isName(const QString& text)
     return text.contains(kName);
 }
 
-// The outermost half pixel has no surface; a position there is moved to the nearest sample.
-std::optional<GridPoint> onSurface(const Heightfield& heights, GridPoint grid)
+bool isOnPixels(const Georeference& georeference, GridPoint grid)
 {
-    const auto bounded = [](double place, std::size_t count) {
-        const double last = static_cast<double>(count - 1);
-        return place >= -0.5 - 1e-9 && place <= last + 0.5 + 1e-9
-                   ? std::optional(std::clamp(place, 0.0, last))
-                   : std::nullopt;
+    const auto is_within = [](double place, std::size_t count) {
+        return place >= -0.5 - 1e-9 && place <= static_cast<double>(count) - 0.5 + 1e-9;
     };
-    const auto column = bounded(grid.column, heights.columns());
-    const auto row = bounded(grid.row, heights.rows());
-    return column && row ? std::optional(GridPoint{*column, *row}) : std::nullopt;
+    return is_within(grid.column, georeference.columns()) &&
+           is_within(grid.row, georeference.rows());
 }
 
 } // namespace
@@ -137,12 +132,14 @@ std::vector<ReadAs> readingsOn(const RasterInfo& info, const CoordinateFormat& f
     return readings;
 }
 
-Result<FoundPlace>
-placeOnMap(const Map& map, const CoordinateFormat& format, ReadAs read_as, const QString& typed)
+Result<FoundPlace> placeOnMap(const std::shared_ptr<const Map>& map,
+                              const CoordinateFormat& format,
+                              ReadAs read_as,
+                              const QString& typed)
 {
     const QString text = withPlainDirections(typed);
-    const RasterInfo& info = map.info();
-    const Georeference& georeference = map.georeference();
+    const RasterInfo& info = map->info();
+    const Georeference& georeference = map->georeference();
     const std::string written = text.toStdString();
     const bool has_longitudes = info.crs && info.crs->ellipsoid();
     static const QRegularExpression kAngleSigns(QStringLiteral("[°º′″NSEWnsew]"));
@@ -162,9 +159,7 @@ placeOnMap(const Map& map, const CoordinateFormat& format, ReadAs read_as, const
         }
     }
     std::optional<GridPoint> grid;
-    const auto on_surface = [&]() -> std::optional<GridPoint> {
-        return grid ? onSurface(map.heightfield(), *grid) : std::nullopt;
-    };
+    const auto is_on_map = [&] { return grid && isOnPixels(georeference, *grid); };
     if (read_as == ReadAs::Map) {
         const Result<MapPoint> point = mapPointFrom(written);
         const auto local = localMapPointFrom(text);
@@ -173,7 +168,7 @@ placeOnMap(const Map& map, const CoordinateFormat& format, ReadAs read_as, const
         }
         grid = georeference.toGrid(point ? *point : *local);
         // "562.345, 117.890" has points of decimals, or groups of digits.
-        if (point && local && !on_surface()) {
+        if (point && local && !is_on_map()) {
             grid = georeference.toGrid(*local);
         }
     } else {
@@ -186,23 +181,47 @@ placeOnMap(const Map& map, const CoordinateFormat& format, ReadAs read_as, const
                                    : place->latitude;
         grid = georeference.toGrid(GeographicPoint{place->longitude, latitude});
     }
-    const auto found = on_surface();
-    if (!found) {
+    if (!is_on_map()) {
         return Error{ErrorCode::OutOfRange,
                      GoToDialog::tr("This place is outside the map, which covers %1.")
-                         .arg(coverText(map, asRead(format, read_as, info)))
+                         .arg(coverText(*map, asRead(format, read_as, info)))
                          .toStdString()};
     }
-    return FoundPlace{.grid = *found, .read_as = read_as};
+    return FoundPlace{.map = map, .grid = *grid, .read_as = read_as};
 }
 
-GoToDialog::GoToDialog(std::shared_ptr<const Map> map,
+Result<FoundPlace> placeOnMaps(const std::vector<std::shared_ptr<const Map>>& maps,
+                               const CoordinateFormat& format,
+                               ReadAs read_as,
+                               const QString& text)
+{
+    Result<FoundPlace> found = placeOnMap(maps.front(), format, read_as, text);
+    if (found || found.error().code != ErrorCode::OutOfRange || maps.size() == 1) {
+        return found;
+    }
+    const std::optional<Crs>& first = maps.front()->info().crs;
+    for (std::size_t i = 1; i < maps.size(); ++i) {
+        const std::optional<Crs>& crs = maps[i]->info().crs;
+        const bool is_same = crs && first ? crs->wkt() == first->wkt() : !crs && !first;
+        if (read_as == ReadAs::Map ? !is_same : !crs || !crs->ellipsoid()) {
+            continue;
+        }
+        if (Result<FoundPlace> place = placeOnMap(maps[i], format, read_as, text)) {
+            return place;
+        }
+    }
+    return Error{ErrorCode::OutOfRange,
+                 GoToDialog::tr("This place is outside all maps in the view.").toStdString()};
+}
+
+GoToDialog::GoToDialog(std::vector<std::shared_ptr<const Map>> maps,
                        const Preferences& preferences,
                        const GoToEntry& last,
                        NamesOnMap names,
                        QWidget* parent)
     : QDialog(parent)
-    , map_(std::move(map))
+    , maps_(std::move(maps))
+    , map_(maps_.front())
     , preferences_(preferences)
     , names_(std::move(names))
     , field_(new QLineEdit(last.text, this))
@@ -294,7 +313,7 @@ void GoToDialog::check()
         return;
     }
     const Result<FoundPlace> place =
-        placeOnMap(*map_, preferences_.coordinates, readAs(), now.text);
+        placeOnMaps(maps_, preferences_.coordinates, readAs(), now.text);
     const auto named = place ? std::nullopt : namedPlace();
     go_button_->setEnabled(place || named);
     if (named) {
@@ -329,20 +348,23 @@ QString GoToDialog::answerFor(const PlaceName& place) const
 // The position as it was read, then in the chosen format if that is another, then the elevation.
 QString GoToDialog::answerFor(const FoundPlace& place)
 {
-    const RasterInfo& info = map_->info();
+    const Map& map = *place.map;
+    const RasterInfo& info = map.info();
     const auto where = [&](const CoordinateFormat& format) {
         //: %1 is a position, %2 the CRS or the kind of latitude
-        return tr("%1 (%2)").arg(positionText(format, *map_, place.grid), formatName(format, info));
+        return tr("%1 (%2)").arg(positionText(format, map, place.grid), formatName(format, info));
     };
     const CoordinateFormat& format = preferences_.coordinates;
     QStringList lines{where(asRead(format, place.read_as, info))};
     if (const QString chosen = where(format); chosen != lines.front()) {
         lines.append(chosen);
     }
-    const Heightfield& heightfield = map_->heightfield();
-    const bool is_there = heightfield.isExact(place.grid);  // before the elevation is read
-    const double height_m = heightfield.height(place.grid); // requests a tile that is not loaded
-    if (!is_there && (heightfield.tiles()->isLoading() || heightfield.isExact(place.grid))) {
+    const Heightfield& heightfield = map.heightfield();
+    // The outermost half pixel has no surface: the elevation is that of the nearest sample.
+    const GridPoint grid = clampedToSamples(map.georeference(), place.grid);
+    const bool is_there = heightfield.isExact(grid);  // before the elevation is read
+    const double height_m = heightfield.height(grid); // requests a tile that is not loaded
+    if (!is_there && (heightfield.tiles()->isLoading() || heightfield.isExact(grid))) {
         arrival_timer_.start(kArrivalInterval);
     }
     if (!std::isfinite(height_m)) {
@@ -351,7 +373,7 @@ QString GoToDialog::answerFor(const FoundPlace& place)
     }
     const QString height = heightText(info, heightfield.range().value_or(HeightRange{}), height_m,
                                       preferences_.height_unit);
-    const bool is_exact = is_there && !map_->isPreview();
+    const bool is_exact = is_there && !map.isPreview();
     //: An elevation that is not exact yet
     const QString shown = is_exact ? height : leftToRight(tr("≈ %1").arg(height));
     //: %1 is an elevation
@@ -365,8 +387,8 @@ void GoToDialog::go()
     if (!isVisible()) {
         return;
     }
-    if (const auto place = placeOnMap(*map_, preferences_.coordinates, readAs(), entry().text)) {
-        Q_EMIT placeChosen(place->grid);
+    if (const auto place = placeOnMaps(maps_, preferences_.coordinates, readAs(), entry().text)) {
+        Q_EMIT placeChosen(*place);
         accept();
     } else if (const auto named = namedPlace()) {
         Q_EMIT nameChosen(*named);

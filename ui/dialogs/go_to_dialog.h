@@ -36,7 +36,8 @@ struct GoToEntry {
 };
 
 struct FoundPlace {
-    GridPoint grid;
+    std::shared_ptr<const Map> map;
+    GridPoint grid; // of it; up to half a pixel beyond the outermost samples
     ReadAs read_as; // differs from the requested one if the text is unambiguous
 };
 
@@ -44,16 +45,26 @@ struct FoundPlace {
 /// latitude and a longitude, numbers beyond 360 map coordinates, whatever `read_as` is. A longitude
 /// without a letter is west-positive where the format is. Errors name the invalid part of the text,
 /// or the map's limits if the place is outside.
-Result<FoundPlace>
-placeOnMap(const Map& map, const CoordinateFormat& format, ReadAs read_as, const QString& text);
+Result<FoundPlace> placeOnMap(const std::shared_ptr<const Map>& map,
+                              const CoordinateFormat& format,
+                              ReadAs read_as,
+                              const QString& text);
+
+/// The same on the first of several maps that has the place. Map coordinates are those of the first
+/// one's CRS.
+Result<FoundPlace> placeOnMaps(const std::vector<std::shared_ptr<const Map>>& maps,
+                               const CoordinateFormat& format,
+                               ReadAs read_as,
+                               const QString& text);
 
 /// Shows the position that the text names, or the error in it, while the user types.
 class GoToDialog final : public QDialog {
     Q_OBJECT
 
 public:
-    /// Of the preferences, the format of coordinates and the unit of elevations are used.
-    GoToDialog(std::shared_ptr<const Map> map,
+    /// The maps of the scene, the uppermost first; at least one. Of the preferences, the format of
+    /// coordinates and the unit of elevations are used.
+    GoToDialog(std::vector<std::shared_ptr<const Map>> maps,
                const Preferences& preferences,
                const GoToEntry& last,
                NamesOnMap names,
@@ -64,7 +75,7 @@ public:
     GoToEntry entry() const;
 
 Q_SIGNALS:
-    void placeChosen(GridPoint grid);
+    void placeChosen(const FoundPlace& place);
     void nameChosen(const PlaceName& place);
 
 private:
@@ -75,7 +86,8 @@ private:
     void check();
     void go();
 
-    std::shared_ptr<const Map> map_;
+    std::vector<std::shared_ptr<const Map>> maps_;
+    std::shared_ptr<const Map> map_; // the uppermost
     Preferences preferences_;
     NamesOnMap names_;
     QTimer arrival_timer_;       // runs while the elevation of the place is loading

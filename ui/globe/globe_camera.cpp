@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <span>
 #include <utility>
 
 namespace marsview {
@@ -18,6 +20,19 @@ constexpr milliseconds kKeyDuration{180};
 constexpr double kFlyFactor = 0.3; // of the distance, when flying nearer
 
 constexpr milliseconds kFlyDuration{1200};
+
+// Between the lowest and the highest place.
+double middleHeight(std::span<const ScenePoint> places, const Ellipsoid& ellipsoid)
+{
+    double lowest_m = std::numeric_limits<double>::infinity();
+    double highest_m = -lowest_m;
+    for (const ScenePoint& place : places) {
+        const double height_m = placeOf(place, ellipsoid).height_m;
+        lowest_m = std::min(lowest_m, height_m);
+        highest_m = std::max(highest_m, height_m);
+    }
+    return 0.5 * (lowest_m + highest_m);
+}
 
 } // namespace
 
@@ -207,6 +222,8 @@ void GlobeCamera::flyTo(const BodyTerrain& map)
         const BodyCamera now = onGround(motion_.goal());
         camera.azimuth = now.azimuth;
         camera.tilt = now.tilt;
+        camera.height_m =
+            middleHeight(places, bounds.ellipsoid); // exaggerated, it may be far below 0
         camera = withGroundAhead(framed(camera, places, viewport_(), bounds.ellipsoid),
                                  bounds.ellipsoid);
     }

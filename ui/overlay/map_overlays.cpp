@@ -196,9 +196,10 @@ void MapOverlays::setCovered(int height)
     Q_EMIT settingsChanged();
 }
 
-void MapOverlays::markPlace(GridPoint grid)
+void MapOverlays::markPlace(const std::optional<GridPoint>& grid,
+                            const std::optional<GeographicPoint>& place)
 {
-    marked_ = MarkedPlace{.map = view_.map(), .grid = grid};
+    marked_ = MarkedPlace{.map = view_.map(), .grid = grid, .place = place};
     showMark();
     Q_EMIT markChanged();
 }
@@ -213,8 +214,11 @@ void MapOverlays::clearMark()
 std::optional<GeographicPoint> MapOverlays::markedPlace() const
 {
     const auto map = marked_ ? marked_->map.lock() : nullptr;
-    return map && map->georeference().body() != nullptr
-               ? map->georeference().toGeographic(marked_->grid)
+    if (map && marked_->place) {
+        return marked_->place;
+    }
+    return map && marked_->grid && map->georeference().body() != nullptr
+               ? map->georeference().toGeographic(*marked_->grid)
                : std::nullopt;
 }
 
@@ -223,7 +227,7 @@ void MapOverlays::showMark()
     if (marked_ && marked_->map.lock() != view_.map()) {
         marked_.reset();
     }
-    const auto place = marked_ ? view_.positionOf(marked_->grid) : std::nullopt;
+    const auto place = marked_ && marked_->grid ? view_.positionOf(*marked_->grid) : std::nullopt;
     if (place && view_.rect().contains(place->toPoint())) {
         place_mark_->pointAt(*place);
     } else {

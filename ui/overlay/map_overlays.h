@@ -66,8 +66,10 @@ public:
     void dismissHint();
 
     /// Puts a pin at a place of the topmost layer, in place of the one before. It stays until it is
-    /// cleared, the map is clicked, or another map is topmost.
-    void markPlace(GridPoint grid);
+    /// cleared, the map is clicked, or another map is topmost. On the globe the pin is at `place`,
+    /// which may be beyond that layer and its projection.
+    void markPlace(const std::optional<GridPoint>& grid,
+                   const std::optional<GeographicPoint>& place = {});
     bool isPlaceMarked() const noexcept { return marked_.has_value(); }
     /// On its body; empty if no place is marked, or one without a known body.
     std::optional<GeographicPoint> markedPlace() const;
@@ -136,7 +138,8 @@ private:
     QTimer probe_timer_;
     struct MarkedPlace {
         std::weak_ptr<const Map> map;
-        GridPoint grid; // of it
+        std::optional<GridPoint> grid; // of it
+        std::optional<GeographicPoint> place;
     };
     std::optional<MarkedPlace> marked_;
     QPoint pressed_at_; // by the left button

@@ -2,6 +2,7 @@
 #include "core/body/body_mesh.h"
 #include "core/globe/body_camera.h"
 #include "tests/ui/globe/globe_window.h"
+#include "ui/dialogs/go_to_dialog.h"
 #include "ui/overlay/globe_overlays.h"
 #include "ui/overlay/legend.h"
 #include "ui/overlay/map_overlays.h"
@@ -13,6 +14,7 @@
 
 #include <QImage>
 #include <QLabel>
+#include <QLineEdit>
 #include <QMouseEvent>
 #include <QTest>
 #include <QToolButton>
@@ -48,6 +50,7 @@ protected:
         const auto ground = globe().groundAt(globeMiddle());
         return ground ? std::optional(ground->index) : std::nullopt;
     }
+    MapOverlays& flat() { return *window_->overlays(); }
     LayerModel& list() { return *window_->datasetPanel()->findChild<LayerModel*>(); }
 };
 
@@ -83,6 +86,66 @@ TEST_F(GlobeLayersTest, TheFinestLayerCoversTheOthersOnRequest)
         return globe().layers().size() == 2 && globe().layers().back().map == mars;
     }));
     EXPECT_EQ(layerAt(0.0, 80.0), 0U);
+}
+
+TEST_F(GlobeLayersTest, ALayerThatIsHiddenAndShownAgainKeepsItsPlaceInTheList)
+{
+    ASSERT_TRUE(showBoth());
+    const LayerId mars = window_->session().layers.back().id;
+    window_->controller().setVisible(mars, false);
+    ASSERT_TRUE(waitFor([this] { return globe().scene().maps().size() == 1; }));
+    window_->controller().setVisible(mars, true);
+    ASSERT_TRUE(waitFor([this] { return globe().scene().maps().size() == 2; }));
+    EXPECT_EQ(window_->session().layers.back().id, mars);
+    EXPECT_EQ(layerAt(0.0, 80.0), 0U);
+}
+
+// 2 km of Hellas, 7 km below elevation 0: flying there aimed at the ellipsoid.
+TEST_F(GlobeLayersTest, FlyingToALayerInLowGroundFillsThePictureWithIt)
+{
+    const QString low = maps_.write(
+        QStringLiteral("hellas.asc"),
+        {.columns = 50, .rows = 50, .x_lower_left = 62.0, .y_lower_left = -32.0, .cell = 0.001},
+        [](int column, int row) { return -7000.0 + column + 2.0 * row; });
+    writeMarsCrs(QStringLiteral("hellas.prj"));
+    ASSERT_TRUE(openAndWait(*window_, low));
+    ASSERT_TRUE(showGlobe());
+    ASSERT_TRUE(waitFor([this] { return globe().scene().maps().size() == 2; }));
+    const Session& session = window_->session();
+    window_->controller().setExaggeration(10.0);
+    ASSERT_TRUE(globe().flyToLayer(session.layers.front().map));
+    ASSERT_TRUE(rests());
+    int on_layer = 0;
+    constexpr int kLooks = 11;
+    for (int i = 0; i < kLooks; ++i) {
+        const auto ground = globe().groundAt(
+            globeMiddle() + QPointF((i - kLooks / 2) * 0.04 * globe().width(), 0.0));
+        on_layer += ground && ground->index == 0 ? 1 : 0;
+    }
+    EXPECT_EQ(on_layer, kLooks); // the middle 40 % of the width
+}
+
+TEST_F(GlobeLayersTest, GoToPlaceReachesAllLayersOfTheScene)
+{
+    ASSERT_TRUE(showBoth()); // the nested one is topmost
+    const auto typed = [this](const char* text) {
+        window_->actionSet().go_to_place->trigger();
+        auto* dialog = window_->findChild<GoToDialog*>();
+        auto* field = dialog->findChild<QLineEdit*>(QStringLiteral("coordinate"));
+        field->setText(QString::fromUtf8(text));
+        QTest::keyClick(field, Qt::Key_Return);
+        return waitFor([this] { return window_->findChild<GoToDialog*>() == nullptr; }) && rests();
+    };
+    ASSERT_TRUE(typed("40 S 100 E"));
+    EXPECT_NEAR(globe().camera().target.latitude.degrees(), -40.0, 1e-6);
+    EXPECT_NEAR(globe().camera().target.longitude.degrees(), 100.0, 1e-6);
+    EXPECT_TRUE(flat().isPlaceMarked());
+    EXPECT_NEAR(flat().markedPlace()->latitude.degrees(), -40.0, 1e-6);
+    // As typed, not at the nearest sample.
+    ASSERT_TRUE(typed("15.3 N 0 E"));
+    EXPECT_NEAR(std::remainder(globe().camera().target.longitude.degrees(), 360.0), 0.0, 1e-6);
+    ASSERT_TRUE(typed("90 S 0 E"));
+    EXPECT_NEAR(globe().camera().target.latitude.degrees(), -90.0, 1e-6);
 }
 
 TEST_F(GlobeLayersTest, AMapThatIsOpenedOnTheGlobeIsInItsPictureOnceTheWindowHasSettled)
