@@ -150,10 +150,10 @@ ScenePoint BodyMesh::pointOfCap(BodyIndex vertex) const noexcept
 ScenePoint BodyMesh::poleOf(const Cap& cap) const noexcept
 {
     double sum_m = 0.0;
-    for (std::uint32_t i = 0; i < poleSampleCount(); ++i) {
-        sum_m += rasterHeight(poleColumn(i), cap.pole_row);
+    for (std::uint32_t i = 0; i < cap_shape_.poleSampleCount(); ++i) {
+        sum_m += rasterHeight(cap_shape_.poleSample(i), cap.pole_row);
     }
-    return poleAt(cap, sum_m / poleSampleCount());
+    return poleAt(cap, sum_m / cap_shape_.poleSampleCount());
 }
 
 ScenePoint BodyMesh::poleAt(const Cap& cap, double height_m) const noexcept
@@ -323,8 +323,8 @@ std::shared_ptr<const BodyMesh> BodyMesh::withPins(std::span<const BodyIndex> ve
         BodySample sample = sampleOf(vertex);
         if (sample.row >= rows_) {
             const Cap& cap = capOfVertex(vertex);
-            for (std::uint32_t i = 0; i < poleSampleCount(); ++i) {
-                wanted.emplace(cap.pole_row, poleColumn(i));
+            for (std::uint32_t i = 0; i < cap_shape_.poleSampleCount(); ++i) {
+                wanted.emplace(cap.pole_row, cap_shape_.poleSample(i));
             }
             sample = circleSample(vertex);
         }

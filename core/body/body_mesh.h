@@ -4,11 +4,11 @@
 #include "core/base/job_monitor.h"
 #include "core/base/result.h"
 #include "core/body/body_positions.h"
-#include "core/body/pole_cap.h"
 #include "core/body/tiled_body_nodes.h"
 #include "core/levels/tiled_terrain.h"
 #include "core/mesh/triangle_tree.h"
 #include "core/terrain/filled_heightfield.h"
+#include "core/terrain/pole_cap.h"
 
 #include <algorithm>
 #include <array>
@@ -395,7 +395,6 @@ private:
     }
     BodyIndex firstCapFace() const noexcept { return BodyIndex{2} * cell_columns_ * (rows_ - 1); }
 
-    static constexpr std::uint32_t kPoleSamples = 8;
     /// What closes a pole.
     struct Cap {
         BodyIndex first_face = 0;
@@ -432,11 +431,6 @@ private:
     }
     std::array<BodySample, 3> samplesOfCap(BodyIndex face) const noexcept;
     ScenePoint pointOfCap(BodyIndex vertex) const noexcept;
-    std::uint32_t poleColumn(std::uint32_t number) const noexcept
-    {
-        return static_cast<std::uint32_t>(BodyIndex{number} * columns_ / poleSampleCount());
-    }
-    std::uint32_t poleSampleCount() const noexcept { return std::min(kPoleSamples, columns_); }
     ScenePoint poleOf(const Cap& cap) const noexcept;
     ScenePoint poleAt(const Cap& cap, double height_m) const noexcept;
     // From a corner's number in the cap's shape to the mesh, and back.

@@ -1,12 +1,12 @@
 #include "core/body/body_positions.h"
 
 #include "core/base/check.h"
+#include "core/geo/body_layout.h"
 
 #include <GeographicLib/Geocentric.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -14,7 +14,6 @@
 namespace marsview {
 namespace {
 
-constexpr double kFullTurnDeg = 360.0;
 constexpr std::size_t kTermCount = 10;
 // Chebyshev nodes per side of a block, and shares of a block between them where the fit is judged.
 constexpr std::size_t kNodes = 5;
@@ -99,7 +98,7 @@ public:
         if (made_.columns_ < 2 || made_.rows_ < 2) {
             return Error{ErrorCode::Invalid, "has fewer than 2 columns or rows"};
         }
-        Status filled = isCylindrical() ? fillTables() : fillBlocks();
+        Status filled = hasMeridiansAsColumns(georeference_) ? fillTables() : fillBlocks();
         if (!filled) {
             return std::move(filled).error();
         }
@@ -116,117 +115,39 @@ private:
         return georeference_.toGeographic(GridPoint{column, row});
     }
 
-    // Longitude by column alone and latitude by row alone: where columns are meridians.
-    bool isCylindrical() const
-    {
-        const GeoTransform::Terms& t = georeference_.transform().terms();
-        return t[2] == 0.0 && t[4] == 0.0 && georeference_.crs()->turn().has_value() &&
-               meridiansAreColumns();
-    }
-
-    bool meridiansAreColumns() const
-    {
-        constexpr double kEqualDeg = 1e-11;
-        const double last_column = static_cast<double>(made_.columns_ - 1);
-        const double last_row = static_cast<double>(made_.rows_ - 1);
-        for (const double share : {0.0, 0.31, 0.77, 1.0}) {
-            const auto above = placeOf(share * last_column, 0.25 * last_row);
-            const auto below = placeOf(share * last_column, 0.75 * last_row);
-            const auto left = placeOf(0.0, share * last_row);
-            const auto right = placeOf(last_column, share * last_row);
-            if (!above || !below || !left || !right ||
-                std::abs(above->longitude.degrees() - below->longitude.degrees()) > kEqualDeg ||
-                std::abs(left->latitude.degrees() - right->latitude.degrees()) > kEqualDeg) {
-                return false;
-            }
-        }
-        return true;
-    }
-
     Status fillTables()
     {
+        const Result<BodyLayout> layout = bodyLayout(georeference_);
+        if (!layout) {
+            return layout.error();
+        }
+        made_.first_row_ = layout->first_row;
+        made_.has_row_after_ = layout->has_row_after;
+        made_.wraps_ = layout->wraps;
+        made_.closes_first_ = layout->closes_first;
+        made_.closes_last_ = layout->closes_last;
         const double middle_row = 0.5 * static_cast<double>(made_.rows_ - 1);
-        std::vector<double> longitudes_deg;
+        made_.columns_ = layout->columns;
+        made_.rows_ = layout->rows;
         for (std::size_t column = 0; column < made_.columns_; ++column) {
             const auto place = placeOf(static_cast<double>(column), middle_row);
             if (!place) {
                 return noPlace();
             }
-            longitudes_deg.push_back(place->longitude.degrees());
-        }
-        if (Status turned = takeTurn(longitudes_deg); !turned) {
-            return turned;
-        }
-        for (const double longitude_deg : longitudes_deg) {
-            const double radians = Angle::degrees(longitude_deg).radians();
+            const double radians = Angle::degrees(place->longitude.degrees()).radians();
             made_.column_table_.push_back({std::cos(radians), std::sin(radians)});
         }
-        std::vector<GeographicPoint> places;
         for (std::size_t row = 0; row < made_.rows_; ++row) {
-            const auto place = placeOf(0.0, static_cast<double>(row));
+            const auto place = placeOf(0.0, static_cast<double>(row + made_.first_row_));
             if (!place) {
                 return noPlace();
             }
-            places.push_back(*place);
-        }
-        takePoles(places);
-        for (const GeographicPoint& place : places) {
             const Foot foot = footOf(
-                made_.ellipsoid_, {.longitude = Angle::degrees(0.0), .latitude = place.latitude});
+                made_.ellipsoid_, {.longitude = Angle::degrees(0.0), .latitude = place->latitude});
             made_.row_table_.push_back(
                 {foot.surface_m.x, foot.surface_m.z, foot.normal.x, foot.normal.z});
         }
         return Done{};
-    }
-
-    // A raster with a sample at the same meridian in the first and the last column needs one of
-    // them.
-    Status takeTurn(std::vector<double>& longitudes_deg)
-    {
-        const double step_deg = std::abs(longitudes_deg[1] - longitudes_deg[0]);
-        const double span_deg = std::abs(longitudes_deg.back() - longitudes_deg.front());
-        constexpr double kEqualSteps = 1e-6;
-        if (span_deg > kFullTurnDeg + kEqualSteps * step_deg) {
-            return Error{
-                ErrorCode::Invalid,
-                fmt::format("extends over {:.6g}° of longitude; a body has 360°", span_deg)};
-        }
-        if (span_deg > kFullTurnDeg - kEqualSteps * step_deg) {
-            longitudes_deg.pop_back();
-            --made_.columns_;
-        }
-        const double gap_deg =
-            kFullTurnDeg - std::abs(longitudes_deg.back() - longitudes_deg.front());
-        made_.wraps_ = made_.columns_ >= 3 && std::abs(gap_deg - step_deg) < 0.5 * step_deg;
-        return Done{};
-    }
-
-    void takePoles(std::vector<GeographicPoint>& places)
-    {
-        constexpr double kPoleDeg = 90.0;
-        constexpr double kAtPoleRows = 1e-6;
-        const auto off_pole_rows = [&](std::size_t row, std::size_t inner) {
-            const double latitude = places[row].latitude.degrees();
-            const double step = std::abs(latitude - places[inner].latitude.degrees());
-            return (kPoleDeg - std::abs(latitude)) / std::max(step, 1e-300);
-        };
-        if (off_pole_rows(0, 1) < kAtPoleRows) {
-            places.erase(places.begin());
-            made_.first_row_ = 1;
-        }
-        if (places.size() >= 2 &&
-            off_pole_rows(places.size() - 1, places.size() - 2) < kAtPoleRows) {
-            places.pop_back();
-            made_.has_row_after_ = true;
-        }
-        made_.rows_ = places.size();
-        if (made_.rows_ < 2) {
-            return;
-        }
-        constexpr double kNextToPoleRows = 1.0 + kAtPoleRows;
-        made_.closes_first_ = made_.wraps_ && off_pole_rows(0, 1) <= kNextToPoleRows;
-        made_.closes_last_ =
-            made_.wraps_ && off_pole_rows(made_.rows_ - 1, made_.rows_ - 2) <= kNextToPoleRows;
     }
 
     Status fillBlocks()

@@ -1,4 +1,4 @@
-#include "core/body/pole_cap.h"
+#include "core/terrain/pole_cap.h"
 
 #include <gtest/gtest.h>
 
@@ -17,8 +17,8 @@ constexpr double kPi = 3.14159265358979323846;
 
 // Sizes that halve evenly, with a remainder at every step, and the smallest one that a map around a
 // body has.
-const std::vector<std::uint32_t> kSizes{3,  4,  7,  8,   9,   10,  11,   15,
-                                        16, 17, 33, 100, 129, 360, 1440, 4097};
+const std::vector<std::uint32_t> kCircleSizes{3,  4,  7,  8,   9,   10,  11,   15,
+                                              16, 17, 33, 100, 129, 360, 1440, 4097};
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
@@ -30,7 +30,7 @@ Edge edgeOpposite(const PoleCap& cap, std::uint32_t corner)
 
 TEST(PoleCap, EveryEdgeHasTheFaceOnItsOtherSideOrIsOfTheCircle)
 {
-    for (const std::uint32_t size : kSizes) {
+    for (const std::uint32_t size : kCircleSizes) {
         const PoleCap cap(size);
         std::map<Edge, std::uint32_t> corners; // by the directed edge opposite
         for (std::uint32_t corner = 0; corner < 3 * cap.faceCount(); ++corner) {
@@ -58,7 +58,7 @@ TEST(PoleCap, EveryEdgeHasTheFaceOnItsOtherSideOrIsOfTheCircle)
 
 TEST(PoleCap, NoVertexHasMoreThanEightNeighborsAndEachHasACorner)
 {
-    for (const std::uint32_t size : kSizes) {
+    for (const std::uint32_t size : kCircleSizes) {
         const PoleCap cap(size);
         std::vector<int> count(size + cap.innerVertexCount(), 0);
         for (std::uint32_t face = 0; face < cap.faceCount(); ++face) {
@@ -81,7 +81,7 @@ TEST(PoleCap, NoVertexHasMoreThanEightNeighborsAndEachHasACorner)
 // Laid out flat, the faces cover the polygon of the circle once, and none is turned over.
 TEST(PoleCap, ItsFacesCoverTheCircleOnce)
 {
-    for (const std::uint32_t size : kSizes) {
+    for (const std::uint32_t size : kCircleSizes) {
         const PoleCap cap(size);
         const auto at = [&](std::uint32_t vertex) {
             const PoleCap::Place place =

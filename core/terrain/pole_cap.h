@@ -50,7 +50,20 @@ public:
     };
     Place placeOf(std::uint32_t vertex) const noexcept;
 
+    /// The height of the pole is the mean of up to eight evenly spaced samples of the circle. That
+    /// of a vertex between a sample and the pole is linear along the way.
+    std::uint32_t poleSampleCount() const noexcept
+    {
+        return rings_[0].size < kPoleSamplesMax ? rings_[0].size : kPoleSamplesMax;
+    }
+    std::uint32_t poleSample(std::uint32_t number) const noexcept
+    {
+        return static_cast<std::uint32_t>(std::uint64_t{number} * rings_[0].size /
+                                          poleSampleCount());
+    }
+
 private:
+    static constexpr std::uint32_t kPoleSamplesMax = 8;
     static constexpr std::uint32_t kInnermostMax = 8;
     static constexpr std::uint32_t kRingsMax = 32;
 

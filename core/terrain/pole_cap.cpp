@@ -1,4 +1,4 @@
-#include "core/body/pole_cap.h"
+#include "core/terrain/pole_cap.h"
 
 namespace marsview {
 
