@@ -1,10 +1,13 @@
 #include "core/measure/measured_terrain.h"
 
+#include "core/geo/body_layout.h"
 #include "core/measure/constants.h"
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
 #include <utility>
+#include <vector>
 
 namespace marsview {
 namespace {
@@ -55,7 +58,113 @@ MeasuredTerrain::MeasuredTerrain(const Georeference& georeference,
             columns_.cells += 1;
             columns_.seam_end = period_;
         }
+        findCaps();
     }
+}
+
+void MeasuredTerrain::findCaps()
+{
+    constexpr double kRounding = 1e-6; // columns
+    if (std::abs(columnLine(cellColumns()) - period_) > kRounding ||
+        !hasMeridiansAsColumns(georeference_)) {
+        return;
+    }
+    const Result<BodyLayout> layout = bodyLayout(georeference_);
+    const auto first = georeference_.toGeographic(GridPoint{0.0, 0.0});
+    const auto second = georeference_.toGeographic(GridPoint{1.0, 0.0});
+    if (!layout || !first || !second) {
+        return;
+    }
+    has_cap_ = {layout->closes_first && layout->first_row == 0,
+                layout->closes_last && !layout->has_row_after};
+    first_longitude_deg_ = first->longitude.degrees();
+    constexpr double kTurnDeg = 360.0;
+    columns_per_degree_ =
+        std::copysign(period_ / kTurnDeg, second->longitude.degrees() - first_longitude_deg_);
+}
+
+const CapTerrain* MeasuredTerrain::capBeyond(double row)
+{
+    const std::size_t which = row < 0.0 ? 0 : 1;
+    if (!has_cap_[which] || (which == 1 && row <= rowLine(cellRows()))) {
+        return nullptr;
+    }
+    if (!caps_[which]) {
+        caps_[which] = capAt(which == 0 ? 0 : cellRows());
+    }
+    return caps_[which].get();
+}
+
+std::unique_ptr<const CapTerrain> MeasuredTerrain::capAt(std::size_t row)
+{
+    std::vector<double> turns;
+    turns.reserve(cellColumns());
+    for (std::size_t column = 0; column < cellColumns(); ++column) {
+        turns.push_back(columnLine(column) / period_);
+    }
+    const auto position = fromGrid({0.0, rowLine(row)});
+    if (!position) {
+        return nullptr;
+    }
+    const Vec3 sample = ground_.cartesian(*position, 0.0);
+    CapTerrain cap{
+        .plane = CapPlane(turns), .row = row, .radius_m = std::hypot(sample.x, sample.y)};
+    const PoleCap& shape = cap.plane.shape();
+    double sum_m = 0.0;
+    for (std::uint32_t i = 0; i < shape.poleSampleCount(); ++i) {
+        sum_m += vertex(shape.poleSample(i), row);
+    }
+    cap.pole_m = sum_m / shape.poleSampleCount();
+    return std::make_unique<const CapTerrain>(std::move(cap));
+}
+
+CapTerrain::Place MeasuredTerrain::placeIn(const CapTerrain& cap, GroundPosition position) const
+{
+    const CellPlace cell = placeInColumns((position.x - first_longitude_deg_) * columns_per_degree_)
+                               .value_or(CellPlace{});
+    const Vec3 point = ground_.cartesian(position, 0.0);
+    return {cell.column,
+            cap.plane.at(cell.column, cell.u, std::hypot(point.x, point.y) / cap.radius_m)};
+}
+
+CapPlane::Point MeasuredTerrain::outwardIn(GroundPosition position) const
+{
+    const double turns = (position.x - first_longitude_deg_) * columns_per_degree_ / period_;
+    const double angle = 2.0 * std::numbers::pi * turns;
+    return {std::cos(angle), std::sin(angle)};
+}
+
+std::array<double, 3> MeasuredTerrain::corners(const CapTerrain& cap, std::uint32_t face)
+{
+    const PoleCap& shape = cap.plane.shape();
+    std::array<double, 3> heights{};
+    for (std::size_t i = 0; i < heights.size(); ++i) {
+        const std::uint32_t number = shape.face(face)[i];
+        if (number < cellColumns()) {
+            heights[i] = vertex(number, cap.row);
+            continue;
+        }
+        const PoleCap::Place place = shape.placeOf(number);
+        heights[i] = place.share == 0.0
+                         ? cap.pole_m
+                         : cap.pole_m + (vertex(place.sample, cap.row) - cap.pole_m) * place.share;
+    }
+    return heights;
+}
+
+double
+MeasuredTerrain::elevation(const CapTerrain& cap, std::uint32_t face, const CapPlane::Point& point)
+{
+    constexpr double kRounding = 1e-9;
+    const std::array<double, 3> heights = corners(cap, face);
+    const std::array<double, 3> weights = cap.plane.weights(face, point);
+    double sum_m = 0.0;
+    for (std::size_t i = 0; i < heights.size(); ++i) {
+        sum_m += std::isnan(heights[i]) && std::abs(weights[i]) < kRounding
+                     ? 0.0
+                     : weights[i] * heights[i];
+    }
+    return sum_m;
 }
 
 std::optional<GroundPosition> MeasuredTerrain::fromMap(MapPoint map) const
@@ -156,7 +265,15 @@ double MeasuredTerrain::elevation(GroundPosition position)
 {
     const auto grid = toGrid(position);
     const auto place = grid ? placeOf(*grid) : std::nullopt;
-    return place ? elevation(*place) : kNoMeasure;
+    if (place) {
+        return elevation(*place);
+    }
+    const CapTerrain* cap = grid ? capBeyond(grid->row) : nullptr;
+    if (!cap) {
+        return kNoMeasure;
+    }
+    const CapTerrain::Place in_cap = placeIn(*cap, position);
+    return elevation(*cap, cap->plane.faceAt(in_cap.column, in_cap.point), in_cap.point);
 }
 
 } // namespace marsview

@@ -2,12 +2,15 @@
 #pragma once
 
 #include "core/geo/georeference.h"
+#include "core/measure/cap_plane.h"
 #include "core/measure/ground.h"
 #include "core/measure/sample_reader.h"
 #include "core/terrain/triangulation.h"
 
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -21,6 +24,20 @@ struct CellPlace {
     double v = 0.0;
 };
 
+/// What closes a map around the body between its outermost row of samples and the pole.
+struct CapTerrain {
+    CapPlane plane;
+    std::size_t row = 0;   // the line between cells, first or last
+    double radius_m = 0.0; // of the circle that the row is, at elevation 0
+    double pole_m = 0.0;   // elevation; NaN if a sample that it depends on is void
+
+    /// A point, and the column of cells that it lies in.
+    struct Place {
+        std::size_t column = 0;
+        CapPlane::Point point;
+    };
+};
+
 /// Whether samples are those of the raster, or fewer, as in a preview.
 enum class TerrainDetail { OfSamples, Approximate };
 
@@ -29,7 +46,8 @@ enum class TerrainDetail { OfSamples, Approximate };
 /// one thread at a time.
 ///
 /// Columns may be counted beyond the grid: where longitude is periodic, they are those of the next
-/// turn, and on a map around the whole body the last and the first column are neighbors.
+/// turn, and on a map around the whole body the last and the first column are neighbors. If the
+/// outermost row of such a map is next to a pole, the triangles of a PoleCap close it there.
 class MeasuredTerrain {
 public:
     /// `samples` are those of `georeference`'s raster, at least 2 × 2.
@@ -59,7 +77,8 @@ public:
     /// to the center of a map on which longitude is periodic, otherwise in [-180°, 180°].
     GroundPosition inTurn(GroundPosition position) const;
 
-    /// Elevation in meters; NaN outside the outermost samples and in voids.
+    /// Elevation in meters; NaN in voids and outside the outermost samples, except between them and
+    /// a pole that the map closes at.
     double elevation(GroundPosition position);
     double elevation(const CellPlace& place);
     /// Of the crossing of two lines between cells; column in [0, cellColumns()].
@@ -69,6 +88,23 @@ public:
     }
     /// As elevation(), of the corners of a cell.
     CellHeights cell(std::size_t column, std::size_t row);
+
+    // The triangles at the poles. Their vertices have the heights that they have on the globe,
+    // which are linear along each of the ways from the pole to the samples of the row.
+
+    /// What closes the map beyond its first or last row, if `row` of the grid is beyond it and that
+    /// row is not at the pole itself; otherwise null. Constant after the first call.
+    const CapTerrain* capBeyond(double row);
+    /// Of a position between the row and the pole.
+    CapTerrain::Place placeIn(const CapTerrain& cap, GroundPosition position) const;
+    /// The direction away from the pole at a position, of length 1. At the pole, that of its
+    /// longitude.
+    CapPlane::Point outwardIn(GroundPosition position) const;
+    /// Counter-clockwise in the plane of a cap is then east.
+    bool columnsRunEast() const noexcept { return columns_per_degree_ > 0.0; }
+    /// NaN if a corner that counts at the point is void.
+    double elevation(const CapTerrain& cap, std::uint32_t face, const CapPlane::Point& point);
+    std::array<double, 3> corners(const CapTerrain& cap, std::uint32_t face);
 
     // The cells. Those of the seam of a map around the whole body come last.
 
@@ -120,6 +156,9 @@ private:
         }
     };
 
+    void findCaps();
+    std::unique_ptr<const CapTerrain> capAt(std::size_t row);
+
     Georeference georeference_;
     Ground ground_;
     std::unique_ptr<SampleReader> samples_;
@@ -129,6 +168,11 @@ private:
     double period_ = 0.0;
     double turn_begin_ = 0.0;
     double center_longitude_deg_ = 0.0;
+    // Beyond the first and the last row.
+    std::array<bool, 2> has_cap_{};
+    std::array<std::unique_ptr<const CapTerrain>, 2> caps_; // when first asked for
+    double first_longitude_deg_ = 0.0;
+    double columns_per_degree_ = 0.0; // eastward
 };
 
 } // namespace marsview

@@ -1,10 +1,12 @@
 #include "core/measure/terrain_path.h"
 
+#include "core/measure/cap_path.h"
 #include "core/measure/constants.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace marsview {
 namespace {
@@ -342,15 +344,20 @@ private:
 
 class PathTracer {
 public:
-    PathTracer(MeasuredTerrain& terrain, PathVisitor& visitor)
+    PathTracer(MeasuredTerrain& terrain, const GroundLine& line, PathVisitor& visitor)
         : terrain_(terrain)
+        , line_(line)
         , visitor_(visitor)
     {}
 
     Status trace(const GridCurve& curve, JobMonitor& monitor)
     {
         if (!curve.is_on_map) {
-            visitor_.visit({curve.begin_m, curve.end_m, false, false, kNoMeasure, kNoMeasure});
+            if (curve.is_along_pole && isOfCap(curve.at(0.5).row, curve.begin_m, curve.end_m)) {
+                return Done{};
+            }
+            finish();
+            visitor_.visit(acrossGap(curve));
             return Done{};
         }
         findCellCuts(terrain_, curve, cuts_);
@@ -367,13 +374,57 @@ public:
         return Done{};
     }
 
+    /// After the last curve.
+    void finish()
+    {
+        if (cap_ != nullptr) {
+            traceCap(terrain_, *std::exchange(cap_, nullptr), line_, cap_begin_m_, cap_end_m_,
+                     visitor_);
+        }
+    }
+
 private:
+    // Parts that follow each other within a cap are traced as one.
+    bool isOfCap(double row, double begin_m, double end_m)
+    {
+        const CapTerrain* cap = terrain_.capBeyond(row);
+        if (cap == nullptr) {
+            return false;
+        }
+        if (cap != cap_) {
+            finish();
+            cap_ = cap;
+            cap_begin_m_ = begin_m;
+        }
+        cap_end_m_ = end_m;
+        return true;
+    }
+
+    // What is not on the map, unless it lies at a pole that is a row of the grid.
+    PathPiece acrossGap(const GridCurve& curve)
+    {
+        const auto begin = terrain_.placeOf(curve.at(0.0));
+        const auto end = terrain_.placeOf(curve.at(1.0));
+        PathPiece piece{curve.begin_m, curve.end_m, false, false, kNoMeasure, kNoMeasure};
+        if (curve.is_along_pole && begin && end) {
+            piece.begin_elevation_m = terrain_.elevation(*begin);
+            piece.end_elevation_m = terrain_.elevation(*end);
+            piece.has_terrain =
+                std::isfinite(piece.begin_elevation_m) && std::isfinite(piece.end_elevation_m);
+            piece.is_on_map = true;
+        }
+        return piece;
+    }
+
     // The part of the curve between two cuts, which is in one cell.
     void traceCell(const GridCurve& curve, const CellCut& begin, const CellCut& end)
     {
         const std::optional<CellPlace> middle = terrain_.placeOf(curve.at(0.5 * (begin.t + end.t)));
         if (!middle) {
-            emit(curve, begin.t, end.t, nullptr, {}, {});
+            if (!isOfCap(curve.at(0.5 * (begin.t + end.t)).row, distance(curve, begin.t),
+                         distance(curve, end.t))) {
+                emit(curve, begin.t, end.t, nullptr, {}, {});
+            }
             return;
         }
         cell_.column = middle->column;
@@ -491,17 +542,25 @@ private:
               double begin_m,
               double end_m)
     {
-        const auto distance = [&](double t) {
-            return t == 1.0 ? curve.end_m : curve.begin_m + t * (curve.end_m - curve.begin_m);
-        };
+        finish();
         const bool has_terrain = middle_m != nullptr && std::isfinite(*middle_m);
-        visitor_.visit({distance(begin_t), distance(end_t), has_terrain, middle_m != nullptr,
-                        middle_m != nullptr ? begin_m : kNoMeasure,
+        visitor_.visit({distance(curve, begin_t), distance(curve, end_t), has_terrain,
+                        middle_m != nullptr, middle_m != nullptr ? begin_m : kNoMeasure,
                         middle_m != nullptr ? end_m : kNoMeasure});
     }
 
+    static double distance(const GridCurve& curve, double t)
+    {
+        return t == 1.0 ? curve.end_m : curve.begin_m + t * (curve.end_m - curve.begin_m);
+    }
+
     MeasuredTerrain& terrain_;
+    const GroundLine& line_;
     PathVisitor& visitor_;
+    // What is not traced yet; null: nothing.
+    const CapTerrain* cap_ = nullptr;
+    double cap_begin_m_ = 0.0;
+    double cap_end_m_ = 0.0;
     std::vector<CellCut> cuts_;
     Cell cell_;
 };
@@ -525,12 +584,16 @@ Status tracePath(MeasuredTerrain& terrain,
                  JobMonitor& monitor,
                  PathVisitor& visitor)
 {
-    PathTracer tracer(terrain, visitor);
+    PathTracer tracer(terrain, line, visitor);
     for (const GridCurve& curve : gridCurves(terrain, line)) {
         if (Status status = tracer.trace(curve, monitor); !status) {
             return status;
         }
         monitor.report(line.lengthM() > 0.0 ? curve.end_m / line.lengthM() : 1.0);
+    }
+    tracer.finish();
+    if (terrain.failure()) {
+        return *terrain.failure();
     }
     return Done{};
 }

@@ -57,8 +57,9 @@ public:
 };
 
 /// Cuts `line` at every edge of the terrain's triangles that it crosses. Along an edge, the
-/// elevation is that of its two ends. Reads only cells on the line. Canceled when `monitor` is,
-/// and the first error of reading.
+/// elevation is that of its two ends. Between the outermost row and a pole that the map closes at,
+/// these are the triangles of a PoleCap. Reads only cells on the line, and the samples that a pole
+/// depends on. Canceled when `monitor` is, and the first error of reading.
 Status tracePath(MeasuredTerrain& terrain,
                  const GroundLine& line,
                  JobMonitor& monitor,

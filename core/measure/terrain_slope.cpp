@@ -17,10 +17,31 @@ struct Gradient {
     double north = kNoMeasure;
 };
 
+// Of the triangle of a pole: distances from the axis, which the plane has, are shorter than those
+// along the meridian by the sine of the latitude.
+Gradient inCap(MeasuredTerrain& terrain, const CapTerrain& cap, GroundPosition position)
+{
+    const CapTerrain::Place place = terrain.placeIn(cap, position);
+    const std::uint32_t face = cap.plane.faceAt(place.column, place.point);
+    const auto elevation = [&](CapPlane::Point offset) {
+        return terrain.elevation(cap, face, place.point + offset);
+    };
+    const double here_m = elevation({0.0, 0.0});
+    const CapPlane::Point rise{elevation({1.0, 0.0}) - here_m, elevation({0.0, 1.0}) - here_m};
+    const LocalFrame frame = terrain.ground().frameAt(position);
+    const CapPlane::Point out = terrain.outwardIn(position);
+    const double outward = (rise.x * out.x + rise.y * out.y) / cap.radius_m;
+    const double ahead = (rise.y * out.x - rise.x * out.y) / cap.radius_m;
+    return {terrain.columnsRunEast() ? ahead : -ahead, -outward * frame.up.z};
+}
+
 Gradient ofTriangle(MeasuredTerrain& terrain, GroundPosition position)
 {
     const auto grid = terrain.toGrid(position);
     const auto place = grid ? terrain.placeOf(*grid) : std::nullopt;
+    if (const CapTerrain* cap = grid && !place ? terrain.capBeyond(grid->row) : nullptr) {
+        return inCap(terrain, *cap, position);
+    }
     const auto steps = place ? gridSteps(terrain, *grid) : std::nullopt;
     if (!steps) {
         return {};

@@ -77,6 +77,10 @@ Comparison compare(const Map& map, const GroundPosition& a, const GroundPosition
         const double s = line.Distance() * i / count;
         GroundPosition here;
         line.Position(s, here.y, here.x);
+        const auto grid = terrain.toGrid(here);
+        if (grid && terrain.capBeyond(grid->row)) {
+            continue; // beyond the rows: cap_path_test
+        }
         const double truth_m =
             map.height({Angle::degrees(here.x), ellipsoid.planetocentric(Angle::degrees(here.y))});
         const double found_m = interpolated(profile, s);

@@ -1,0 +1,424 @@
+#include "core/body/body_mesh.h"
+#include "core/measure/cap_path.h"
+#include "core/measure/line_measures.h"
+#include "core/measure/terrain_slope.h"
+#include "tests/core/measure/measured_map.h"
+#include "tests/support/map_maker.h"
+#include "tests/support/random.h"
+#include "tests/support/shared_data.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace marsview::test {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+struct PolarMap {
+    std::string name;
+    MapMaker::Place place;
+    double pole_deg;         // 90 or -90
+    double row_distance_deg; // of the outermost row from it
+    friend std::ostream& operator<<(std::ostream& out, const PolarMap& map)
+    {
+        return out << map.name;
+    }
+};
+
+const std::vector<PolarMap> kMaps{
+    {"North", {1440, 6, {0, 0.25, 0, 90, 0, -0.25}, "IAU_2015:49900"}, 90.0, 0.125},
+    {"South", {720, 5, {-180, 0.5, 0, -87.5, 0, -0.5}, "IAU_2015:30100"}, -90.0, 0.25},
+    {"OddColumns", {45, 22, {0, 8, 0, 90, 0, -8}, "IAU_2015:49900"}, 90.0, 4.0},
+    {"Westward", {360, 180, {360, -1, 0, 90, 0, -1}, "IAU_2015:49900"}, 90.0, 0.5},
+    {"Northward", {360, 20, {0, 1, 0, -90, 0, 1}, "IAU_2015:49900"}, -90.0, 0.5},
+    {"RepeatsAColumn", {361, 10, {-0.5, 1, 0, 90, 0, -1}, "IAU_2015:49900"}, 90.0, 0.5},
+    {"AWholeCellAway", {360, 10, {0, 1, 0, 89.5, 0, -1}, "IAU_2015:49900"}, 90.0, 1.0},
+    {"Projected",
+     {720,
+      12,
+      {-5458203.0762, 15161.6752, 0, 2729101.5381, 0, -15161.6752},
+      "+proj=eqc +R=1737400 +units=m"},
+     90.0,
+     0.25},
+};
+
+std::shared_ptr<const Map> rough(MapMaker& maker, const PolarMap& map, double relief_m)
+{
+    Random random(11);
+    std::vector<double> heights;
+    for (std::size_t i = 0; i < map.place.columns * map.place.rows; ++i) {
+        heights.push_back(random.uniform(0.0, relief_m));
+    }
+    const std::size_t columns = map.place.columns;
+    return maker.make(map.place, [&](std::size_t c, std::size_t r) {
+        const bool is_repeated = map.name == "RepeatsAColumn" && c + 1 == columns;
+        return heights[r * columns + (is_repeated ? 0 : c)];
+    });
+}
+
+Profile profileOf(MeasuredTerrain& terrain, const std::vector<GroundPosition>& positions)
+{
+    JobMonitor monitor;
+    Result<Profile> profile = measureProfile(terrain, positions, std::nullopt, monitor);
+    EXPECT_TRUE(profile) << (profile ? "" : profile.error().message);
+    return profile ? *profile : Profile{};
+}
+
+Distance distanceOf(MeasuredTerrain& terrain, const std::vector<GroundPosition>& positions)
+{
+    JobMonitor monitor;
+    Result<Distance> distance = measureDistance(terrain, positions, monitor);
+    EXPECT_TRUE(distance) << (distance ? "" : distance.error().message);
+    return distance ? *distance : Distance{};
+}
+
+// Between the points of a profile; NaN in gaps.
+double interpolated(const Profile& profile, double distance_m)
+{
+    const auto after =
+        std::upper_bound(profile.points.begin() + 1, profile.points.end() - 1, distance_m,
+                         [](double d, const ProfilePoint& point) { return d < point.distance_m; });
+    const ProfilePoint& a = *(after - 1);
+    const double share = (distance_m - a.distance_m) / (after->distance_m - a.distance_m);
+    return a.elevation_m + share * (after->elevation_m - a.elevation_m);
+}
+
+int gapsOf(const Profile& profile)
+{
+    return static_cast<int>(
+        std::count_if(profile.points.begin(), profile.points.end(),
+                      [](const ProfilePoint& point) { return std::isnan(point.elevation_m); }));
+}
+
+// The triangles of a pole one by one in space, as the globe has them.
+class ListedCap {
+public:
+    ListedCap(const Map& map, double pole_deg)
+    {
+        JobMonitor monitor;
+        const auto mesh = BodyMesh::build(map.filled(), map.georeference(), 1.0, monitor);
+        EXPECT_TRUE(mesh) << (mesh ? "" : mesh.error().message);
+        const BodyIndex cells = BodyIndex{2} * (*mesh)->cellColumns() * (*mesh)->cellRows();
+        for (BodyIndex face = cells; face < (*mesh)->faceCount(); ++face) {
+            const auto points = (*mesh)->points(face);
+            if ((points[0].z > 0.0) == (pole_deg > 0.0)) {
+                faces_.push_back(points);
+            }
+        }
+    }
+
+    // How far above a point, along a line, a triangle lies; NaN without one.
+    double heightAbove(const Vec3& foot, const Vec3& up) const
+    {
+        for (const auto& [a, b, c] : faces_) {
+            const Big along = big(up);
+            const Big ab = big(b - a);
+            const Big ac = big(c - a);
+            const Big to = big(a - foot);
+            const Big normal = cross(ab, ac);
+            const long double height = dot(to, normal) / dot(along, normal);
+            Big at;
+            for (std::size_t i = 0; i < 3; ++i) {
+                at[i] = along[i] * height - to[i];
+            }
+            const long double square = dot(normal, normal);
+            const long double second = dot(cross(at, ac), normal) / square;
+            const long double third = dot(cross(ab, at), normal) / square;
+            constexpr long double kRounding = 1e-9L;
+            if (second >= -kRounding && third >= -kRounding && second + third <= 1 + kRounding) {
+                return static_cast<double>(height);
+            }
+        }
+        return kNan;
+    }
+
+private:
+    using Big = std::array<long double, 3>;
+    static Big big(const Vec3& v) { return {v.x, v.y, v.z}; }
+    static Big cross(const Big& a, const Big& b)
+    {
+        return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    }
+    static long double dot(const Big& a, const Big& b)
+    {
+        return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    }
+
+    std::vector<std::array<ScenePoint, 3>> faces_;
+};
+
+// Lines over the pole along a meridian, past it at several distances, along the edge of its cap,
+// and such that end or begin within it, in shares of the distance of the row.
+std::vector<std::vector<GroundPosition>> linesOf(const PolarMap& map)
+{
+    const auto at = [&](double longitude_deg, double rows) {
+        return GroundPosition{
+            longitude_deg, map.pole_deg - std::copysign(map.row_distance_deg * rows, map.pole_deg)};
+    };
+    return {
+        {at(10.0, 1.6), at(190.0, 1.6)},  {at(0.3, 1.6), at(180.3, 1.6)},
+        {at(0.0, 1.6), at(0.0, 0.0)},     {at(77.0, 0.0), at(-20.0, 1.6)},
+        {at(10.0, 1.6), at(189.0, 1.6)},  {at(100.0, 1.6), at(210.0, 1.9)},
+        {at(30.0, 1.5), at(120.0, 1.38)}, {at(200.0, 1.2), at(33.0, 0.4)},
+        {at(5.0, 0.02), at(120.0, 0.7)},  {at(-71.0, 0.9), at(-64.0, 0.95)},
+        {at(10.0, 0.3), at(250.0, 1.6)},  {at(90.0, 0.5), at(270.0, 0.5)},
+    };
+}
+
+} // namespace
+
+class PathInCap : public testing::TestWithParam<PolarMap> {};
+
+// The reference are the globe's triangles, whose edges are straight in space: they lie up to
+// r² / 8R below the curved surface of elevation 0, as much as those of a map without relief. The
+// rest are second-order effects: they move the places of triangles sideways by (r / R)² of the
+// cap, and by the relief over R.
+TEST_P(PathInCap, HasTheHeightsOfTheTrianglesOfTheGlobe)
+{
+    const PolarMap& tested = GetParam();
+    constexpr double kReliefM = 2.0;
+    MapMaker maker;
+    const auto map = rough(maker, tested, kReliefM);
+    const auto flat = maker.make(tested.place, [](std::size_t, std::size_t) { return 0.0; });
+    const ListedCap cap(*map, tested.pole_deg);
+    const ListedCap base(*flat, tested.pole_deg);
+    MeasuredTerrain terrain = terrainOf(*map);
+    const double r = tested.row_distance_deg / 57.29578;
+    const double tolerance_m = kReliefM * (2.0 * r * r + 1e-5) + 1e-4;
+    double worst_m = 0.0;
+    int compared = 0;
+    for (const auto& positions : linesOf(tested)) {
+        const Profile profile = profileOf(terrain, positions);
+        EXPECT_EQ(gapsOf(profile), 0) << positions[0].x << ", " << positions[0].y;
+        const GroundLine line = terrain.ground().line(positions[0], positions[1]);
+        for (int i = 0; i <= 100; ++i) {
+            const double distance_m = line.lengthM() * i / 100;
+            const GroundPosition here = line.at(distance_m);
+            const LocalFrame frame = terrain.ground().frameAt(here);
+            const double truth_m =
+                cap.heightAbove(frame.origin, frame.up) - base.heightAbove(frame.origin, frame.up);
+            if (std::isnan(truth_m)) {
+                continue; // outside
+            }
+            ++compared;
+            worst_m = std::max(worst_m, std::abs(interpolated(profile, distance_m) - truth_m));
+            EXPECT_NEAR(terrain.elevation(here), truth_m, tolerance_m);
+        }
+    }
+    std::printf("%d elevations, largest difference %.2g m of %.2g m\n", compared, worst_m,
+                tolerance_m);
+    EXPECT_GT(compared, 500);
+    EXPECT_LE(worst_m, tolerance_m);
+}
+
+// Between its points a profile is straight, and it has no step, neither at the edges of triangles
+// nor at the row, where the elevation is that of the cells.
+TEST_P(PathInCap, IsTheElevationEverywhereWithoutAStep)
+{
+    const PolarMap& tested = GetParam();
+    constexpr double kReliefM = 100.0;
+    MapMaker maker;
+    const auto map = rough(maker, tested, kReliefM);
+    MeasuredTerrain terrain = terrainOf(*map);
+    for (const auto& positions : linesOf(tested)) {
+        const Profile profile = profileOf(terrain, positions);
+        const GroundLine line = terrain.ground().line(positions[0], positions[1]);
+        double worst_m = 0.0;
+        for (int i = 0; i <= 1000; ++i) {
+            const double distance_m = line.lengthM() * i / 1000;
+            const double truth_m = terrain.elevation(line.at(distance_m));
+            ASSERT_TRUE(std::isfinite(truth_m));
+            worst_m = std::max(worst_m, std::abs(interpolated(profile, distance_m) - truth_m));
+        }
+        EXPECT_LE(worst_m, 1e-3) << positions[0].x << ", " << positions[0].y;
+        for (std::size_t i = 0; i + 1 < profile.points.size(); ++i) {
+            ASSERT_GT(profile.points[i + 1].distance_m, profile.points[i].distance_m);
+        }
+    }
+}
+
+TEST_P(PathInCap, IsLevelOnALevelMap)
+{
+    const PolarMap& tested = GetParam();
+    MapMaker maker;
+    const auto map = maker.make(tested.place, [](std::size_t, std::size_t) { return 1234.5; });
+    MeasuredTerrain terrain = terrainOf(*map);
+    for (const auto& positions : linesOf(tested)) {
+        for (const ProfilePoint& point : profileOf(terrain, positions).points) {
+            EXPECT_NEAR(point.elevation_m, 1234.5, 1e-9);
+        }
+        const Distance distance = distanceOf(terrain, positions);
+        EXPECT_EQ(distance.void_m, 0.0);
+        EXPECT_NEAR(distance.surface_m, distance.geodesic_m, 1e-9 * distance.geodesic_m);
+        JobMonitor monitor;
+        const auto slopes = measureSlopes(terrain, positions, std::nullopt, monitor);
+        ASSERT_TRUE(slopes);
+        for (const TerrainSlope& slope : *slopes) {
+            EXPECT_NEAR(slope.slope_deg, 0.0, 1e-9);
+        }
+    }
+}
+
+TEST_P(PathInCap, OfSectionsAddsUpToTheWhole)
+{
+    const PolarMap& tested = GetParam();
+    MapMaker maker;
+    const auto map = rough(maker, tested, 300.0);
+    MeasuredTerrain terrain = terrainOf(*map);
+    Random random;
+    for (const auto& ends : linesOf(tested)) {
+        const GroundLine line = terrain.ground().line(ends[0], ends[1]);
+        std::vector<double> cuts_m{0.0, line.lengthM()};
+        for (int i = 0; i < 6; ++i) {
+            cuts_m.push_back(random.uniform(0.0, line.lengthM()));
+        }
+        std::sort(cuts_m.begin(), cuts_m.end());
+        std::vector<GroundPosition> positions;
+        for (const double cut_m : cuts_m) {
+            positions.push_back(line.at(cut_m));
+        }
+        const Distance whole = distanceOf(terrain, ends);
+        const Distance parts = distanceOf(terrain, positions);
+        EXPECT_EQ(whole.void_m, 0.0);
+        EXPECT_EQ(parts.void_m, 0.0);
+        EXPECT_NEAR(parts.surface_m, whole.surface_m, 1e-7 * whole.surface_m);
+        EXPECT_NEAR(parts.rise_m, whole.rise_m, 1e-6);
+    }
+}
+
+// The pole depends on every eighth of the row's samples, a vertex of a ring on its own sample and
+// on the pole.
+TEST_P(PathInCap, HasGapsAtVoids)
+{
+    const PolarMap& tested = GetParam();
+    MapMaker maker;
+    const bool is_last = (tested.pole_deg > 0.0) != (tested.place.transform[5] < 0.0);
+    const std::size_t row = is_last ? tested.place.rows - 1 : 0;
+    const auto none = maker.make(
+        tested.place, [&](std::size_t, std::size_t r) { return r == row ? kNan : 100.0; });
+    MeasuredTerrain without = terrainOf(*none);
+    const auto one = maker.make(tested.place, [&](std::size_t c, std::size_t r) {
+        return r == row && c == 1 ? kNan : 100.0;
+    });
+    MeasuredTerrain terrain = terrainOf(*one);
+    const double latitude_deg =
+        tested.pole_deg - std::copysign(0.999 * tested.row_distance_deg, tested.pole_deg);
+    for (const auto& positions : linesOf(tested)) {
+        const Distance distance = distanceOf(without, positions);
+        EXPECT_NEAR(distance.void_m, distance.geodesic_m, 1e-9 * distance.geodesic_m);
+    }
+    const auto longitude_at = [&](double column) {
+        return terrain.fromGrid({column, static_cast<double>(row)})->x;
+    };
+    EXPECT_TRUE(std::isnan(terrain.elevation(GroundPosition{longitude_at(1.1), latitude_deg})));
+    EXPECT_TRUE(std::isnan(terrain.elevation(GroundPosition{longitude_at(0.9), latitude_deg})));
+    EXPECT_NEAR(terrain.elevation(GroundPosition{longitude_at(3.5), latitude_deg}), 100.0, 1e-9);
+    EXPECT_NEAR(terrain.elevation(GroundPosition{longitude_at(1.0), tested.pole_deg}), 100.0, 1e-9);
+    const Profile across =
+        profileOf(terrain, {{longitude_at(-2.0), latitude_deg}, {longitude_at(6.0), latitude_deg}});
+    EXPECT_GT(gapsOf(across), 0);
+    EXPECT_NEAR(across.points.front().elevation_m, 100.0, 1e-9);
+    EXPECT_NEAR(across.points.back().elevation_m, 100.0, 1e-9);
+}
+
+// The slope is that of the elevations a little to the east and the north.
+TEST_P(PathInCap, HasTheSlopesOfItsTriangles)
+{
+    const PolarMap& tested = GetParam();
+    MapMaker maker;
+    const auto map = rough(maker, tested, 300.0);
+    MeasuredTerrain terrain = terrainOf(*map);
+    Random random;
+    int compared = 0;
+    for (int i = 0; i < 200; ++i) {
+        const GroundPosition here{
+            random.uniform(-180.0, 180.0),
+            tested.pole_deg - std::copysign(random.uniform(0.02, 0.97) * tested.row_distance_deg,
+                                            tested.pole_deg)};
+        JobMonitor monitor;
+        const std::vector<GroundPosition> positions{here};
+        const double short_m = 1e-4 * tested.row_distance_deg * 3e4;
+        const auto slope = measureSlopes(terrain, positions, std::nullopt, monitor);
+        const auto expected = measureSlopes(terrain, positions, short_m, monitor);
+        const auto shorter = measureSlopes(terrain, positions, 0.5 * short_m, monitor);
+        ASSERT_TRUE(slope && expected && shorter);
+        if (std::abs(shorter->front().slope_deg - expected->front().slope_deg) > 1e-4) {
+            continue; // over an edge
+        }
+        ++compared;
+        EXPECT_NEAR(slope->front().slope_deg, expected->front().slope_deg, 0.01);
+        EXPECT_LT(angleBetween(slope->front().aspect_deg, expected->front().aspect_deg), 0.2);
+    }
+    EXPECT_GT(compared, 50);
+}
+
+INSTANTIATE_TEST_SUITE_P(CapPath, PathInCap, testing::ValuesIn(kMaps), [](const auto& tested) {
+    return tested.param.name;
+});
+
+// A row of samples that lies at the pole is the terrain there.
+TEST(CapPath, OfAMapWithARowAtThePoleHasNoGap)
+{
+    MapMaker maker;
+    const auto map = maker.make({.columns = 361,
+                                 .rows = 19,
+                                 .transform = {-0.5, 1, 0, 90.5, 0, -1},
+                                 .srs = "IAU_2015:49900"},
+                                [](std::size_t c, std::size_t r) {
+                                    return r == 0 ? 50.0 : static_cast<double>((c % 360) * r % 37);
+                                });
+    MeasuredTerrain terrain = terrainOf(*map);
+    for (const double longitude_deg : {0.0, 10.0, 123.4}) {
+        const Profile profile =
+            profileOf(terrain, {{longitude_deg, 85.0}, {longitude_deg + 180.0, 86.0}});
+        EXPECT_EQ(gapsOf(profile), 0);
+        EXPECT_NEAR(terrain.elevation(GroundPosition{longitude_deg, 90.0}), 50.0, 1e-6);
+    }
+}
+
+// No pole is closed where the map ends more than a cell before it, or does not go around it.
+TEST(CapPath, EndsAtTheMapThatDoesNotCloseAtThePole)
+{
+    MapMaker maker;
+    const auto level = [](std::size_t, std::size_t) { return 7.0; };
+    for (const MapMaker::Place& place :
+         {MapMaker::Place{360, 20, {0, 1, 0, 88, 0, -1}, "IAU_2015:49900"},
+          MapMaker::Place{300, 20, {0, 1, 0, 90, 0, -1}, "IAU_2015:49900"}}) {
+        const auto map = maker.make(place, level);
+        MeasuredTerrain terrain = terrainOf(*map);
+        EXPECT_TRUE(std::isnan(terrain.elevation(GroundPosition{20.0, 89.9})));
+        EXPECT_GT(gapsOf(profileOf(terrain, {{20.0, 85.0}, {200.0, 85.0}})), 0);
+    }
+}
+
+TEST(CapPath, OfGlobalMapsHasTerrainOverBothPoles)
+{
+    const auto mars = loadedMap(bundledMars());
+    for (std::size_t level = 0; level < 3; ++level) {
+        MeasuredTerrain terrain = terrainOf(*mars, level);
+        for (const double latitude_deg : {88.0, -88.0}) {
+            for (const double longitude_deg : {10.0, 0.125, 359.9}) {
+                const Profile profile = profileOf(terrain, {{longitude_deg, latitude_deg},
+                                                            {longitude_deg + 180.0, latitude_deg}});
+                EXPECT_EQ(gapsOf(profile), 0) << latitude_deg << " " << level;
+                EXPECT_NEAR(
+                    interpolated(profile, 0.5 * profile.points.back().distance_m),
+                    terrain.elevation(GroundPosition{0.0, std::copysign(90.0, latitude_deg)}),
+                    1e-3);
+            }
+        }
+    }
+}
+
+} // namespace marsview::test
