@@ -23,7 +23,8 @@ struct WallContact {
 WallContact
 wallsAt(const WorkspaceBox& walls, const WorkspacePoint& hand, double stiffness_n_per_m) noexcept;
 
-/// The part of the workspace with the full surface force.
+/// The part of the workspace with the full surface force; at least the middle half of its width and
+/// depth, where walls are closer together than 32 mm.
 WorkspaceBox reachWithin(const WorkspaceBox& walls) noexcept;
 
 } // namespace marsview

@@ -105,6 +105,19 @@ TEST(HandModes, TheForceOnAStrokingHandContinuesAtTheGrab)
     }
 }
 
+TEST(HandModes, AGrabInATickWithoutTimeKeepsTheForce)
+{
+    ModeState state;
+    const ModeInput input{.is_grabbing = true,
+                          .is_in_contact = true,
+                          .stiffness_n_per_m = 400.0,
+                          .surface_force_n = {0.003, -0.002, 0.004},
+                          .frame = {.scene_per_meter = 1e4}};
+    const ModeStep step = stepModes({}, input, state, 0.0);
+    EXPECT_EQ(state.mode, StylusMode::Pan);
+    EXPECT_NEAR(length(step.force_n - input.surface_force_n), 0.0, 1e-12);
+}
+
 TEST(HandModes, WithoutStiffnessAGrabExertsNoVerticalForce)
 {
     Hand hand;

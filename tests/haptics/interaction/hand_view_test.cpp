@@ -90,6 +90,14 @@ TEST(HandView, ALimitOfTheCameraMovesTheMapExceptInHeight)
     EXPECT_TRUE(limited([](OrbitCamera& c) { c.target.x += 0.11; }).is_moved);
     EXPECT_FALSE(limited([](OrbitCamera& c) { c.distance_m += 0.09; }).is_moved);
     EXPECT_TRUE(limited([](OrbitCamera& c) { c.distance_m += 0.11; }).is_moved);
+    for (const double side : {1.0, -1.0}) { // as is a twentieth of a degree
+        const auto turned = [&](double degrees) {
+            return limited(
+                [&](OrbitCamera& c) { c.azimuth = c.azimuth + Angle::degrees(side * degrees); });
+        };
+        EXPECT_FALSE(turned(0.045).is_moved);
+        EXPECT_TRUE(turned(0.055).is_moved);
+    }
     const LimitedView moved = limited([](OrbitCamera& c) { c.target.x = 14.0; });
     EXPECT_TRUE(moved.is_moved);
     // The target stays at its place in the workspace.

@@ -76,12 +76,27 @@ TEST(StrokeArea, StaysWellInsideThePicture)
     expectCells(area, {5.0, 4.0}, {27.0, 20.0});
     const auto beside = [](const WorkspacePoint&) { return std::optional(PixelPoint{10.0, 10.0}); };
     EXPECT_FALSE(strokeArea(kStrokeReach, kStrokePicture, beside));
+    // In a picture from so far away that all terrain is one point, there is nothing to see.
+    const auto point = [](const WorkspacePoint&) { return std::optional(PixelPoint{1500.0, 9e2}); };
+    EXPECT_FALSE(strokeArea(kStrokeReach, kStrokePicture, point));
+}
+
+// Four columns and rows are outside the picture, which shows more terrain beyond the reach.
+TEST(StrokeArea, StaysWithinTheReach)
+{
+    const auto area = strokeArea(kStrokeReach, kStrokePicture, [](const WorkspacePoint& at) {
+        const Cells cells = cellsAt(at);
+        return std::optional(PixelPoint{70.0 * cells.column - 90.0, 90.0 * cells.row - 170.0});
+    });
+    expectCells(area, {4.0, 4.0}, {32.0, 24.0});
 }
 
 TEST(StrokeArea, TheHighestTerrainIsThatOfItsProbes)
 {
     const auto slope = [](const WorkspacePoint& at) { return 0.5 * at.x - 0.25 * at.y; };
     EXPECT_NEAR(highestIn(kStrokeReach, slope), 0.5 * 0.08 + 0.25 * 0.05, 1e-12);
+    const auto rise = [](const WorkspacePoint& at) { return 0.25 * at.y - 0.5 * at.x; };
+    EXPECT_NEAR(highestIn(kStrokeReach, rise), 0.5 * 0.08 + 0.25 * 0.07, 1e-12);
     const auto ridge = [](const WorkspacePoint& at) {
         const Cells cells = cellsAt(at);
         return cells.column > 9.5 && cells.column < 10.5 && cells.row > 22.5

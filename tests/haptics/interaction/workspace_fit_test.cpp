@@ -78,6 +78,37 @@ TEST(WorkspaceFit, ScalesAboutTheHandAtItsRate)
     }
 }
 
+// On a body the workspace turns too: 0.1 rad/s about the hand, in haste what is left within a
+// second.
+TEST(WorkspaceFit, OnABodyTurnsAboutTheHandAtItsRate)
+{
+    const auto turning = [](double turn_rad) {
+        Fitting fitting({});
+        fitting.frame.turn = {};
+        fitting.frame.body_axes = Rotation{};
+        fitting.seen = fitting.frame;
+        fitting.fit = {.seen = fitting.frame,
+                       .fitted = fitting.frame.turned(kFitHand, Angle::radians(-turn_rad))};
+        return fitting;
+    };
+    for (const double turn_rad : {0.5, -0.5}) {
+        const Fitting fitting = turning(turn_rad);
+        const auto turn_after = [&](const FitPace& pace, double dt_s = kFitStepS) {
+            EXPECT_NEAR(length(fitting.shiftAfter(pace, dt_s)), 0.0, 1e-12);
+            return fitting.after(pace, dt_s).body_axes->turn().z;
+        };
+        const double sign = turn_rad > 0.0 ? 1.0 : -1.0;
+        EXPECT_NEAR(turn_after({}), sign * 0.1e-3, 1e-12);
+        EXPECT_NEAR(turn_after({.share = 0.5}), sign * 0.05e-3, 1e-12);
+        EXPECT_NEAR(turn_after({.haste = 1.0}), sign * 0.5e-3, 1e-12);
+        EXPECT_NEAR(turn_after({.haste = 0.1}), sign * 0.1e-3, 1e-12);
+        EXPECT_NEAR(turn_after({}, 10.0), turn_rad, 1e-12); // and no farther
+    }
+    // A hundred-thousandth of a radian is not felt.
+    EXPECT_EQ(turning(0.9e-5).after({}), turning(0.9e-5).frame);
+    EXPECT_NE(turning(1.1e-5).after({}), turning(1.1e-5).frame);
+}
+
 // 0.02 mm and a ten-thousandth of an octave are not felt.
 TEST(WorkspaceFit, RestsWhereItFits)
 {

@@ -62,6 +62,16 @@ TEST(WorkspaceWalls, TheReachableAreaHasTheFullTerrainForce)
     EXPECT_EQ(reach.low.z, kBox.low.z);
 }
 
+// The fade of 8 mm on both sides would leave nothing of 16 mm.
+TEST(WorkspaceWalls, OfANarrowWorkspaceTheMiddleHalfIsReachable)
+{
+    const WorkspaceBox reach = reachWithin({{0.10, -0.03, -0.05}, {0.11, 0.03, 0.05}});
+    EXPECT_NEAR(reach.low.x, 0.1025, 1e-12);
+    EXPECT_NEAR(reach.high.x, 0.1075, 1e-12);
+    EXPECT_NEAR(reach.low.y, -0.03 + kWallFadeM, 1e-12);
+    EXPECT_NEAR(reach.high.y, 0.03 - kWallFadeM, 1e-12);
+}
+
 TEST(WorkspaceWalls, ADeviceWithoutAnExtentHasNoWalls)
 {
     const WallContact walls = wallsAt({}, {0.3, -0.2, 0.1}, kStiffness);
