@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace marsview {
 namespace {
@@ -172,10 +173,11 @@ WorkspaceFrame frameForView(const OrbitCamera& camera,
 {
     const Angle turn = -camera.azimuth; // headings are clockwise
     Bounds bounds;
-    for (const GridPoint& corner : footprint(camera, viewport, map)) {
+    const std::vector<GridPoint> corners = footprint(camera, viewport, map);
+    for (const GridPoint& corner : corners) {
         bounds.add(turnedBy(map.frame.toScene(corner, 0.0), -turn));
     }
-    if (!(bounds.low.x < bounds.high.x) || !(bounds.low.y < bounds.high.y)) {
+    if (corners.empty()) {
         const Vec3 target = turnedBy(camera.target, -turn);
         bounds.add(target + Vec3{camera.distance_m, camera.distance_m, 0.0} * 0.5);
         bounds.add(target - Vec3{camera.distance_m, camera.distance_m, 0.0} * 0.5);

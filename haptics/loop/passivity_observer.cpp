@@ -37,7 +37,7 @@ PassivityStep keepPassive(const PassivityOptions& options,
     // neither holds back a hand that leaves the surface, nor one that slides over it.
     const double size_n = length(force_n);
     const double speed = size_n > 0.0 ? dot(force_n, state.velocity_m_per_s) / size_n : 0.0;
-    if (state.energy_j >= 0.0 || !(speed > 0.0 && speed * speed > 0.0)) {
+    if (state.energy_j >= 0.0 || !(speed > 0.0)) {
         return {.force_n = force_n};
     }
     const double damping = std::min(
