@@ -133,6 +133,27 @@ TEST(HapticTick, ASmoothMotionOfTheCameraIsNoJump)
     EXPECT_TRUE(rig.at({0.0, 0.0, -0.025}).has_changed_map);
 }
 
+// 2 mm: of the map below the hand, and, where the map is scaled about the hand, of the point that
+// is touched, 5 mm above it.
+TEST(HapticTick, AJumpOfTheMapIsAMotionOfTwoMillimeters)
+{
+    for (const double moved_mm : {1.9, 2.1}) {
+        const bool is_jump = moved_mm > 2.0;
+        Rig free;
+        free.at({});
+        free.settings.frame.place.y -= moved_mm;
+        ++free.settings.frame_number;
+        EXPECT_EQ(free.at({}).has_changed_map, is_jump) << moved_mm;
+        Rig pressed;
+        pressed.at({});
+        pressed.to({0.0, 0.0, -0.025});
+        pressed.settings.frame =
+            pressed.settings.frame.zoomed(pressed.state.hand, (5.0 + moved_mm) / 5.0);
+        ++pressed.settings.frame_number;
+        EXPECT_EQ(pressed.at({0.0, 0.0, -0.025}).has_changed_map, is_jump) << moved_mm;
+    }
+}
+
 // The difference between the forces of a hold and of the surface fades after a release; a later
 // jump does not bring it back.
 TEST(HapticTick, NoForceOfAnEarlierHoldFollowsAJump)
@@ -316,6 +337,24 @@ TEST(HapticTick, ASurfaceAboveTheWorkspaceSinksToItsTop)
     }
     EXPECT_NEAR(surface_z(), 0.06, 1e-6);
     EXPECT_EQ(rig.state.seen_frame, rig.settings.frame); // the camera stays
+}
+
+// Section 4.2: while the hand pans, the vertical position is held.
+TEST(HapticTick, ASurfaceAboveTheWorkspaceRestsWhileItIsHeld)
+{
+    Rig rig;
+    rig.settings.frame.place.z = -70.0;
+    rig.at({});
+    rig.settings.is_grabbing = true;
+    EXPECT_EQ(rig.at({}).mode, StylusMode::Pan);
+    const double before = rig.state.frame.toWorkspace({0.0, 0.0, 10.0}).z;
+    for (int i = 0; i < 100; ++i) {
+        rig.at({});
+    }
+    EXPECT_NEAR(rig.state.frame.toWorkspace({0.0, 0.0, 10.0}).z, before, 1e-12);
+    rig.settings.is_grabbing = false;
+    rig.at({});
+    EXPECT_LT(rig.state.frame.toWorkspace({0.0, 0.0, 10.0}).z, before - 15e-6); // sinks on
 }
 
 TEST(HapticTick, NearTheSurfaceTheWorkspaceSlowlyFitsTheView)
@@ -604,29 +643,36 @@ TEST(HapticTick, TellsTheStreamerHowTheProxyMoves)
 }
 
 // At 400 N/m, 20 N/s are 50 mm/s of the workspace and 50 m/s of the scene. Samples between those of
-// the coarser level are half a meter higher.
+// the coarser level are half a meter higher. At twice the height the terrain rises half as fast.
 TEST(HapticTick, TerrainThatArrivesChangesTheForceSlowly)
 {
-    const TiledMap tiles = tiledMap(floatTerrain(301, 301, [](std::size_t column, std::size_t row) {
-        return column % 2 == 1 && row % 2 == 1 ? 10.5 : 10.0;
-    }));
-    const auto exchange = std::make_shared<ClipmapExchange>(
-        std::make_shared<const Clipmap>(tiles.window({150.0, 150.0})));
-    const auto terrain = std::make_shared<ServoTerrain>(exchange, tiles.heights);
-    Rig rig(makeServoMap(meterFrame(301, 301), terrain, {}));
-    rig.at({});
-    const auto height_m = [&] { return terrain->terrain()->sample(151, 151); };
-    EXPECT_EQ(height_m(), 10.0);
-    auto next = std::make_shared<Clipmap>(tiles.window({150.0, 150.0}));
-    next->put(tiles.tile(samplesTile(0, 0, 0)), 0.5);
-    exchange->windows.back() = next;
-    exchange->windows.publish();
-    for (int i = 1; i <= 12; ++i) {
+    for (const double exaggeration : {1.0, 2.0}) {
+        const TiledMap tiles =
+            tiledMap(floatTerrain(301, 301, [](std::size_t column, std::size_t row) {
+                return column % 2 == 1 && row % 2 == 1 ? 10.5 : 10.0;
+            }));
+        const auto exchange = std::make_shared<ClipmapExchange>(
+            std::make_shared<const Clipmap>(tiles.window({150.0, 150.0})));
+        const auto terrain = std::make_shared<ServoTerrain>(exchange, tiles.heights);
+        const GoalFrame frame(
+            std::make_shared<const Georeference>(meterFrame(301, 301).georeference()),
+            exaggeration);
+        Rig rig(makeServoMap(frame, terrain, {}));
         rig.at({});
-        EXPECT_NEAR(height_m(), 10.0 + std::min(0.05 * i, 0.5), 0.0501) << i;
-        EXPECT_LE(height_m(), 10.0 + 0.05 * i + 1e-9) << i;
+        const auto height_m = [&] { return terrain->terrain()->sample(151, 151); };
+        EXPECT_EQ(height_m(), 10.0);
+        auto next = std::make_shared<Clipmap>(tiles.window({150.0, 150.0}));
+        next->put(tiles.tile(samplesTile(0, 0, 0)), 0.5);
+        exchange->windows.back() = next;
+        exchange->windows.publish();
+        const double rise_m = 0.05 / exaggeration;
+        for (int i = 1; i <= 22; ++i) {
+            rig.at({});
+            EXPECT_NEAR(height_m(), 10.0 + std::min(rise_m * i, 0.5), rise_m + 1e-4) << i;
+            EXPECT_LE(height_m(), 10.0 + rise_m * i + 1e-9) << i;
+        }
+        EXPECT_EQ(height_m(), 10.5);
     }
-    EXPECT_EQ(height_m(), 10.5);
 }
 
 TEST(HapticTick, KeepsToTheContinuousForceOfTheDevice)
@@ -653,6 +699,21 @@ TEST(HapticTick, AJumpOfTheDeviceSwitchesTheForceOffAndContinuesFromThere)
     rig.to({0.0, 0.0, -0.025});
     EXPECT_EQ(rig.at({0.07, 0.0, -0.025}).reason, ForceOffReason::DeviceImplausible);
     EXPECT_EQ(rig.at({0.07, 0.0, -0.025}).reason, ForceOffReason::None);
+}
+
+// At less than 5 m/s, with 10 mm to spare: 15 mm in a millisecond, 30 mm in four.
+TEST(HapticTick, AHandIsNoFasterThanFiveMetersPerSecond)
+{
+    for (const auto& [dt_s, shift_m] :
+         {std::pair(0.001, 0.015), std::pair(0.004, 0.03), std::pair(0.0, 0.01)}) {
+        for (const double share : {0.99, 1.01}) {
+            Rig rig;
+            rig.at({});
+            EXPECT_EQ(rig.at({0.0, shift_m * share, 0.0}, dt_s).reason,
+                      share < 1.0 ? ForceOffReason::None : ForceOffReason::DeviceImplausible)
+                << dt_s << " s";
+        }
+    }
 }
 
 // Beyond the workspace by its own width, here 0.16, 0.12 and 0.12 m, or by 0.25 m if that is more.
