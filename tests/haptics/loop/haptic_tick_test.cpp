@@ -339,6 +339,17 @@ TEST(HapticTick, ASurfaceAboveTheWorkspaceSinksToItsTop)
     EXPECT_EQ(rig.state.seen_frame, rig.settings.frame); // the camera stays
 }
 
+TEST(HapticTick, WithoutAStatedHeightAWorkspaceHasNoTop)
+{
+    Rig rig;
+    rig.device.workspace.low.z = rig.device.workspace.high.z = 0.0;
+    rig.settings.frame.place.z = -70.0; // the surface is at 80 mm
+    for (int i = 0; i < 100; ++i) {
+        rig.at({});
+    }
+    EXPECT_NEAR(rig.state.frame.toWorkspace({0.0, 0.0, 10.0}).z, 0.08, 1e-12);
+}
+
 // Section 4.2: while the hand pans, the vertical position is held.
 TEST(HapticTick, ASurfaceAboveTheWorkspaceRestsWhileItIsHeld)
 {
@@ -495,7 +506,7 @@ TEST(HapticTick, APauseBetweenWritesSwitchesTheForceOffAndRampsInAgain)
         rig.at(pressed);
     }
     ASSERT_NEAR(rig.at(pressed).force_n.z, 2.0, 1e-9);
-    rig.input.since_write_s = 0.0099; // late; a single one does not count
+    rig.input.since_write_s = kSafetyStepMaxS; // late; a single one does not count
     rig.input.has_missed_deadline = true;
     EXPECT_NEAR(rig.at(pressed).force_n.z, 2.0, 1e-9);
     rig.input.since_write_s = 0.0101;
@@ -886,6 +897,8 @@ TEST(HapticTick, StiffnessIsLimitedByTheDeviceAndTheLoop)
     silent.stiffness_n_per_m_max = 0.0;
     EXPECT_EQ(usedStiffness(1e5, silent, 1e-3, 1e-3), kStiffnessUnstatedNPerM);
     EXPECT_EQ(usedStiffness(1e5, silent, 1e-3, 2e-3), 0.5 * kStiffnessUnstatedNPerM);
+    silent.force_n_peak = 0.5;
+    EXPECT_EQ(usedStiffness(1e5, silent, 1e-3, 1e-3), kStiffnessUnstatedNPerM);
     silent.force_n_peak = 0.0;
     EXPECT_EQ(usedStiffness(1e5, silent, 1e-3, 1e-3), 1e5) << "it cannot push";
     EXPECT_EQ(usedStiffness(std::nan(""), device, 1e-3, 1e-3), 0.0);
