@@ -74,12 +74,15 @@ TEST(BodyView, FindsTheTerrainOnTheVerticalOfTheWorkspace)
     const BodyGround level = [](const GeographicPoint&) { return kHeightM; };
     for (const double x : {-0.5, 0.0, 0.3}) {
         for (const double y : {-0.2, 0.6}) {
-            const WorkspacePoint at{center.x + x * radius, center.y + y * radius, 0.02};
-            const auto found = terrainAlong(frame, at, level, kBall);
-            ASSERT_TRUE(found);
-            const double z = center.z + radius * std::sqrt(1.0 - x * x - y * y);
-            EXPECT_NEAR(length(frame.toWorkspace(*found) - WorkspacePoint{at.x, at.y, z}), 0.0,
-                        1e-9);
+            // From above the terrain, within the body and from below it.
+            for (const double at_z : {0.02, center.z, center.z - 2.0 * radius}) {
+                const WorkspacePoint at{center.x + x * radius, center.y + y * radius, at_z};
+                const auto found = terrainAlong(frame, at, level, kBall);
+                ASSERT_TRUE(found);
+                const double z = center.z + radius * std::sqrt(1.0 - x * x - y * y);
+                EXPECT_NEAR(length(frame.toWorkspace(*found) - WorkspacePoint{at.x, at.y, z}), 0.0,
+                            1e-9);
+            }
         }
     }
     EXPECT_FALSE(terrainAlong(frame, {center.x + 1.01 * radius, center.y, 0.0}, level, kBall));
@@ -211,6 +214,15 @@ TEST(BodyView, TheWorkspaceHasRoomOverAndBelowARelief)
     EXPECT_NEAR(frame.scene_per_meter * 0.12, kReliefM + 2.0 * (room_m + fall_m), 1.0);
     const double middle_m = length(frame.toScene({})) - 1e6;
     EXPECT_NEAR(middle_m, 0.5 * kReliefM, 5.0);
+}
+
+// Over a few meters a ball is flat.
+TEST(BodyView, OfASmallViewTheTerrainIsAtHalfTheHeight)
+{
+    const WorkspaceFrame frame = frameForBodyView(
+        cameraOver(40.0, 60.0, 10.0), kSquare, [](const GeographicPoint&) { return 0.0; }, kBall,
+        kReach);
+    EXPECT_NEAR(length(frame.toScene({})) - 1e6, 0.0, 1e-3);
 }
 
 // At the camera's nearest and farthest distance the workspace has the scales between which a hand
