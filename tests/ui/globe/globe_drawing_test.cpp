@@ -10,6 +10,7 @@
 #include "ui/controllers/measure_controller.h"
 #include "ui/controllers/session_controller.h"
 #include "ui/controllers/vector_overlays.h"
+#include "ui/dialogs/go_to_dialog.h"
 #include "ui/dialogs/place_dialog.h"
 #include "ui/globe/globe_labels.h"
 #include "ui/overlay/globe_overlays.h"
@@ -20,8 +21,10 @@
 #include <QFile>
 #include <QFileInfo>
 #include <QImage>
+#include <QLineEdit>
 #include <QLineF>
 #include <QMenu>
+#include <QTest>
 #include <QUndoStack>
 
 #include <GeographicLib/Geodesic.hpp>
@@ -131,6 +134,32 @@ TEST_F(GlobeDrawingTest, ClicksMeasureWhatTheFlatMapMeasures)
                 1e-9 * measured_m);
     EXPECT_NEAR(measuring().outcome(on_flat).as<Distance>()->surface_m, surface_m,
                 1e-9 * surface_m);
+}
+
+// On a sphere of 3 396 000 m, GeodSolve gives 11 434.130 m; between the nearest samples it is 14
+// km.
+TEST_F(GlobeDrawingTest, PointsThatAreTypedBesideTheMeridianWhereTheMapBeginsAreMeasuredThere)
+{
+    ASSERT_TRUE(showGlobe());
+    ASSERT_EQ(body().equatorial_m, 3396000.0);
+    measuring().begin(MeasurementKind::Distance);
+    for (const char* typed : {"15.3 N 359.9 E", "15.3 N 0.1 E"}) {
+        window_->actionSet().add_point->trigger();
+        auto* dialog = window_->findChild<GoToDialog*>();
+        ASSERT_NE(dialog, nullptr);
+        auto* field = dialog->findChild<QLineEdit*>(QStringLiteral("coordinate"));
+        field->setText(QString::fromLatin1(typed));
+        QTest::keyClick(field, Qt::Key_Return);
+        ASSERT_TRUE(waitFor([this] { return window_->findChild<GoToDialog*>() == nullptr; }));
+    }
+    const MeasureItem* item = measuring().current();
+    ASSERT_NE(item, nullptr);
+    ASSERT_EQ(item->vertices.size(), 2U);
+    const std::uint32_t id = item->id;
+    ASSERT_TRUE(isMeasured(id));
+    const auto* distance = measuring().outcome(id).as<Distance>();
+    ASSERT_NE(distance, nullptr);
+    EXPECT_NEAR(distance->geodesic_m, 11434.130, 0.001);
 }
 
 TEST_F(GlobeDrawingTest, PointsAreDraggedInsertedRemovedAndUndoneAsOnTheFlatMap)
