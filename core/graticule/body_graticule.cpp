@@ -17,8 +17,13 @@ constexpr double kPiecePixels = 6.0;   // between two points on the terrain
 constexpr double kCrowdedPoints = 6.0; // to the next line, where lines end
 constexpr int kDepthMax = 24;          // divisions of a piece
 constexpr double kPieceDeg = 10.0;     // of a line before it is divided
-constexpr double kMuchDeg = 12.0;      // of a great circle, from the target: much of the body
+constexpr double kMuchDeg = 12.0;      // of a great circle, from the middle: much of the body
 constexpr double kPoleStepDeg = 30.0;  // between meridians that reach a pole
+constexpr double kOnTerrain = 0.01;  // of the distance: the target of the camera is on the terrain
+constexpr double kFirstStep = 0.02;  // of the distance, along the line of sight
+constexpr double kStepGrowth = 1.05; // of the distance from the eye
+constexpr int kHalvings = 30;        // of the last step
+constexpr double kMoreHeight = 1.01; // scaled ellipsoids are higher in some places than in others
 constexpr double kRadians = std::numbers::pi / 180.0; // in a degree
 
 struct DegreeSpan {
@@ -33,11 +38,19 @@ struct DegreeSpan {
     double length() const { return high - low; }
 };
 
-// The longitudes, around that of the target, and the planetocentric latitudes that are seen.
+// The longitudes, around that of the middle, and the planetocentric latitudes that are seen.
 struct SeenDegrees {
     DegreeSpan longitudes;
     DegreeSpan latitudes;
     bool has_pole = false;
+};
+
+// Where the terrain is that the middle of the picture shows. The target of the camera can be far
+// above or below it.
+struct Middle {
+    GeographicPoint place{};
+    ScenePoint point{};
+    double distance_m = 0.0; // from the eye
 };
 
 class BodyGraticuleMaker {
@@ -51,14 +64,14 @@ public:
         , ground_(ground)
         , options_(options)
         , body_(view.ellipsoid())
-        , target_(targetOf(camera, body_))
         , pixel_share_(metersPerPixel(view.pose(), view.viewport()) / view.pose().distance_m)
+        , middle_(middleOf(camera))
     {}
 
     BodyGraticule run()
     {
         const SeenDegrees seen = coverage();
-        const double pixel_m = pixel_share_ * view_.pose().distance_m;
+        const double pixel_m = pixel_share_ * middle_.distance_m;
         const double spacing_deg = kGraticuleSpacing * options_.pixels_per_point * pixel_m /
                                    (body_.equatorial_m * kRadians);
         const auto step = [&](double least_deg, const DegreeSpan& span) {
@@ -69,7 +82,7 @@ public:
         result_.latitude_step = step(spacing_deg, seen.latitudes);
         // Where they are widest apart in what is seen, they still are not too close elsewhere.
         const double latitude =
-            std::clamp(std::abs(camera_.target.latitude.degrees()), 0.0, is_much_ ? 60.0 : 89.9);
+            std::clamp(std::abs(middle_.place.latitude.degrees()), 0.0, is_much_ ? 60.0 : 89.9);
         result_.longitude_step = step(spacing_deg / std::cos(latitude * kRadians), seen.longitudes);
         if (seen.has_pole && (!is_much_ || latitude >= 60.0)) {
             result_.longitude_step = Angle::degrees(kPoleStepDeg);
@@ -77,79 +90,177 @@ public:
         if (result_.longitude_step.degrees() > 90.0) {
             result_.longitude_step = Angle::degrees(90.0);
         }
-        addMeridians(seen);
-        addParallels(seen);
+        const SeenDegrees reach = is_much_ ? seen : between(seen);
+        addMeridians(reach);
+        addParallels(reach);
         is_much_ ? labelAlongLines(seen) : labelEnds();
         return std::move(result_);
     }
 
 private:
-    double reachM() const { return kGraticuleReach * view_.pose().distance_m; }
+    double reachM() const { return kGraticuleReach * middle_.distance_m; }
+
+    Middle middleOf(const BodyCamera& camera) const
+    {
+        const Vec3& eye = view_.pose().eye;
+        const auto at = [&](const GeographicPoint& place, const ScenePoint& point) {
+            return Middle{place, point, length(point - eye)};
+        };
+        const ScenePoint below = onGround(camera.target);
+        const ScenePoint target = targetOf(camera, body_);
+        if (length(below - target) <= kOnTerrain * view_.pose().distance_m) {
+            return at(camera.target, target);
+        }
+        const Ray ray{eye, (target - eye) * (1.0 / length(target - eye))};
+        const auto point = meetGround(ray);
+        return point ? at(placeOf(*point, body_).foot, *point) : at(camera.target, below);
+    }
+
+    bool isUnderground(const ScenePoint& point) const
+    {
+        const ScenePoint ground = onGround(placeOf(point, body_).foot);
+        return dot(point, point) < dot(ground, ground);
+    }
+
+    // The terrain on the line of sight, by steps that grow with the distance.
+    std::optional<ScenePoint> meetGround(const Ray& ray) const
+    {
+        const double end_m =
+            length(pointOnBody(ray, body_, atElevation(lowestM())) - ray.origin) * kStepGrowth;
+        double before_m = 0.0;
+        for (double away_m = kFirstStep * view_.pose().distance_m; before_m < end_m;
+             away_m *= kStepGrowth) {
+            if (isUnderground(ray.at(away_m))) {
+                for (int i = 0; i < kHalvings; ++i) {
+                    const double half_m = 0.5 * (before_m + away_m);
+                    (isUnderground(ray.at(half_m)) ? away_m : before_m) = half_m;
+                }
+                return ray.at(away_m);
+            }
+            before_m = away_m;
+        }
+        return std::nullopt;
+    }
+
+    // The limits of what onGround() can be, in exaggerated meters.
+    double lowestM() const
+    {
+        return std::min(view_.relief().lowest_m * view_.relief().exaggeration, 0.0);
+    }
+    double highestM() const
+    {
+        return std::max(view_.relief().highest_m * view_.relief().exaggeration, 0.0);
+    }
+    ScenePoint atElevation(double height_m) const
+    {
+        return targetOf({.target = camera_.target, .height_m = height_m}, body_);
+    }
 
     SeenDegrees coverage()
     {
-        const double target_longitude = camera_.target.longitude.degrees();
-        const double target_latitude = camera_.target.latitude.degrees();
-        SeenDegrees seen{.longitudes = {target_longitude, target_longitude},
-                         .latitudes = {target_latitude, target_latitude}};
+        const double middle_longitude = middle_.place.longitude.degrees();
+        const double middle_latitude = middle_.place.latitude.degrees();
+        SeenDegrees seen{.longitudes = {middle_longitude, middle_longitude},
+                         .latitudes = {middle_latitude, middle_latitude}};
         const double away_deg = probe(seen);
         is_much_ = away_deg > kMuchDeg;
         if (is_much_) {
-            // All around the target that is as near: rays leave out much between them.
+            // All around the middle that is as near: rays leave out much between them.
             const double reach_deg = std::min(away_deg * (1.0 + 1.0 / kProbes), 180.0);
-            seen.latitudes = {target_latitude - reach_deg, target_latitude + reach_deg};
+            seen.latitudes = {middle_latitude - reach_deg, middle_latitude + reach_deg};
             seen.has_pole = seen.latitudes.low < -90.0 || seen.latitudes.high > 90.0;
             const double ratio = std::sin(std::min(reach_deg, 90.0) * kRadians) /
-                                 std::max(std::cos(target_latitude * kRadians), 1e-9);
+                                 std::max(std::cos(middle_latitude * kRadians), 1e-9);
             const double half_deg =
                 seen.has_pole || ratio >= 1.0 ? 180.0 : std::asin(ratio) / kRadians;
-            seen.longitudes = {target_longitude - half_deg, target_longitude + half_deg};
+            seen.longitudes = {middle_longitude - half_deg, middle_longitude + half_deg};
         }
-        seen.latitudes.low = std::max(seen.latitudes.low, -90.0);
-        seen.latitudes.high = std::min(seen.latitudes.high, 90.0);
-        if (seen.has_pole || seen.longitudes.length() > 350.0) {
-            seen.longitudes = {target_longitude - 180.0, target_longitude + 180.0};
-        }
+        limit(seen, middle_longitude);
         return seen;
     }
 
-    // By rays through the picture. How far from the target they meet the ground, in degrees of a
-    // great circle.
-    double probe(SeenDegrees& seen) const
+    // Calls use(ray) for rays all over the picture.
+    template <typename Use>
+    void forRays(const Use& use) const
     {
-        const double target_longitude = camera_.target.longitude.degrees();
         const Viewport& size = view_.viewport();
-        double away_deg = 0.0;
         for (int i = 0; i <= kProbes; ++i) {
             for (int k = 0; k <= kProbes; ++k) {
-                const Ray ray = pickRay(
+                use(pickRay(
                     view_.pose(), size,
-                    {size.width * (i / double{kProbes}), size.height * (k / double{kProbes})});
-                ScenePoint point = pointOnBody(ray, body_, target_);
-                if (length(point - target_) > reachM()) {
-                    point = atReach(ray);
-                }
-                const GeographicPoint foot = placeOf(point, body_).foot;
-                seen.latitudes.include(foot.latitude.degrees());
-                seen.longitudes.include(
-                    target_longitude +
-                    std::remainder(foot.longitude.degrees() - target_longitude, 360.0));
-                const double cosine = dot(point, target_) / (length(point) * length(target_));
-                away_deg = std::max(away_deg, std::acos(std::clamp(cosine, -1.0, 1.0)) / kRadians);
+                    {size.width * (i / double{kProbes}), size.height * (k / double{kProbes})}));
             }
         }
-        const double more_latitude = seen.latitudes.length() / kProbes;
-        const double more_longitude = seen.longitudes.length() / kProbes;
-        seen.latitudes.low -= more_latitude;
-        seen.latitudes.high += more_latitude;
-        seen.longitudes.low -= more_longitude;
-        seen.longitudes.high += more_longitude;
+    }
+
+    void include(const ScenePoint& point, SeenDegrees& seen) const
+    {
+        const double middle_longitude = middle_.place.longitude.degrees();
+        const GeographicPoint foot = placeOf(point, body_).foot;
+        seen.latitudes.include(foot.latitude.degrees());
+        seen.longitudes.include(middle_longitude +
+                                std::remainder(foot.longitude.degrees() - middle_longitude, 360.0));
+    }
+
+    // Between rays.
+    static void widen(SeenDegrees& seen)
+    {
+        for (DegreeSpan* span : {&seen.latitudes, &seen.longitudes}) {
+            const double more = span->length() / kProbes;
+            span->low -= more;
+            span->high += more;
+        }
+    }
+
+    static void limit(SeenDegrees& seen, double middle_longitude)
+    {
+        seen.latitudes.low = std::max(seen.latitudes.low, -90.0);
+        seen.latitudes.high = std::min(seen.latitudes.high, 90.0);
+        if (seen.has_pole || seen.longitudes.length() > 350.0) {
+            seen.longitudes = {middle_longitude - 180.0, middle_longitude + 180.0};
+        }
+    }
+
+    // Where the terrain of the picture can be, as far as lines reach: each ray meets it between the
+    // lowest and the highest elevation of the body.
+    SeenDegrees between(SeenDegrees seen) const
+    {
+        const Vec3& eye = view_.pose().eye;
+        const ScenePoint lowest = atElevation(kMoreHeight * lowestM());
+        const ScenePoint highest = atElevation(kMoreHeight * highestM());
+        forRays([&](const Ray& ray) {
+            for (const ScenePoint& level : {lowest, highest}) {
+                const ScenePoint point = pointOnBody(ray, body_, level);
+                // An eye below the highest terrain can be inside of it.
+                const bool is_ahead = dot(point - eye, ray.direction) > 0.0;
+                include(is_ahead ? withinReach(ray, point) : eye, seen);
+            }
+        });
+        widen(seen);
+        limit(seen, middle_.place.longitude.degrees());
+        return seen;
+    }
+
+    // By rays through the picture, on the ellipsoid raised to the middle. How far from the middle
+    // they meet it, in degrees of a great circle.
+    double probe(SeenDegrees& seen) const
+    {
+        double away_deg = 0.0;
+        forRays([&](const Ray& ray) {
+            const ScenePoint point = withinReach(ray, pointOnBody(ray, body_, middle_.point));
+            include(point, seen);
+            const double cosine =
+                dot(point, middle_.point) / (length(point) * length(middle_.point));
+            away_deg = std::max(away_deg, std::acos(std::clamp(cosine, -1.0, 1.0)) / kRadians);
+        });
+        widen(seen);
+        const Viewport& size = view_.viewport();
         for (const double pole : {-90.0, 90.0}) {
             const ScenePoint at = onGround({.longitude = {}, .latitude = Angle::degrees(pole)});
             const auto pixel = project(view_.pose(), size, at);
             if (pixel && pixel->x >= 0.0 && pixel->x <= size.width && pixel->y >= 0.0 &&
                 pixel->y <= size.height && !view_.isBehindHorizon(at) &&
-                length(at - target_) <= reachM()) {
+                length(at - middle_.point) <= reachM()) {
                 seen.has_pole = true;
                 seen.latitudes.include(pole);
             }
@@ -157,10 +268,13 @@ private:
         return away_deg;
     }
 
-    // Where a ray is as far from the target as the lines reach.
-    ScenePoint atReach(const Ray& ray) const
+    // A point on a ray, or where the ray is as far from the middle as the lines reach.
+    ScenePoint withinReach(const Ray& ray, const ScenePoint& point) const
     {
-        const Vec3 from = ray.origin - target_;
+        if (length(point - middle_.point) <= reachM()) {
+            return point;
+        }
+        const Vec3 from = ray.origin - middle_.point;
         const double half = dot(from, ray.direction);
         const double root = half * half - dot(from, from) + reachM() * reachM();
         return ray.at(-half + std::sqrt(std::max(root, 0.0)));
@@ -205,9 +319,9 @@ private:
             last = std::min(last, first + std::round(360.0 / step) - 1.0);
         }
         const double end = 90.0 - result_.latitude_step.degrees();
-        // As far apart as near the target: towards a pole they may be closer.
+        // As far apart as near the middle: towards a pole they may be closer.
         const double apart_m = step * kRadians * body_.equatorial_m *
-                               std::max(std::cos(camera_.target.latitude.radians()), 1e-3);
+                               std::max(std::cos(middle_.place.latitude.radians()), 1e-3);
         for (double k = first; k <= last; k += 1.0) {
             const double longitude = k * step;
             next_m_ = apart_m * rank(k);
@@ -266,7 +380,7 @@ private:
     {
         const double chord_m = length(to.point - from.point);
         const Vec3 middle = (from.point + to.point) * 0.5;
-        const double least_away_m = length(middle - target_) - 0.55 * chord_m;
+        const double least_away_m = length(middle - middle_.point) - 0.55 * chord_m;
         if (view_.isOutOfSight(from.point, to.point, chord_m) || least_away_m > reachM()) {
             endLine();
             return;
@@ -356,7 +470,7 @@ private:
         }
     }
 
-    // Between two lines of the other kind, near the target.
+    // Between two lines of the other kind, near the middle.
     void labelAlongLines(const SeenDegrees& seen)
     {
         const auto halfwayFrom = [](double value, double step) {
@@ -364,9 +478,9 @@ private:
         };
         const double longitude_step = result_.longitude_step.degrees();
         const double latitude_step = result_.latitude_step.degrees();
-        const double longitude = halfwayFrom(camera_.target.longitude.degrees(), longitude_step);
+        const double longitude = halfwayFrom(middle_.place.longitude.degrees(), longitude_step);
         const double latitude = planetocentric(
-            std::clamp(halfwayFrom(shown(camera_.target.latitude.degrees()), latitude_step),
+            std::clamp(halfwayFrom(shown(middle_.place.latitude.degrees()), latitude_step),
                        -90.0 + 1.5 * latitude_step, 90.0 - 1.5 * latitude_step));
         const auto add = [&](GraticuleAxis axis, double value, const GeographicPoint& at) {
             const ScenePoint point = onGround(at);
@@ -402,8 +516,8 @@ private:
     const BodyGround& ground_;
     const BodyGraticuleOptions& options_;
     Ellipsoid body_;
-    ScenePoint target_;
     double pixel_share_; // of the distance: a pixel's side
+    Middle middle_;
     bool is_much_ = false;
     BodyGraticule result_;
     GraticuleLine line_;  // the part that grows

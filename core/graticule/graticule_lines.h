@@ -13,7 +13,7 @@ namespace marsview {
 
 /// Of two lines, at least, where the camera looks: points of the screen.
 inline constexpr double kGraticuleSpacing = 90.0;
-/// How far from the camera's target lines reach, in distances of the camera.
+/// How far lines reach from where the camera looks, in distances of the camera from there.
 inline constexpr double kGraticuleReach = 8.0;
 /// Of an axis.
 inline constexpr double kGraticuleLinesMax = 80.0;

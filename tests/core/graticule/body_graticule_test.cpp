@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <optional>
 #include <set>
+#include <utility>
 
 namespace marsview {
 namespace {
@@ -233,6 +236,134 @@ TEST(BodyGraticule, LabelsLieOnTheirLinesInThePicture)
             }
         }
         EXPECT_GE(named.size(), 4U);
+    }
+}
+
+// Where rays through the picture meet a terrain, by small steps: the first point below it.
+std::optional<Place> marched(const Ray& ray, const BodyGround& ground, double step_m, double end_m)
+{
+    double before_m = 0.0;
+    const auto is_below = [&](double away_m) {
+        const Place place = placeAt(ray.at(away_m));
+        return place.height_m <
+               ground({.longitude = Angle::degrees(place.longitude),
+                       .latitude = Angle::degrees(planetocentric(place.latitude))});
+    };
+    for (double away_m = 0.0; away_m < end_m; away_m += step_m) {
+        if (is_below(away_m)) {
+            for (int i = 0; i < 30; ++i) {
+                const double half_m = 0.5 * (before_m + away_m);
+                (is_below(half_m) ? away_m : before_m) = half_m;
+            }
+            return placeAt(ray.at(away_m));
+        }
+        before_m = away_m;
+    }
+    return std::nullopt;
+}
+
+double fromSegment(const PixelPoint& point, const PixelPoint& a, const PixelPoint& b)
+{
+    const double x = b.x - a.x;
+    const double y = b.y - a.y;
+    const double square = std::max(x * x + y * y, 1e-12);
+    const double t = std::clamp(((point.x - a.x) * x + (point.y - a.y) * y) / square, 0.0, 1.0);
+    return std::hypot(a.x + t * x - point.x, a.y + t * y - point.y);
+}
+
+// How far a pixel is from the nearest part of a line.
+double fromLine(const PixelPoint& pixel, GraticuleAxis axis, double value_deg, const Seen& seen)
+{
+    double nearest_px = 1e300;
+    for (const GraticuleLine& line : seen.graticule.lines) {
+        if (line.axis != axis ||
+            std::abs(std::remainder(line.value.degrees() - value_deg, 360.0)) > 1e-9) {
+            continue;
+        }
+        for (std::size_t i = 1; i < line.points.size(); ++i) {
+            const auto from = project(seen.pose, kPicture, line.points[i - 1]);
+            const auto to = project(seen.pose, kPicture, line.points[i]);
+            if (from && to) {
+                nearest_px = std::min(nearest_px, fromSegment(pixel, *from, *to));
+            }
+        }
+    }
+    return nearest_px;
+}
+
+// The target of a camera stays where it is while terrain that is nested in other terrain, lower or
+// more exaggerated moves into its picture.
+TEST(BodyGraticule, CoversThePictureWhereverTheTargetIsAboveOrBelowTheTerrain)
+{
+    struct Case {
+        double ground_m; // the middle of the terrain
+        double distance_m;
+        double tilt;
+        double waves_m = 0.0;
+    };
+    constexpr int kGrid = 20; // pixels
+    for (const Case& at :
+         {Case{-4100.0, 3e3, 45.0}, Case{-4100.0, 4e3, 50.0}, Case{-4100.0, 1.2e4, 55.0},
+          Case{-4100.0, 4e4, 55.0}, Case{-4100.0, 400.0, 15.0}, Case{-37000.0, 3e3, 10.0},
+          Case{-4100.0, 4e3, 40.0, 300.0}, Case{1500.0, 8e3, 50.0}, Case{0.0, 5e3, 55.0}}) {
+        SCOPED_TRACE(testing::Message() << at.ground_m << " m, distance " << at.distance_m
+                                        << " m, tilt " << at.tilt << " deg");
+        const BodyGround ground = [&](const GeographicPoint& place) {
+            return at.ground_m + at.waves_m * std::sin(place.longitude.degrees() * 60.0) *
+                                     std::cos(place.latitude.degrees() * 50.0);
+        };
+        const BodyCamera camera{
+            .target = {.longitude = Angle::degrees(137.44), .latitude = Angle::degrees(-4.6)},
+            .distance_m = at.distance_m,
+            .azimuth = Angle::degrees(10.0),
+            .tilt = Angle::degrees(at.tilt)};
+        const BodyView view(poseOf(camera, kMars), kPicture, kMars,
+                            {.lowest_m = -40000.0, .highest_m = 21000.0});
+        const Seen seen{camera, view.pose(), bodyGraticule(camera, view, ground, {})};
+        const double eye_m = placeAt(seen.pose.eye).height_m - at.ground_m;
+        const double longitude_step = seen.graticule.longitude_step.degrees();
+        const double latitude_step = seen.graticule.latitude_step.degrees();
+        std::map<std::pair<int, int>, Place> places;
+        for (int x = 0; x <= kPicture.width; x += kGrid) {
+            for (int y = 0; y <= kPicture.height; y += kGrid) {
+                const Ray ray = pickRay(seen.pose, kPicture, {double(x), double(y)});
+                if (const auto place = marched(ray, ground, 0.02 * eye_m, 12.0 * eye_m)) {
+                    places[{x, y}] = *place;
+                }
+            }
+        }
+        ASSERT_EQ(places.size(), std::size_t{61 * 41});
+        int crossings = 0;
+        int missing = 0;
+        const auto check = [&](const std::pair<int, int>& a, const std::pair<int, int>& b,
+                               GraticuleAxis axis, double from, double to, double step) {
+            const double k = std::max(std::floor(from / step), std::floor(to / step));
+            // One line between them.
+            if (std::floor(from / step) == std::floor(to / step) || std::abs(from - to) > step) {
+                return;
+            }
+            const double share = (k * step - from) / (to - from);
+            ++crossings;
+            missing +=
+                fromLine({std::lerp(a.first, b.first, share), std::lerp(a.second, b.second, share)},
+                         axis, k * step, seen) > 4.0;
+        };
+        for (const auto& [pixel, place] : places) {
+            for (const auto& next : {std::pair{pixel.first + kGrid, pixel.second},
+                                     std::pair{pixel.first, pixel.second + kGrid}}) {
+                const auto there = places.find(next);
+                if (there == places.end()) {
+                    continue;
+                }
+                check(pixel, next, GraticuleAxis::Meridian, place.longitude,
+                      there->second.longitude, longitude_step);
+                check(pixel, next, GraticuleAxis::Parallel, planetocentric(place.latitude),
+                      planetocentric(there->second.latitude), latitude_step);
+            }
+        }
+        EXPECT_GT(crossings, 300);
+        EXPECT_EQ(missing, 0) << "of " << crossings;
+        EXPECT_LT(linesAlong(seen.graticule, GraticuleAxis::Meridian), 60U);
     }
 }
 
