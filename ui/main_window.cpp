@@ -20,6 +20,7 @@
 #include "ui/panels/annotation_panel.h"
 #include "ui/panels/georeferencing_panel.h"
 #include "ui/panels/haptics_panel.h"
+#include "ui/panels/layer_model.h"
 #include "ui/panels/layers_panel.h"
 #include "ui/panels/measure_panel.h"
 #include "ui/pictures/flat_pictures.h"
@@ -295,6 +296,11 @@ void MainWindow::connectSession()
     connect(view_, &TerrainView::pictureCompleted, this, &MainWindow::showPreparation);
     connect(view_, &TerrainView::problemChanged, this, &MainWindow::showPreparation);
     connect(&commands_->haptics, &HapticsCommands::changed, this, &MainWindow::showPreparation);
+    WindowNotices* notices = &commands_->notices;
+    connect(globe_, &GlobeView::unplacedChanged, notices, [this, notices] {
+        datasets_->model()->setUnplaced(globe_->unplacedLayers());
+        notices->setUnplaced(globe_->unplacedLayers());
+    });
 }
 
 void MainWindow::placeMarks()

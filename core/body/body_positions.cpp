@@ -303,8 +303,7 @@ private:
     Status noPlace() const
     {
         return Error{ErrorCode::Invalid,
-                     "has samples beyond a pole or outside its projection, so that it cannot lie "
-                     "on its body; crop it"};
+                     "has samples beyond a pole or outside its projection; crop it"};
     }
 
     const Georeference& georeference_;

@@ -264,6 +264,22 @@
 <context>
     <name>CoreMessage</name>
     <message>
+        <source>has samples beyond a pole or outside its projection; crop it</source>
+        <translation>hat Werte jenseits eines Pols oder außerhalb seiner Projektion; schneiden Sie die Karte zu</translation>
+    </message>
+    <message>
+        <source>has fewer than 2 columns or rows</source>
+        <translation>hat weniger als 2 Spalten oder Zeilen</translation>
+    </message>
+    <message>
+        <source>has fewer than 2 columns or rows off the poles</source>
+        <translation>hat abseits der Pole weniger als 2 Spalten oder Zeilen</translation>
+    </message>
+    <message>
+        <source>extends over %1° of longitude; a body has 360°</source>
+        <translation>erstreckt sich über %1° Länge; ein Himmelskörper hat 360°</translation>
+    </message>
+    <message>
         <source>an equatorial radius of %1 m and a polar radius of %2 m are impossible; give a polar radius above 0 and not above the equatorial one</source>
         <translation>ein Äquatorradius von %1 m und ein Polradius von %2 m sind unmöglich; geben Sie einen Polradius über 0 an, der nicht über dem Äquatorradius liegt</translation>
     </message>
@@ -2938,11 +2954,6 @@ y %2</translation>
         <source>Preparing the terrain for touch…</source>
         <translation>Das Gelände wird zum Ertasten vorbereitet …</translation>
     </message>
-    <message>
-        <source>%1 has no place on the globe: it %2</source>
-        <extracomment>Over the globe; %1 is a file, %2 says why</extracomment>
-        <translation>%1 hat keinen Platz auf dem Globus: %2</translation>
-    </message>
 </context>
 <context>
     <name>marsview::GoToDialog</name>
@@ -3741,6 +3752,11 @@ In place of the number 0: a usual bound; %1 is a size</extracomment>
 <context>
     <name>marsview::LayerModel</name>
     <message>
+        <source>Hidden: it %1</source>
+        <extracomment>Why a layer is not shown: %1 is a reason, such as &quot;has samples beyond a pole&quot;</extracomment>
+        <translation>Verborgen: Er %1</translation>
+    </message>
+    <message>
         <source>Hidden: on %1; the view shows %2</source>
         <extracomment>Why a layer is not shown: %1 is its body, %2 the body that the view shows</extracomment>
         <translation>Verborgen: Himmelskörper %1, Ansicht: %2</translation>
@@ -3767,6 +3783,13 @@ In place of the number 0: a usual bound; %1 is a size</extracomment>
         <source>%1 × %2</source>
         <extracomment>Columns and rows of a map</extracomment>
         <translation>%1 × %2</translation>
+    </message>
+    <message>
+        <source>%1.
+%2</source>
+        <extracomment>Tool tip: %1 says why a layer is not shown, %2 is its file</extracomment>
+        <translation>%1.
+%2</translation>
     </message>
     <message>
         <source>%1. Click Show to show it instead.
@@ -6788,6 +6811,11 @@ A scene: the one that suits the layers</extracomment>
 </context>
 <context>
     <name>marsview::WindowNotices</name>
+    <message>
+        <source>%1 cannot be placed on the globe: it %2</source>
+        <extracomment>%1 is a layer, %2 a reason, such as &quot;has samples beyond a pole&quot;</extracomment>
+        <translation>%1 kann nicht auf den Globus gelegt werden: Die Karte %2</translation>
+    </message>
     <message>
         <source>Emergency stop: the forces of the haptic device are off</source>
         <translation>Notaus: Die Kräfte des haptischen Geräts sind abgeschaltet</translation>

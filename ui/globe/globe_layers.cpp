@@ -84,16 +84,16 @@ bool GlobeLayers::isReplacing() const
                        [this](const ShownLayer& layer) { return placedOf(layer) == nullptr; });
 }
 
-std::vector<GlobeLayers::Missing> GlobeLayers::missing() const
+std::vector<UnplacedLayer> GlobeLayers::unplaced() const
 {
-    std::vector<Missing> missing;
+    std::vector<UnplacedLayer> unplaced;
     for (const ShownLayer& layer : wanted_) {
         const Placed* placed = placedOf(layer);
         if (placed != nullptr && !placed->grid) {
-            missing.push_back({.map = layer.map, .problem = placed->problem});
+            unplaced.push_back({.map = layer.map, .problem = placed->problem});
         }
     }
-    return missing;
+    return unplaced;
 }
 
 // Of the lowest layer, which the others are put on in most cases.

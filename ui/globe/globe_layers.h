@@ -5,6 +5,7 @@
 #include "core/session/body_terrain.h"
 #include "ui/canvas/shown_layer.h"
 #include "ui/controllers/detached_jobs.h"
+#include "ui/controllers/unplaced_layer.h"
 
 #include <QObject>
 #include <QString>
@@ -21,12 +22,6 @@ class GlobeLayers final : public QObject {
     Q_OBJECT
 
 public:
-    /// A layer that has no place on the body.
-    struct Missing {
-        std::shared_ptr<const Map> map;
-        QString problem;
-    };
-
     explicit GlobeLayers(QObject* parent = nullptr);
     ~GlobeLayers() override;
 
@@ -38,7 +33,7 @@ public:
     const BodyScene& scene() const noexcept { return scene_; }
     bool isPlacing() const noexcept { return placing_ != nullptr; }
     /// Of those that were tried.
-    std::vector<Missing> missing() const;
+    std::vector<UnplacedLayer> unplaced() const;
 
 Q_SIGNALS:
     /// The look of a layer.

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <utility>
 
 namespace marsview {
@@ -21,10 +20,10 @@ using std::chrono::milliseconds;
 // The interval at which samples that were requested are looked for.
 constexpr milliseconds kSampleInterval{40};
 
-QLabel* overText(QWidget& view, Qt::Alignment alignment)
+QLabel* textOver(QWidget& view)
 {
     auto* label = new QLabel(&view);
-    label->setAlignment(alignment);
+    label->setAlignment(Qt::AlignCenter);
     label->setWordWrap(true);
     label->setAttribute(Qt::WA_TransparentForMouseEvents);
     QPalette palette = label->palette();
@@ -40,8 +39,7 @@ GlobeView::GlobeView(QWidget* parent)
     : QOpenGLWidget(parent)
     , camera_(ground_, [this] { return viewport(); })
     , canvas_(*this, *this)
-    , note_(overText(*this, Qt::AlignHCenter | Qt::AlignBottom))
-    , wait_(overText(*this, Qt::AlignCenter))
+    , wait_(textOver(*this))
 {
     setObjectName(QStringLiteral("globe"));
     setAccessibleName(tr("Globe"));
@@ -52,9 +50,7 @@ GlobeView::GlobeView(QWidget* parent)
     setMouseTracking(true);
     setMinimumSize(160, 120);
     auto* layout = new QVBoxLayout(this);
-    layout->addWidget(wait_, 1);
-    layout->addWidget(note_);
-    note_->setObjectName(QStringLiteral("globeNote"));
+    layout->addWidget(wait_);
     sample_timer_.setSingleShot(true);
     lead_timer_.setSingleShot(true);
     connectParts();
@@ -73,7 +69,7 @@ void GlobeView::connectParts()
             wait_->show();
         }
     });
-    connect(&layers_, &GlobeLayers::placingFinished, this, &GlobeView::showMissing);
+    connect(&layers_, &GlobeLayers::placingFinished, this, &GlobeView::finishPlacing);
     connect(&camera_, &GlobeCamera::cameraChanged, this, [this] {
         canvas_.redraw();
         followTouch();
@@ -143,23 +139,13 @@ void GlobeView::showLayers(bool is_other_body)
 }
 
 // After all that can be placed are.
-void GlobeView::showMissing()
+void GlobeView::finishPlacing()
 {
-    const std::vector<GlobeLayers::Missing> missing = layers_.missing();
-    QStringList notes;
-    for (const GlobeLayers::Missing& layer : missing) {
-        //: Over the globe; %1 is a file, %2 says why
-        notes.append(tr("%1 has no place on the globe: it %2")
-                         .arg(QString::fromStdString(
-                                  std::filesystem::path(layer.map->spec().path).filename()),
-                              layer.problem));
-    }
-    note_->setText(notes.join(QLatin1Char('\n')));
-    note_->setVisible(!notes.isEmpty());
+    Q_EMIT unplacedChanged();
     if (ground_.isEmpty()) {
         wait_->hide();
-        if (!missing.empty()) {
-            Q_EMIT failed(missing.front().problem);
+        if (const auto unplaced = layers_.unplaced(); !unplaced.empty()) {
+            Q_EMIT failed(unplaced.front().problem);
         }
     }
 }

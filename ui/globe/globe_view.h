@@ -51,6 +51,8 @@ public:
     {
         return ground_.isEmpty() ? nullptr : &ground_.scene.maps().front();
     }
+    /// Those that cannot be placed, of those that were tried.
+    std::vector<UnplacedLayer> unplacedLayers() const { return layers_.unplaced(); }
     /// Keeps the camera over its ground.
     void setExaggeration(double exaggeration);
     double exaggeration() const noexcept { return ground_.style.exaggeration; }
@@ -191,8 +193,10 @@ Q_SIGNALS:
     void problemChanged(const QString& problem);
     /// A layer is placed, or others or none are shown.
     void placed();
+    /// unplacedLayers() may have changed.
+    void unplacedChanged();
     void pictureCompleted();
-    /// No suitable graphics context, or a layer that has no place on its body.
+    /// No suitable graphics context, or no layer that can be placed on its body.
     void failed(const QString& reason);
 
 protected:
@@ -219,7 +223,7 @@ private:
     groundUnderCursor(const CursorPicture& cursor, double right_m, double ahead_m) const override;
     void connectParts();
     void showLayers(bool is_other_body);
-    void showMissing();
+    void finishPlacing();
     void flyToAwaited();
     void releaseGraphics() { canvas_.release(); }
     void report();
@@ -263,7 +267,6 @@ private:
     MapCursor cursor_ = MapCursor::Arrow;
     TerrainCanvas canvas_;
     QTimer sample_timer_;
-    QLabel* note_ = nullptr;
     QLabel* wait_ = nullptr;
 };
 

@@ -92,7 +92,7 @@ LayerDelegate::Places LayerDelegate::placesOf(const QStyleOptionViewItem& option
     const QString note = index.data(LayerModel::NoteRole).toString();
     if (!note.isEmpty()) {
         y += kGap;
-        const bool has_button = !index.data(LayerModel::ReasonRole).toString().isEmpty();
+        const bool has_button = index.data(LayerModel::CanShowRole).toBool();
         const QSize button = has_button ? QSize(small.horizontalAdvance(showText()) + 4 * kGap,
                                                 small.height() + kGap + 2)
                                         : QSize(0, 0);
@@ -312,8 +312,10 @@ bool LayerDelegate::editorEvent(QEvent* event,
         return false;
     }
     const auto toggle = [model, &index] {
-        const bool is_checked = index.data(Qt::CheckStateRole).toInt() == Qt::Checked;
-        return model->setData(index, is_checked ? Qt::Unchecked : Qt::Checked, Qt::CheckStateRole);
+        // The user can only hide a layer that the view cannot show even alone.
+        const bool is_hidden = index.data(Qt::CheckStateRole).toInt() == Qt::Unchecked ||
+                               index.data(LayerModel::CanShowRole).toBool();
+        return model->setData(index, is_hidden ? Qt::Checked : Qt::Unchecked, Qt::CheckStateRole);
     };
     switch (event->type()) {
     case QEvent::MouseButtonPress:

@@ -2,10 +2,12 @@
 
 #include "ui/controllers/session_controller.h"
 #include "ui/text/body_text.h"
+#include "ui/text/sentence.h"
 
 #include <QMimeData>
 
 #include <algorithm>
+#include <utility>
 
 namespace marsview {
 namespace {
@@ -85,6 +87,14 @@ void LayerModel::setSceneOfBody(bool is_of_body)
     }
 }
 
+void LayerModel::setUnplaced(std::vector<UnplacedLayer> layers)
+{
+    unplaced_ = std::move(layers);
+    if (rowCount() > 0) {
+        Q_EMIT dataChanged(index(0), index(rowCount() - 1));
+    }
+}
+
 LayerId LayerModel::idAt(const QModelIndex& index) const
 {
     return index.isValid() && !isHeader(index) ? layerAt(index).id : LayerId::None;
@@ -124,6 +134,18 @@ LayerState LayerModel::stateAt(const QModelIndex& index) const
     return is_on_globe && state == LayerState::OtherCrs ? LayerState::Shown : state;
 }
 
+// Null for one that the picture shows, or that is not to be in it.
+const UnplacedLayer* LayerModel::unplacedAt(const QModelIndex& index) const
+{
+    if (!is_scene_of_body_ || stateAt(index) != LayerState::Shown) {
+        return nullptr;
+    }
+    const auto found =
+        std::find_if(unplaced_.begin(), unplaced_.end(),
+                     [&](const UnplacedLayer& layer) { return layer.map == layerAt(index).map; });
+    return found != unplaced_.end() ? &*found : nullptr;
+}
+
 int LayerModel::rowCount(const QModelIndex& parent) const
 {
     return parent.isValid() ? 0 : static_cast<int>(rows_.size());
@@ -131,6 +153,10 @@ int LayerModel::rowCount(const QModelIndex& parent) const
 
 QString LayerModel::reasonAt(const QModelIndex& index) const
 {
+    if (const UnplacedLayer* unplaced = unplacedAt(index)) {
+        //: Why a layer is not shown: %1 is a reason, such as "has samples beyond a pole"
+        return tr("Hidden: it %1").arg(translatedMessage(unplaced->problem));
+    }
     const auto shown = std::find(states_.begin(), states_.end(), LayerState::Shown);
     if (shown == states_.end()) {
         return {};
@@ -178,6 +204,31 @@ QVariant LayerModel::headerRowData(const QModelIndex& index, int role) const
     }
 }
 
+QString LayerModel::toolTipAt(const QModelIndex& index) const
+{
+    const QString path = QString::fromStdString(layerAt(index).map->spec().path);
+    const QString reason = reasonAt(index);
+    if (reason.isEmpty()) {
+        return path;
+    }
+    return unplacedAt(index) != nullptr
+               //: Tool tip: %1 says why a layer is not shown, %2 is its file
+               ? tr("%1.\n%2").arg(reason, path)
+               //: Tool tip: %1 says why a layer is not shown, %2 is its file
+               : tr("%1. Click Show to show it instead.\n%2").arg(reason, path);
+}
+
+QString LayerModel::visibilityAt(const QModelIndex& index) const
+{
+    const QString reason = reasonAt(index);
+    if (!reason.isEmpty()) {
+        return unplacedAt(index) != nullptr ? reason : tr("%1. Press Space to show it").arg(reason);
+    }
+    return stateAt(index) == LayerState::Hidden ? tr("hidden")
+           : layerAt(index).map->isPreview()    ? tr("shown as a preview")
+                                                : tr("shown");
+}
+
 QVariant LayerModel::data(const QModelIndex& index, int role) const
 {
     if (isHeader(index)) {
@@ -186,6 +237,7 @@ QVariant LayerModel::data(const QModelIndex& index, int role) const
     const Layer& layer = layerAt(index);
     const RasterInfo& info = layer.map->info();
     const LayerState state = stateAt(index);
+    const bool is_shown = state == LayerState::Shown && unplacedAt(index) == nullptr;
     const auto size = [&info] {
         //: Columns and rows of a map
         return leftToRight(tr("%1 × %2").arg(countText(info.columns), countText(info.rows)));
@@ -198,39 +250,30 @@ QVariant LayerModel::data(const QModelIndex& index, int role) const
     case Qt::EditRole:
         return QString::fromStdString(layer.name);
     case Qt::CheckStateRole:
-        return state == LayerState::Shown    ? Qt::Checked
+        return is_shown                      ? Qt::Checked
                : state == LayerState::Hidden ? Qt::Unchecked
                                              : Qt::PartiallyChecked;
-    case Qt::ToolTipRole: {
-        const QString path = QString::fromStdString(layer.map->spec().path);
-        const QString reason = reasonAt(index);
-        //: Tool tip: %1 says why a layer is not shown, %2 is its file
-        return reason.isEmpty() ? path
-                                : tr("%1. Click Show to show it instead.\n%2").arg(reason, path);
-    }
-    case Qt::AccessibleTextRole: {
-        const QString reason = reasonAt(index);
-        const QString visibility = !reason.isEmpty() ? tr("%1. Press Space to show it").arg(reason)
-                                   : state == LayerState::Hidden ? tr("hidden")
-                                   : layer.map->isPreview()      ? tr("shown as a preview")
-                                                                 : tr("shown");
+    case Qt::ToolTipRole:
+        return toolTipAt(index);
+    case Qt::AccessibleTextRole:
         //: For screen readers: name, state, columns × rows and range of elevations of a layer
         return tr("%1, %2, %3 samples, elevations %4")
-            .arg(QString::fromStdString(layer.name), visibility, size(), range());
-    }
+            .arg(QString::fromStdString(layer.name), visibilityAt(index), size(), range());
     case SizeRole:
         return size();
     case RangeRole:
         return range();
     case ReasonRole:
         return reasonAt(index);
+    case CanShowRole:
+        return state != LayerState::Shown && state != LayerState::Hidden;
     case NoteRole: {
         const QString reason = reasonAt(index);
         //: Of a layer: a smaller version of the map is shown
         return reason.isEmpty() && layer.map->isPreview() ? tr("Preview") : reason;
     }
     case IsShownRole:
-        return state == LayerState::Shown;
+        return is_shown;
     case IsActiveRole:
         return layer.id == session_.active;
     case IsHeaderRole:

@@ -5,6 +5,7 @@
 #include "core/session/session.h"
 #include "core/view/color_ramp.h"
 #include "ui/controllers/histogram_maker.h"
+#include "ui/controllers/unplaced_layer.h"
 #include "ui/text/number_text.h"
 
 #include <QAbstractListModel>
@@ -17,8 +18,8 @@ namespace marsview {
 /// below a row with the name of its body. Shows a session; asks for changes and never makes any.
 ///
 /// A layer is checked if it is in the picture, unchecked if the user hides it, and partially
-/// checked if it is visible for the user but the view cannot show it together with the present
-/// layers.
+/// checked if it is visible for the user but the view cannot show it, alone or together with the
+/// present layers.
 class LayerModel final : public QAbstractListModel {
     Q_OBJECT
 
@@ -27,6 +28,7 @@ public:
         SizeRole = Qt::UserRole, // "8,192 × 4,096"
         RangeRole,               // "−8,201 … 21,241 m"
         ReasonRole,              // why the view cannot show the layer; empty otherwise
+        CanShowRole,             // with a reason: the view can show it instead of other layers
         NoteRole,                // that, or else that a preview is shown
         IsShownRole,
         IsActiveRole,
@@ -40,6 +42,8 @@ public:
     void setHeightUnit(HeightUnit unit);
     /// The picture has all layers of one body, whatever their CRS.
     void setSceneOfBody(bool is_of_body);
+    /// Those of the layers in that picture that it cannot show.
+    void setUnplaced(std::vector<UnplacedLayer> layers);
 
     /// None for the name of a body.
     LayerId idAt(const QModelIndex& index) const;
@@ -87,7 +91,10 @@ private:
     static std::vector<Row> rowsOf(const Session& session);
     const Layer& layerAt(const QModelIndex& index) const;
     LayerState stateAt(const QModelIndex& index) const;
+    const UnplacedLayer* unplacedAt(const QModelIndex& index) const;
     QString reasonAt(const QModelIndex& index) const;
+    QString toolTipAt(const QModelIndex& index) const;
+    QString visibilityAt(const QModelIndex& index) const;
     QVariant headerRowData(const QModelIndex& index, int role) const;
     std::optional<std::size_t> dropIndex(const QMimeData* data, int row) const;
 
@@ -95,6 +102,7 @@ private:
     std::vector<Row> rows_;
     std::vector<LayerState> states_;
     bool is_scene_of_body_ = false;
+    std::vector<UnplacedLayer> unplaced_;
     HeightUnit unit_ = HeightUnit::Meters;
     HistogramMaker* histograms_ = nullptr;
 };

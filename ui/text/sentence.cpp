@@ -42,6 +42,12 @@ constexpr std::array kMessages{
     QT_TRANSLATE_NOOP("CoreMessage",
                       "%1 × %2 samples are not a surface; at least 2 × 2 are needed"),
     QT_TRANSLATE_NOOP("CoreMessage", "contains no elevations; all of its %1 samples are nodata"),
+    // A layer cannot be placed on its body.
+    QT_TRANSLATE_NOOP("CoreMessage",
+                      "has samples beyond a pole or outside its projection; crop it"),
+    QT_TRANSLATE_NOOP("CoreMessage", "has fewer than 2 columns or rows"),
+    QT_TRANSLATE_NOOP("CoreMessage", "has fewer than 2 columns or rows off the poles"),
+    QT_TRANSLATE_NOOP("CoreMessage", "extends over %1° of longitude; a body has 360°"),
     // An override is refused.
     QT_TRANSLATE_NOOP("CoreMessage",
                       "unknown CRS \"%1\"; enter an EPSG or IAU code, a PROJ string or WKT"),

@@ -46,6 +46,12 @@ WindowNotices::WindowNotices(Parts parts, NoticeCommands commands, QObject* pare
     connect(&parts_.globe, &QAction::toggled, this, &WindowNotices::update);
 }
 
+void WindowNotices::setUnplaced(std::vector<UnplacedLayer> layers)
+{
+    unplaced_ = std::move(layers);
+    update();
+}
+
 void WindowNotices::update()
 {
     const Layer* active = activeLayer(parts_.session.session());
@@ -147,7 +153,10 @@ QList<Notice> WindowNotices::ofScene() const
         ++left_out;
     }
     QAction& globe = parts_.globe;
-    if (left_out == states.size() || globe.isChecked() || !globe.isEnabled()) {
+    if (globe.isChecked()) {
+        return ofUnplaced();
+    }
+    if (left_out == states.size() || !globe.isEnabled()) {
         return {};
     }
     const Layer& layer = session.layers[left_out];
@@ -157,6 +166,24 @@ QList<Notice> WindowNotices::ofScene() const
                          .arg(shortName(layer.name)),
              //: On a button: show all layers of a body on the globe
              .actions = {{tr("Show Globe"), [&globe] { globe.trigger(); }}}}};
+}
+
+QList<Notice> WindowNotices::ofUnplaced() const
+{
+    QList<Notice> notices;
+    for (const Layer& layer : parts_.session.session().layers) {
+        const auto unplaced =
+            std::find_if(unplaced_.begin(), unplaced_.end(),
+                         [&](const UnplacedLayer& other) { return other.map == layer.map; });
+        if (unplaced != unplaced_.end()) {
+            notices.append(
+                {.id = idOf(layer.id, QStringLiteral("unplaced")),
+                 //: %1 is a layer, %2 a reason, such as "has samples beyond a pole"
+                 .text = tr("%1 cannot be placed on the globe: it %2")
+                             .arg(shortName(layer.name), translatedMessage(unplaced->problem))});
+        }
+    }
+    return notices;
 }
 
 void WindowNotices::addNotices(const Layer& layer,

@@ -2,12 +2,14 @@
 // buttons.
 #pragma once
 
+#include "ui/controllers/unplaced_layer.h"
 #include "ui/widgets/notice.h"
 
 #include <QObject>
 
 #include <functional>
 #include <memory>
+#include <vector>
 
 class QAction;
 
@@ -49,6 +51,8 @@ public:
 
     WindowNotices(Parts parts, NoticeCommands commands, QObject* parent = nullptr);
 
+    /// The layers that the globe cannot show.
+    void setUnplaced(std::vector<UnplacedLayer> layers);
     /// Call when the reported state may have changed. Cheap if nothing did.
     void update();
 
@@ -58,6 +62,7 @@ private:
     QList<Notice> ofPicture() const;
     QList<Notice> ofSample() const;
     QList<Notice> ofScene() const;
+    QList<Notice> ofUnplaced() const;
     /// Appends those of the layer: `corrections` are what the user should decide first.
     void addNotices(const Layer& layer, QList<Notice>& corrections, QList<Notice>& others) const;
     void addNodata(Notice& notice, double raw, const Layer& layer) const;
@@ -70,6 +75,7 @@ private:
 
     Parts parts_;
     NoticeCommands commands_;
+    std::vector<UnplacedLayer> unplaced_;
 };
 
 } // namespace marsview

@@ -15,6 +15,7 @@
 #include <QImage>
 #include <QLabel>
 #include <QLineEdit>
+#include <QListView>
 #include <QMouseEvent>
 #include <QTest>
 #include <QToolButton>
@@ -200,6 +201,44 @@ TEST_F(GlobeLayersTest, ALayerWithoutABodyIsHiddenInBothScenes)
         << offer.toStdString();
     ASSERT_TRUE(showGlobe());
     EXPECT_FALSE(reason().isEmpty());
+}
+
+// It has samples beyond a quarter of a turn from its central meridian.
+TEST_F(GlobeLayersTest, ALayerThatCannotBePlacedSaysSoInItsRowAndInANotice)
+{
+    ASSERT_TRUE(openAndWait(*window_, maps_.placed("wide", "+proj=tmerc +R=3396190 +type=crs",
+                                                   {-2e7, 1e6, 0.0, 1.5e7, 0.0, -1e6})));
+    const auto& bar = *window_->findChild<NoticeBar*>();
+    const auto& text = *bar.findChild<QLabel*>(QStringLiteral("noticeText"));
+    const auto is_noticed = [&] {
+        return bar.isVisible() && text.text().contains(QStringLiteral("wide")) &&
+               text.text().contains(QStringLiteral("cannot be placed on the globe"));
+    };
+    const QModelIndex row = list().indexOfLayer(window_->session().layers.front().id);
+    ASSERT_TRUE(row.data().toString().contains(QStringLiteral("wide")));
+    const auto reason = [&] { return row.data(LayerModel::ReasonRole).toString(); };
+    EXPECT_EQ(reason(), QString());
+    ASSERT_TRUE(showGlobe());
+    EXPECT_TRUE(waitFor(is_noticed)) << text.text().toStdString();
+    EXPECT_EQ(globe().scene().maps().size(), 1U);
+    EXPECT_EQ(reason(), QStringLiteral("Hidden: it has samples beyond a pole or outside its "
+                                       "projection; crop it"));
+    EXPECT_TRUE(row.data(Qt::ToolTipRole).toString().startsWith(reason()));
+    EXPECT_TRUE(row.data(Qt::AccessibleTextRole).toString().contains(reason()));
+    EXPECT_EQ(row.data(Qt::CheckStateRole).toInt(), Qt::PartiallyChecked);
+    EXPECT_FALSE(row.data(LayerModel::IsShownRole).toBool());
+    EXPECT_FALSE(row.data(LayerModel::CanShowRole).toBool()); // not even alone
+    // Its box hides it, and requests it again.
+    auto& rows = *window_->datasetPanel()->list();
+    const QPoint box = rows.visualRect(row).topLeft() + QPoint(12, 14);
+    QTest::mouseClick(rows.viewport(), Qt::LeftButton, {}, box);
+    EXPECT_TRUE(waitFor([&] { return !is_noticed() && reason().isEmpty(); }));
+    EXPECT_EQ(row.data(Qt::CheckStateRole).toInt(), Qt::Unchecked);
+    QTest::mouseClick(rows.viewport(), Qt::LeftButton, {}, box);
+    EXPECT_TRUE(waitFor([&] { return is_noticed() && !reason().isEmpty(); }));
+    // The flat map shows it.
+    scene(1)->trigger();
+    EXPECT_TRUE(waitFor([&] { return !is_noticed() && reason().isEmpty(); }));
 }
 
 TEST_F(GlobeLayersTest, TheElevationReadIsThatOfTheLayerInThePicture)
