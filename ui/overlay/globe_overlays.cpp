@@ -38,6 +38,7 @@
 #include <initializer_list>
 #include <limits>
 #include <numbers>
+#include <tuple>
 #include <utility>
 
 namespace marsview {
@@ -283,18 +284,22 @@ void GlobeOverlays::readOverview()
     });
 }
 
-// The widest layer, unless all of them together are seen as a ball: there, a map of the whole body
-// says more.
+// The widest layer in the middle of the picture, unless all of them together are seen as a ball:
+// there, a map of the whole body says more.
 std::optional<std::size_t> GlobeOverlays::localLayer() const
 {
     const std::vector<BodyTerrain>& maps = globe_.scene().maps();
     if (maps.empty() || isBall(globe_.limits().area)) {
         return std::nullopt;
     }
-    const auto reach = [](const BodyTerrain& map) { return areaOf(*map.grid()).reach; };
+    // Where several are, or none, the one that is shown stays.
+    const auto rank = [&](const BodyTerrain& map) {
+        const bool is_in_middle = map.gridAt(globe_.camera().target).has_value();
+        return std::tuple(is_in_middle, map.map() == local_.lock(), areaOf(*map.grid()).reach);
+    };
     const auto widest =
         std::max_element(maps.begin(), maps.end(), [&](const BodyTerrain& a, const BodyTerrain& b) {
-            return reach(a) < reach(b);
+            return rank(a) < rank(b);
         });
     return static_cast<std::size_t>(widest - maps.begin());
 }
@@ -376,6 +381,11 @@ void GlobeOverlays::showSight()
     compass_->setCamera(at_target);
     scale_bar_->setScale(globe_.metersPerPointInMiddle());
     const auto local = local_.lock();
+    const auto wanted = local ? localLayer() : std::nullopt;
+    if (wanted && globe_.scene().maps()[*wanted].map() != local) {
+        showOverview(); // comes back here
+        return;
+    }
     local ? showLocalSight(*local) : showBodySight();
     showLegend();
 }

@@ -126,6 +126,38 @@ TEST_F(GlobeLayersTest, FlyingToALayerInLowGroundFillsThePictureWithIt)
     EXPECT_EQ(on_layer, kLooks); // the middle 40 % of the width
 }
 
+// Not that of a map on another side of the body.
+TEST_F(GlobeLayersTest, TheOverviewOfLocalLayersIsThatOfTheOneInThePicture)
+{
+    const auto flat_map = [this](const char* name, const TestMaps::Shape& shape) {
+        const QString base = QString::fromLatin1(name);
+        writeMarsCrs(base + QStringLiteral(".prj"));
+        return openAndWait(*window_, maps_.write(base + QStringLiteral(".asc"), shape,
+                                                 [](int column, int) { return 100.0 + column; }));
+    };
+    const LayerId mars = window_->session().layers.back().id;
+    ASSERT_TRUE(flat_map(
+        "wide",
+        {.columns = 60, .rows = 30, .x_lower_left = 10.0, .y_lower_left = 10.0, .cell = 0.1}));
+    ASSERT_TRUE(flat_map(
+        "tall",
+        {.columns = 20, .rows = 40, .x_lower_left = 100.0, .y_lower_left = 10.0, .cell = 0.1}));
+    window_->controller().setVisible(mars, false);
+    ASSERT_TRUE(showGlobe());
+    ASSERT_TRUE(waitFor([this] { return globe().scene().maps().size() == 2; }));
+    const Minimap& minimap = *window_->findChild<GlobeOverlays*>()->minimap();
+    const auto is_wide_at = [&](double longitude_deg) {
+        globe().setCamera({.target = {.longitude = Angle::degrees(longitude_deg),
+                                      .latitude = Angle::degrees(11.5)},
+                           .distance_m = 2e5});
+        return minimap.sizeHint().width() > minimap.sizeHint().height();
+    };
+    EXPECT_FALSE(is_wide_at(101.0));
+    EXPECT_TRUE(is_wide_at(13.0));
+    EXPECT_TRUE(is_wide_at(50.0)); // beside both
+    EXPECT_FALSE(is_wide_at(101.0));
+}
+
 TEST_F(GlobeLayersTest, GoToPlaceReachesAllLayersOfTheScene)
 {
     ASSERT_TRUE(showBoth()); // the nested one is topmost
