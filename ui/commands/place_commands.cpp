@@ -280,18 +280,14 @@ void PlaceCommands::askPoint(Drawing& drawing)
     }
     GoToDialog* dialog = makeDialog();
     dialog->setTexts(tr("Add Point"), tr("&Add"));
-    const auto add = [&drawing](const std::shared_ptr<const Map>& map, GridPoint grid) {
-        if (const auto vertex = vertexAt(map->georeference(), grid)) {
-            drawing.addPlace({.vertex = *vertex, .map = map});
-        }
-    };
-    connect(dialog, &GoToDialog::nameChosen, this, [this, add](const PlaceName& place) {
+    connect(dialog, &GoToDialog::nameChosen, this, [this, &drawing](const PlaceName& place) {
         if (const auto map = parts_.names.mapAt(place)) {
-            add(map, *map->georeference().toGrid(place.position));
+            addPlace(drawing, {.map = map, .grid = *map->georeference().toGrid(place.position)});
         }
     });
-    connect(dialog, &GoToDialog::placeChosen, this,
-            [add](const FoundPlace& place) { add(place.map, place.grid); });
+    connect(dialog, &GoToDialog::placeChosen, this, [&drawing](const FoundPlace& place) {
+        addPlace(drawing, {.map = place.map, .grid = place.grid});
+    });
     dialog->open();
 }
 

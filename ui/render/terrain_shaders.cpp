@@ -677,9 +677,9 @@ vec4 reliefOnRay(vec4 relief, out Triangle triangle)
 }
 
 #ifdef CONTOURS
-// By how much the height differs between pixels. On a triangle that of its plane, which neighbors
-// on another triangle do not tell: rays of neighboring pixels meet the mesh where it tells, and go
-// on from there to the plane.
+// By how much the height differs between pixels. On a triangle this is the slope of its plane along
+// the picture, since neighboring pixels may lie on other triangles: the differences on the mesh are
+// carried along the rays to that plane.
 float acrossPixels(float height, Triangle triangle)
 {
     float seen = fwidth(height);
@@ -715,7 +715,7 @@ void main()
 #endif
 #ifdef CONTOURS
     // Before any pixel is given up: these are differences between them.
-#if defined(RAY_CORRECTED) && !defined(WALL)
+#ifdef RAY_CORRECTED
     float across = acrossPixels(height, triangle);
 #else
     float across = fwidth(height);

@@ -1,7 +1,7 @@
 #include "core/body/body_mesh.h"
 #include "core/measure/cap_path.h"
-#include "core/measure/line_measures.h"
 #include "core/measure/terrain_slope.h"
+#include "tests/core/measure/measured_lines.h"
 #include "tests/core/measure/measured_map.h"
 #include "tests/support/map_maker.h"
 #include "tests/support/random.h"
@@ -65,22 +65,6 @@ std::shared_ptr<const Map> rough(MapMaker& maker, const PolarMap& map, double re
         const bool is_repeated = map.name == "RepeatsAColumn" && c + 1 == columns;
         return heights[r * columns + (is_repeated ? 0 : c)];
     });
-}
-
-Profile profileOf(MeasuredTerrain& terrain, const std::vector<GroundPosition>& positions)
-{
-    JobMonitor monitor;
-    Result<Profile> profile = measureProfile(terrain, positions, std::nullopt, monitor);
-    EXPECT_TRUE(profile) << (profile ? "" : profile.error().message);
-    return profile ? *profile : Profile{};
-}
-
-Distance distanceOf(MeasuredTerrain& terrain, const std::vector<GroundPosition>& positions)
-{
-    JobMonitor monitor;
-    Result<Distance> distance = measureDistance(terrain, positions, monitor);
-    EXPECT_TRUE(distance) << (distance ? "" : distance.error().message);
-    return distance ? *distance : Distance{};
 }
 
 // Between the points of a profile; NaN in gaps.

@@ -1,5 +1,6 @@
 #include "core/measure/line_measures.h"
 #include "core/terrain/seam.h"
+#include "tests/core/measure/measured_lines.h"
 #include "tests/core/measure/measured_map.h"
 #include "tests/support/map_maker.h"
 #include "tests/support/random.h"
@@ -20,24 +21,6 @@ namespace marsview::test {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-Profile profileOf(MeasuredTerrain& terrain,
-                  const std::vector<GroundPosition>& positions,
-                  std::optional<double> step_m = std::nullopt)
-{
-    JobMonitor monitor;
-    Result<Profile> profile = measureProfile(terrain, positions, step_m, monitor);
-    EXPECT_TRUE(profile) << (profile ? "" : profile.error().message);
-    return profile ? *profile : Profile{};
-}
-
-Distance distanceOf(MeasuredTerrain& terrain, const std::vector<GroundPosition>& positions)
-{
-    JobMonitor monitor;
-    Result<Distance> distance = measureDistance(terrain, positions, monitor);
-    EXPECT_TRUE(distance) << (distance ? "" : distance.error().message);
-    return distance ? *distance : Distance{};
-}
 
 // Between the points of a profile; NaN in gaps.
 double interpolated(const Profile& profile, double distance_m)

@@ -154,7 +154,7 @@ TEST_F(GlobeLayersTest, TheOverviewOfLocalLayersIsThatOfTheOneInThePicture)
     };
     EXPECT_FALSE(is_wide_at(101.0));
     EXPECT_TRUE(is_wide_at(13.0));
-    EXPECT_TRUE(is_wide_at(50.0)); // beside both
+    EXPECT_TRUE(is_wide_at(50.0)); // outside of both
     EXPECT_FALSE(is_wide_at(101.0));
 }
 

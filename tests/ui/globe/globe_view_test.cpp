@@ -203,7 +203,7 @@ TEST_F(GlobeTest, ReadsWhereTheMapHasNoData)
     EXPECT_NEAR(reading->hit.grid.row, middle.row, 1e-6);
     EXPECT_EQ(window_->readout()->heightLabel(), QStringLiteral("no data"));
     globe().setCamera({.target = target, .distance_m = 2e7});
-    move({1.0, 1.0}); // beside the body
+    move({1.0, 1.0}); // in the sky
     EXPECT_FALSE(globe().reading());
 }
 

@@ -37,7 +37,7 @@ protected:
     QPointF globeMiddle() { return QRectF(globe().rect()).center(); }
     const Ellipsoid& body() { return globe().terrain()->grid()->ellipsoid(); }
 
-    // Beside an ASCII grid of that name: longitude and latitude on Mars.
+    // The CRS of the ASCII grid with that name: longitude and latitude on Mars.
     void writeMarsCrs(const QString& name)
     {
         QFile file(maps_.path(name));
