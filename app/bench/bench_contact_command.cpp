@@ -197,9 +197,9 @@ Json asJson(const ContactBenchRow& row)
     return json;
 }
 
-void printJson(const BenchContactOptions& options,
-               const Ground& ground,
-               const ContactBenchResult& result)
+void printFigures(const BenchContactOptions& options,
+                  const Ground& ground,
+                  const ContactBenchResult& result)
 {
     Json rows = Json::array();
     for (const ContactBenchRow& row : result.rows) {
@@ -223,7 +223,7 @@ void printJson(const BenchContactOptions& options,
                        {"reference_unfinished", result.unfinished_count},
                        {"virtual_proxy_radius_cells", options.bench.radius_cells},
                        {"rows", rows}};
-    marsview::printJson(withSchema(json));
+    printJson(withSchema(json));
 }
 
 // A short form of 0.0123: errors span fifteen decades.
@@ -411,7 +411,7 @@ Status runBenchContact(const BenchContactOptions& given)
         result = std::move(measured).value();
     }
     if (options.is_json) {
-        printJson(options, ground, *result);
+        printFigures(options, ground, *result);
     } else {
         printForPeople(options, ground, *result);
     }

@@ -217,7 +217,7 @@ Json asJson(const ViewBenchResult& result, const ViewBenchResult& first, bool is
             {"flights", flights}};
 }
 
-void printJson(const BenchViewOptions& options, const std::vector<ViewBenchResult>& results)
+void printFigures(const BenchViewOptions& options, const std::vector<ViewBenchResult>& results)
 {
     const ViewBenchOptions& bench = options.bench;
     Json maps = Json::array();
@@ -234,7 +234,7 @@ void printJson(const BenchViewOptions& options, const std::vector<ViewBenchResul
                  {"frame_count", bench.frame_count},
                  {"error_threshold_at_rest_px", bench.error_px}};
     json["maps"] = std::move(maps);
-    marsview::printJson(withSchema(json));
+    printJson(withSchema(json));
 }
 
 void printFlights(const ViewBenchResult& result)
@@ -397,7 +397,7 @@ Status runBenchView(const BenchViewOptions& given)
         results.push_back(std::move(result).value());
     }
     if (options.is_json) {
-        printJson(options, results);
+        printFigures(options, results);
     } else {
         printForPeople(options, results);
     }

@@ -27,6 +27,8 @@ target_compile_options(marsview_flags INTERFACE
   # clang's version also warns about double to long double, which the tests' references use
   $<$<CXX_COMPILER_ID:GNU>:-Wdouble-promotion>
   -ffp-contract=off # the same bits on every machine
+  # Collecting garbage less often saves a twelfth of the time of large groups, for 0.2 GB a job.
+  "$<$<CXX_COMPILER_ID:GNU>:SHELL:--param ggc-min-heapsize=400000>"
   $<$<BOOL:${MARSVIEW_WERROR}>:-Werror>)
 if(MARSVIEW_SANITIZE)
   target_compile_options(marsview_flags INTERFACE
@@ -51,14 +53,14 @@ function(marsview_library name)
   target_include_directories(${name} SYSTEM PUBLIC ${ARG_SYSTEM_INCLUDES})
 endfunction()
 
-# marsview_compile_together(): compiles the targets defined after this call several files at a time,
+# marsview_compile_together(): compiles the targets defined after this call sixteen files at a time,
 # which takes a third of the time if headers dominate. Not for performance-critical code, nor for
 # daily work: a change in one file recompiles the others of its group.
 option(MARSVIEW_COMPILE_TOGETHER "Compile tests, window and commands several files at a time" OFF)
 macro(marsview_compile_together)
   if(MARSVIEW_COMPILE_TOGETHER)
     set(CMAKE_UNITY_BUILD ON)
-    set(CMAKE_UNITY_BUILD_BATCH_SIZE 6)
+    set(CMAKE_UNITY_BUILD_BATCH_SIZE 16)
     # The warning treats every included file as a header.
     add_compile_options($<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-subobject-linkage>)
   endif()

@@ -20,7 +20,7 @@ struct NamedRamp {
     const char* text;
 };
 
-constexpr std::array kNames{
+constexpr std::array kRampNames{
     //: A color ramp from blue to rose, as the sky at sunrise
     NamedRamp{"dawn", QT_TRANSLATE_NOOP("ColorRamp", "Dawn")},
     //: A color ramp through purple and red to straw yellow
@@ -41,9 +41,9 @@ constexpr std::array kNames{
 
 QString rampName(const ColorRamp& ramp)
 {
-    const auto* hit = std::find_if(kNames.begin(), kNames.end(),
+    const auto* hit = std::find_if(kRampNames.begin(), kRampNames.end(),
                                    [&ramp](const NamedRamp& n) { return n.name == ramp.name; });
-    MARSVIEW_CHECK(hit != kNames.end());
+    MARSVIEW_CHECK(hit != kRampNames.end());
     return QCoreApplication::translate("ColorRamp", hit->text);
 }
 

@@ -1,4 +1,5 @@
 #include "core/geo/extent.h"
+#include "tests/core/geo/placed.h"
 #include "tests/support/random.h"
 
 #include <gtest/gtest.h>
@@ -8,14 +9,6 @@
 
 namespace marsview {
 namespace {
-
-Georeference placed(std::size_t columns,
-                    std::size_t rows,
-                    const GeoTransform::Terms& terms,
-                    const std::string& crs)
-{
-    return {columns, rows, *GeoTransform::fromTerms(terms), *Crs::fromText(crs)};
-}
 
 TEST(MapExtent, ReachesToTheOuterEdgesOfARotatedRaster)
 {

@@ -1,4 +1,5 @@
 #include "core/geo/georeference.h"
+#include "tests/core/geo/placed.h"
 #include "tests/support/random.h"
 
 #include <gtest/gtest.h>
@@ -13,16 +14,6 @@
 
 namespace marsview {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
-
-Georeference placed(std::size_t columns,
-                    std::size_t rows,
-                    const GeoTransform::Terms& terms,
-                    const std::string& crs)
-{
-    return {columns, rows, *GeoTransform::fromTerms(terms), *Crs::fromText(crs)};
-}
 
 struct PlacementCase {
     const char* name;

@@ -1,5 +1,6 @@
 #include "core/geo/georeference.h"
 #include "core/geo/scene_frame.h"
+#include "tests/core/geo/placed.h"
 #include "tests/support/random.h"
 #include "tests/support/reference_ellipsoid.h"
 
@@ -10,16 +11,6 @@
 
 namespace marsview {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
-
-Georeference placed(std::size_t columns,
-                    std::size_t rows,
-                    const GeoTransform::Terms& terms,
-                    const std::string& crs)
-{
-    return {columns, rows, *GeoTransform::fromTerms(terms), *Crs::fromText(crs)};
-}
 
 void expectRoundTrips(const Georeference& reference)
 {

@@ -4,6 +4,7 @@
 #include "tests/core/measure/measured_lines.h"
 #include "tests/core/measure/measured_map.h"
 #include "tests/support/map_maker.h"
+#include "tests/support/nan.h"
 #include "tests/support/random.h"
 #include "tests/support/shared_data.h"
 
@@ -13,7 +14,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <ostream>
@@ -22,8 +22,6 @@
 
 namespace marsview::test {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 struct PolarMap {
     std::string name;
@@ -65,17 +63,6 @@ std::shared_ptr<const Map> rough(MapMaker& maker, const PolarMap& map, double re
         const bool is_repeated = map.name == "RepeatsAColumn" && c + 1 == columns;
         return heights[r * columns + (is_repeated ? 0 : c)];
     });
-}
-
-// Between the points of a profile; NaN in gaps.
-double interpolated(const Profile& profile, double distance_m)
-{
-    const auto after =
-        std::upper_bound(profile.points.begin() + 1, profile.points.end() - 1, distance_m,
-                         [](double d, const ProfilePoint& point) { return d < point.distance_m; });
-    const ProfilePoint& a = *(after - 1);
-    const double share = (distance_m - a.distance_m) / (after->distance_m - a.distance_m);
-    return a.elevation_m + share * (after->elevation_m - a.elevation_m);
 }
 
 int gapsOf(const Profile& profile)

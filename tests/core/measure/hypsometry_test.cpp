@@ -17,8 +17,6 @@
 namespace marsview::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 // Around the origin of a map in meters: 801 × 801 samples of 5 m.
 TerrainArea areaOf(const std::function<double(double, double)>& z,
                    const std::vector<GroundPosition>& polygon,
@@ -79,7 +77,7 @@ TEST(Hypsometry, OfAConeIsThatOfTheClosedForm)
     double worst = 0.0;
     for (double h = 0.0; h <= 299.0; h += 0.25) { // the disk lies in the square
         const double radius_m = kRadiusM * (1.0 - h / kHeightM);
-        const double truth_m2 = kPi * radius_m * radius_m;
+        const double truth_m2 = std::numbers::pi * radius_m * radius_m;
         worst = std::max(worst, std::abs(area.hypsometry.areaAboveM2(h) - truth_m2) / total_m2);
     }
     std::printf("cone: %.2g of the area off, in %zu classes of %g m\n", worst,

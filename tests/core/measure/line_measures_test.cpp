@@ -3,6 +3,7 @@
 #include "tests/core/measure/measured_lines.h"
 #include "tests/core/measure/measured_map.h"
 #include "tests/support/map_maker.h"
+#include "tests/support/nan.h"
 #include "tests/support/random.h"
 #include "tests/support/shared_data.h"
 
@@ -13,28 +14,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <memory>
 #include <vector>
 
 namespace marsview::test {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-// Between the points of a profile; NaN in gaps.
-double interpolated(const Profile& profile, double distance_m)
-{
-    const auto after =
-        std::upper_bound(profile.points.begin(), profile.points.end(), distance_m,
-                         [](double d, const ProfilePoint& point) { return d < point.distance_m; });
-    if (after == profile.points.begin() || after == profile.points.end()) {
-        return after == profile.points.end() ? profile.points.back().elevation_m : kNan;
-    }
-    const ProfilePoint& a = *(after - 1);
-    const double share = (distance_m - a.distance_m) / (after->distance_m - a.distance_m);
-    return a.elevation_m + share * (after->elevation_m - a.elevation_m);
-}
 
 // Compares a profile with single elevations every 1/16 of a cell along a geodesic of GeographicLib.
 // Returns the largest difference; counts the points where only one of both is void.

@@ -18,8 +18,6 @@
 namespace marsview::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 TerrainArea areaOf(MeasuredTerrain& terrain,
                    const std::vector<GroundPosition>& vertices,
                    const AreaOptions& options = {})
@@ -49,7 +47,8 @@ std::vector<GroundPosition> star(Random& random, double reach, std::size_t count
 {
     std::vector<GroundPosition> vertices;
     for (std::size_t i = 0; i < count; ++i) {
-        const double angle = 2.0 * kPi * static_cast<double>(i) / static_cast<double>(count);
+        const double angle =
+            2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(count);
         const double r = reach * random.uniform(0.2, 1.0);
         vertices.push_back({r * std::cos(angle), r * std::sin(angle)});
     }
@@ -76,12 +75,12 @@ TEST(TerrainArea, VolumesAreThoseOfClosedForms)
          [](double x, double y) {
              return std::max(0.0, kHeightM * (1.0 - std::hypot(x, y) / kRadiusM));
          },
-         kPi * kRadiusM * kRadiusM * kHeightM / 3.0, 0.0},
+         std::numbers::pi * kRadiusM * kRadiusM * kHeightM / 3.0, 0.0},
         {"bowl",
          [](double x, double y) {
              return std::min(0.0, kHeightM * ((x * x + y * y) / (kRadiusM * kRadiusM) - 1.0));
          },
-         0.0, kPi * kRadiusM * kRadiusM * kHeightM / 2.0},
+         0.0, std::numbers::pi * kRadiusM * kRadiusM * kHeightM / 2.0},
         {"pyramid",
          [](double x, double y) {
              return std::max(0.0, kHeightM * (1.0 - std::max(std::abs(x), std::abs(y)) / kRadiusM));
@@ -123,7 +122,7 @@ TEST(TerrainArea, PlaneThroughTheBorderRemovesATrend)
     const TerrainArea area =
         areaOf(terrain, {{-1500, -1300}, {1700, -1500}, {1600, 1800}, {-1400, 1500}},
                {.base = VolumeBase::BorderPlane});
-    const double truth = kPi * radius_m * radius_m * 200.0 / 2.0;
+    const double truth = std::numbers::pi * radius_m * radius_m * 200.0 / 2.0;
     EXPECT_NEAR(*area.volume_below_m3, truth, 1e-4 * truth);
     EXPECT_NEAR(*area.volume_above_m3, 0.0, 1e-4 * truth);
 }
@@ -276,8 +275,9 @@ TEST(TerrainArea, CoversPolygonsAcrossTheSeamAndAroundAPole)
                                 [](std::size_t, std::size_t) { return 100.0; });
     MeasuredTerrain terrain = terrainOf(*map);
     const double radius_m = 1737400.0;
-    const double sphere_m2 = 4.0 * kPi * radius_m * radius_m;
-    const double cap_m2 = 2.0 * kPi * radius_m * radius_m * (1.0 - std::sin(89.5 * kPi / 180.0));
+    const double sphere_m2 = 4.0 * std::numbers::pi * radius_m * radius_m;
+    const double cap_m2 = 2.0 * std::numbers::pi * radius_m * radius_m *
+                          (1.0 - std::sin(89.5 * std::numbers::pi / 180.0));
     const auto check = [&](const std::vector<GroundPosition>& polygon, double missing_m2,
                            const char* name) {
         for (const double turn : {0.0, 360.0, -360.0}) {
@@ -456,7 +456,7 @@ TEST(TerrainArea, VolumesOnABodyAreMeasuredOnItsEllipsoid)
         for (int i = 0; i < 24; ++i) {
             border.push_back(ground.ray(top, 15.0 * i).at(25'000.0));
         }
-        const double truth = kPi * kRadiusM * kRadiusM * 1000.0 / 3.0;
+        const double truth = std::numbers::pi * kRadiusM * kRadiusM * 1000.0 / 3.0;
         for (const VolumeBase base : {VolumeBase::Elevation, VolumeBase::BorderPlane}) {
             const TerrainArea area = areaOf(terrain, border, {.base = base});
             std::printf("cone on Mars: %+.2g %% off\n",

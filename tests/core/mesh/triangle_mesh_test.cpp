@@ -9,7 +9,7 @@
 namespace marsview {
 namespace {
 
-std::vector<test::NamedMesh> meshes()
+std::vector<test::NamedMesh> closedAndOpenMeshes()
 {
     auto all = test::closedMeshes();
     test::Random random;
@@ -42,7 +42,7 @@ TEST(TriangleMesh, ShapesAreClosedAndFaceOutward)
 
 TEST(TriangleMesh, AcrossAnEdgeIsTheFaceWithTheSameEdgeTurned)
 {
-    for (const auto& [name, mesh, size, middle] : meshes()) {
+    for (const auto& [name, mesh, size, middle] : closedAndOpenMeshes()) {
         for (std::uint32_t corner = 0; corner < 3 * mesh->faceCount(); ++corner) {
             const auto from = mesh->vertexAt(TriangleMesh::nextCorner(corner));
             const auto to = mesh->vertexAt(TriangleMesh::previousCorner(corner));
@@ -66,7 +66,7 @@ TEST(TriangleMesh, AcrossAnEdgeIsTheFaceWithTheSameEdgeTurned)
 
 TEST(TriangleMesh, FansAreAllFacesOfAVertexInTurn)
 {
-    for (const auto& [name, mesh, size, middle] : meshes()) {
+    for (const auto& [name, mesh, size, middle] : closedAndOpenMeshes()) {
         for (std::uint32_t v = 0; v < mesh->vertexCount(); ++v) {
             std::set<std::uint32_t> truth;
             for (std::uint32_t corner = 0; corner < 3 * mesh->faceCount(); ++corner) {
@@ -118,7 +118,7 @@ TEST(TriangleMesh, CanBeCanceled)
 TEST(TriangleTree, BoxQueriesFindAllFacesThatIntersectThem)
 {
     test::Random random;
-    for (const auto& [name, mesh, size, middle] : meshes()) {
+    for (const auto& [name, mesh, size, middle] : closedAndOpenMeshes()) {
         for (int i = 0; i < 300; ++i) {
             const ScenePoint a = middle + test::randomDirection(random) * random.uniform(0.0, size);
             const Vec3 reach = Vec3{random.unit(), random.unit(), random.unit()} *
@@ -144,7 +144,7 @@ TEST(TriangleTree, BoxQueriesFindAllFacesThatIntersectThem)
 
 TEST(TriangleTree, EveryFaceIsInTheTreeOnce)
 {
-    for (const auto& [name, mesh, size, middle] : meshes()) {
+    for (const auto& [name, mesh, size, middle] : closedAndOpenMeshes()) {
         std::vector<int> seen(mesh->faceCount(), 0);
         const Vec3 reach{20.0 * size, 20.0 * size, 20.0 * size};
         mesh->tree().inBox(middle - reach, middle + reach, [&seen](std::uint32_t f) { ++seen[f]; });

@@ -16,7 +16,7 @@
 namespace marsview::test {
 namespace {
 
-constexpr Viewport kPicture{1600, 1000};
+constexpr Viewport kWindow{1600, 1000};
 
 std::shared_ptr<const Map> load(const std::string& path)
 {
@@ -58,7 +58,7 @@ protected:
     {
         std::map<std::string, NameLabel> found;
         for (const NameLabel& label :
-             all.inPicture(camera, {.viewport = kPicture, .exaggeration = exaggeration},
+             all.inPicture(camera, {.viewport = kWindow, .exaggeration = exaggeration},
                            [this](std::size_t name, double) { return sizeOf(*names_, name); })) {
             found[names_->names()[label.name].name] = label;
         }
@@ -89,14 +89,14 @@ TEST_F(NameLabelsTest, NoLabelsOverlapInAThousandRandomViews)
         const OrbitCamera camera = randomCamera(random, ground_, exaggeration);
         const auto begin = std::chrono::steady_clock::now();
         const auto shown =
-            all.inPicture(camera, {.viewport = kPicture, .exaggeration = exaggeration},
+            all.inPicture(camera, {.viewport = kWindow, .exaggeration = exaggeration},
                           [this](std::size_t name, double) { return sizeOf(*names_, name); });
         spent += std::chrono::steady_clock::now() - begin;
         labels += shown.size();
         pictures_with_labels += shown.empty() ? 0U : 1U;
         for (std::size_t a = 0; a < shown.size(); ++a) {
-            ASSERT_TRUE(shown[a].box.left >= 0.0 && shown[a].box.right <= kPicture.width &&
-                        shown[a].box.top >= 0.0 && shown[a].box.bottom <= kPicture.height);
+            ASSERT_TRUE(shown[a].box.left >= 0.0 && shown[a].box.right <= kWindow.width &&
+                        shown[a].box.top >= 0.0 && shown[a].box.bottom <= kWindow.height);
             for (std::size_t b = 0; b < a; ++b) {
                 ASSERT_FALSE(shown[a].box.overlaps(shown[b].box));
             }
@@ -122,7 +122,7 @@ TEST(NameLabels, NoneOverlapOnTheMoonEither)
     for (int i = 0; i < 300; ++i) {
         const OrbitCamera camera = randomCamera(random, ground, 1.0);
         const auto shown =
-            all.inPicture(camera, {.viewport = kPicture},
+            all.inPicture(camera, {.viewport = kWindow},
                           [&](std::size_t name, double) { return sizeOf(*names, name); });
         labels += shown.size();
         for (std::size_t a = 0; a < shown.size(); ++a) {
@@ -177,7 +177,7 @@ TEST_F(NameLabelsTest, OnTheGlobeNamesLieOverTheirPlacesInFrontOfTheHorizon)
                                           .tilt = Angle::degrees(random.uniform(0.0, 70.0))},
                                          scene.ellipsoid());
         const auto shown =
-            all.inPicture(camera, {.viewport = kPicture, .exaggeration = exaggeration},
+            all.inPicture(camera, {.viewport = kWindow, .exaggeration = exaggeration},
                           [this](std::size_t name, double) { return sizeOf(*names_, name); });
         labels += shown.size();
         for (std::size_t j = 0; j < shown.size(); ++j) {
@@ -189,7 +189,7 @@ TEST_F(NameLabelsTest, OnTheGlobeNamesLieOverTheirPlacesInFrontOfTheHorizon)
             const ScenePoint point =
                 targetOf({.target = named, .height_m = scene.height(named) * exaggeration},
                          scene.ellipsoid());
-            const auto pixel = project(camera, kPicture, point);
+            const auto pixel = project(camera, kWindow, point);
             ASSERT_TRUE(pixel);
             EXPECT_NEAR(pixel->x, shown[j].place.x, 1e-6);
             EXPECT_NEAR(pixel->y, shown[j].place.y, 1e-6);
@@ -231,7 +231,7 @@ TEST_F(NameLabelsTest, TerrainInFrontHidesAName)
             grid, 30.0 * map_->heightfield().height(grid));
         const ScenePoint eye = eyeOf(camera);
         // By brute force: no terrain is above the line of sight, which ends four points above.
-        point.z += 4.0 * metersPerPixel(camera, kPicture, point);
+        point.z += 4.0 * metersPerPixel(camera, kWindow, point);
         for (double share = 0.001; share < 0.999; share += 0.001) {
             const ScenePoint p = eye + (point - eye) * share;
             const double ground_m = ground_.height(p.x, p.y) * 30.0;

@@ -18,13 +18,13 @@ namespace {
 constexpr std::size_t kNode = DetailErrors::kNodeCells;
 constexpr std::size_t kNobody = std::numeric_limits<std::size_t>::max();
 
-struct Map {
+struct DrawnMap {
     std::string name;
     Heightfield field;
     SceneFrame frame;
     std::shared_ptr<const SurfaceAnalysis> analysis;
 
-    Map(std::string map_name, Heightfield heightfield, const SceneFrame& map_frame)
+    DrawnMap(std::string map_name, Heightfield heightfield, const SceneFrame& map_frame)
         : name(std::move(map_name))
         , field(std::move(heightfield))
         , frame(map_frame)
@@ -52,9 +52,9 @@ SceneFrame askewFrame(std::size_t columns, std::size_t rows)
     return frame;
 }
 
-std::vector<Map> maps(test::Random& random)
+std::vector<DrawnMap> maps(test::Random& random)
 {
-    std::vector<Map> all;
+    std::vector<DrawnMap> all;
     const auto add = [&](const char* name, std::size_t columns, std::size_t rows,
                          const test::HeightFunction& height, bool is_askew) {
         all.emplace_back(name, test::floatTerrain(columns, rows, height),
@@ -99,7 +99,7 @@ struct Shot {
 };
 
 // Cameras inside the map's box, next to it and far away.
-Shot randomShot(test::Random& random, const Map& map)
+Shot randomShot(test::Random& random, const DrawnMap& map)
 {
     constexpr std::array<double, 9> kExaggerations{0.001, 0.1,  1.0,   1.0,   1.0,
                                                    2.0,   10.0, 100.0, 1000.0};
@@ -128,7 +128,7 @@ Shot randomShot(test::Random& random, const Map& map)
 // The ranges of detail_selection.h, recomputed in double from its formulas.
 class Ranges {
 public:
-    Ranges(const Map& map, const Shot& shot)
+    Ranges(const DrawnMap& map, const Shot& shot)
         : map_(map)
         , shot_(shot)
     {
@@ -268,7 +268,7 @@ private:
         return std::hypot(high_x - low_x, high_y - low_y, height);
     }
 
-    const Map& map_;
+    const DrawnMap& map_;
     const Shot& shot_;
     std::vector<std::vector<double>> sizes_;
     double range_per_error_ = 0.0;
@@ -292,7 +292,7 @@ bool isDrawn(const SelectedNode& selected, std::size_t quadrant)
     return (selected.quadrants >> quadrant & 1U) != 0;
 }
 
-Cover coverOf(const Map& map, const DetailSelection& selection)
+Cover coverOf(const DrawnMap& map, const DetailSelection& selection)
 {
     const DetailErrors& errors = map.analysis->errors;
     Cover cover{.columns = errors.columns(0), .rows = errors.rows(0), .owner = {}};
@@ -332,14 +332,14 @@ struct Vertex {
     std::size_t row;
 };
 
-Vertex vertexAt(const Map& map, const DetailNode& node, std::size_t i, std::size_t j)
+Vertex vertexAt(const DrawnMap& map, const DetailNode& node, std::size_t i, std::size_t j)
 {
     return {.column = std::min((node.column * kNode + i) << node.level, map.field.columns() - 1),
             .row = std::min((node.row * kNode + j) << node.level, map.field.rows() - 1)};
 }
 
 ScenePoint
-sceneAt(const Map& map, const DrawnSurface& surface, const Vertex& vertex, double exaggeration)
+sceneAt(const DrawnMap& map, const DrawnSurface& surface, const Vertex& vertex, double exaggeration)
 {
     const double height =
         static_cast<double>(surface.height(vertex.column, vertex.row)) + surface.baseMeters();
@@ -348,7 +348,7 @@ sceneAt(const Map& map, const DrawnSurface& surface, const Vertex& vertex, doubl
 }
 
 // All drawn cells of a node that have an area, void or not.
-std::size_t triangleCount(const Map& map, const SelectedNode& selected)
+std::size_t triangleCount(const DrawnMap& map, const SelectedNode& selected)
 {
     std::size_t triangles = 0;
     for (std::size_t j = 0; j < kNode; ++j) {
@@ -371,7 +371,7 @@ bool isInPicture(const Shot& shot, const ScenePoint& p)
 }
 
 // All terrain in the view is covered. Checks a subset of the samples.
-void expectNoGaps(const Map& map, const Shot& shot, const Cover& cover)
+void expectNoGaps(const DrawnMap& map, const Shot& shot, const Cover& cover)
 {
     const std::size_t stride = 1 + map.field.columns() * map.field.rows() / 40000;
     for (std::size_t i = 0; i < map.field.columns() * map.field.rows(); i += stride) {
@@ -398,7 +398,7 @@ struct EdgeCheck {
     std::size_t levels_max = 0;
 };
 
-void checkVertices(const Map& map,
+void checkVertices(const DrawnMap& map,
                    const Shot& shot,
                    const DetailSelection& selection,
                    const Cover& cover,
@@ -491,7 +491,7 @@ void checkVertices(const Map& map,
 class DetailSelectionTest : public testing::Test {
 protected:
     test::Random random_;
-    std::vector<Map> maps_ = maps(random_);
+    std::vector<DrawnMap> maps_ = maps(random_);
 };
 
 TEST_F(DetailSelectionTest, CoversThePictureOnceAndMatchesOnEveryEdge)
@@ -499,7 +499,7 @@ TEST_F(DetailSelectionTest, CoversThePictureOnceAndMatchesOnEveryEdge)
     EdgeCheck edges;
     std::size_t node_count = 0;
     std::size_t quadrants_left_out = 0;
-    for (const Map& map : maps_) {
+    for (const DrawnMap& map : maps_) {
         DetailSelector selector(map.analysis, map.field.columns(), map.field.rows(), map.frame);
         for (int i = 0; i < 25; ++i) {
             const Shot shot = randomShot(random_, map);
@@ -575,7 +575,7 @@ TEST_F(DetailSelectionTest, CoversThePictureOnceAndMatchesOnEveryEdge)
 
 TEST_F(DetailSelectionTest, DrawsEveryCellAtFullResolution)
 {
-    for (const Map& map : maps_) {
+    for (const DrawnMap& map : maps_) {
         SCOPED_TRACE(map.name);
         DetailSelector selector(map.analysis, map.field.columns(), map.field.rows(), map.frame);
         for (int i = 0; i < 10; ++i) {
@@ -614,7 +614,7 @@ TEST_F(DetailSelectionTest, DrawsEveryCellAtFullResolution)
 
 TEST_F(DetailSelectionTest, DrawsFewerTrianglesForALargerError)
 {
-    for (const Map& map : maps_) {
+    for (const DrawnMap& map : maps_) {
         DetailSelector selector(map.analysis, map.field.columns(), map.field.rows(), map.frame);
         for (int i = 0; i < 10; ++i) {
             Shot shot = randomShot(random_, map);
@@ -632,7 +632,7 @@ TEST_F(DetailSelectionTest, DrawsFewerTrianglesForALargerError)
 // The selection does not depend on earlier selections.
 TEST_F(DetailSelectionTest, DependsOnTheViewOnly)
 {
-    const Map& map = maps_.front();
+    const DrawnMap& map = maps_.front();
     DetailSelector used(map.analysis, map.field.columns(), map.field.rows(), map.frame);
     for (int i = 0; i < 20; ++i) {
         const Shot shot = randomShot(random_, map);
@@ -650,8 +650,8 @@ TEST_F(DetailSelectionTest, DependsOnTheViewOnly)
 
 TEST(DetailSelector, SelectsNothingOnAMapOfVoids)
 {
-    const Map map("void", test::floatTerrain(100, 100, [](auto...) { return kNan; }),
-                  test::northUpFrame(100, 100, 10.0));
+    const DrawnMap map("void", test::floatTerrain(100, 100, [](auto...) { return kNan; }),
+                       test::northUpFrame(100, 100, 10.0));
     DetailSelector selector(map.analysis, 100, 100, map.frame);
     const DetailSelection selection = selector.select(
         {.camera = {.target = {}, .distance_m = 2000.0}, .viewport = {.width = 300, .height = 200}},

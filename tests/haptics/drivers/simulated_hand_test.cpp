@@ -1,4 +1,5 @@
 #include "haptics/drivers/simulated/simulated_hand.h"
+#include "tests/haptics/tick_time.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +7,6 @@
 
 namespace marsview::test {
 namespace {
-
-constexpr double kDt = 1e-3;
 
 TEST(SimulatedHand, OscillatesAsAMassOnASpring)
 {

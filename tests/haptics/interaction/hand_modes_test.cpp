@@ -1,4 +1,5 @@
 #include "haptics/interaction/hand_modes.h"
+#include "tests/haptics/tick_time.h"
 #include "tests/support/random.h"
 
 #include <gtest/gtest.h>
@@ -7,8 +8,6 @@
 
 namespace marsview::test {
 namespace {
-
-constexpr double kDt = 1e-3;
 
 // A hand that moves by the given steps.
 struct Hand {

@@ -1,4 +1,5 @@
 #include "haptics/interaction/pan_motion.h"
+#include "tests/haptics/tick_time.h"
 #include "tests/support/random.h"
 
 #include <gtest/gtest.h>
@@ -7,8 +8,6 @@
 
 namespace marsview::test {
 namespace {
-
-constexpr double kDt = 1e-3;
 
 PanOptions withoutDrag()
 {

@@ -11,6 +11,7 @@
 #include "tests/core/contact/contact_terrain.h"
 #include "tests/core/contact/nested_maps.h"
 #include "tests/haptics/loop/tick_fixture.h"
+#include "tests/haptics/tick_time.h"
 #include "tests/support/random.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +24,6 @@
 namespace marsview::test {
 namespace {
 
-constexpr double kDt = 1e-3;
 constexpr double kRadiusM = 1e6;
 constexpr double kElevationM = 2000.0;
 constexpr double kMetersPerMeter = 2e7; // the ball has a radius of 50 mm in the workspace

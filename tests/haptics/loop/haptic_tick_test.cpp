@@ -2,6 +2,7 @@
 #include "haptics/loop/rt_scope.h"
 #include "tests/haptics/loop/tick_fixture.h"
 #include "tests/haptics/terrain/tiled_map.h"
+#include "tests/haptics/tick_time.h"
 #include "tests/support/nan.h"
 #include "tests/support/random.h"
 
@@ -18,8 +19,6 @@ namespace marsview::test {
 namespace {
 
 using namespace std::chrono_literals;
-
-constexpr double kDt = 1e-3;
 
 // A level plane at 10 m. 1 m of the scene is 1 mm of the workspace, whose middle is 20 m above the
 // plane, over the middle of the map.

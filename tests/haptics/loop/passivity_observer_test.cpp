@@ -1,4 +1,5 @@
 #include "haptics/loop/passivity_observer.h"
+#include "tests/haptics/tick_time.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +8,6 @@
 
 namespace marsview::test {
 namespace {
-
-constexpr double kDt = 1e-3;
 
 TEST(PassivityObserver, LeavesASpringThatTakesEnergyAlone)
 {

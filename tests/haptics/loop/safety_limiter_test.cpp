@@ -1,4 +1,5 @@
 #include "haptics/loop/safety_limiter.h"
+#include "tests/haptics/tick_time.h"
 #include "tests/support/nan.h"
 #include "tests/support/random.h"
 
@@ -14,7 +15,6 @@ namespace marsview::test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kDt = 1e-3;
 
 constexpr SafetyLimits kLimits{.force_n_max = 3.0,
                                .rate_n_per_s_max = 500.0,

@@ -14,15 +14,15 @@
 namespace marsview {
 namespace {
 
-struct Thing {
+struct NamedThing {
     std::uint32_t id = 0;
     std::string name;
-    bool operator==(const Thing&) const = default;
+    bool operator==(const NamedThing&) const = default;
 };
 
-ItemList<Thing> things(std::uint32_t count)
+ItemList<NamedThing> things(std::uint32_t count)
 {
-    ItemList<Thing> list;
+    ItemList<NamedThing> list;
     for (std::uint32_t id = 1; id <= count; ++id) {
         list.push_back({id, std::to_string(id)});
     }
@@ -35,9 +35,10 @@ ItemList<Thing> things(std::uint32_t count)
 TEST(ItemList, IsWhatAVectorWouldBe)
 {
     test::Random random(11);
-    ItemList<Thing> list;
-    std::vector<Thing> truth;
-    std::vector<std::pair<ItemList<Thing>, std::vector<Thing>>> kept; // as undo keeps them
+    ItemList<NamedThing> list;
+    std::vector<NamedThing> truth;
+    std::vector<std::pair<ItemList<NamedThing>, std::vector<NamedThing>>>
+        kept; // as undo keeps them
     std::uint32_t next = 1;
     for (int step = 0; step < 4000; ++step) {
         const double choice = random.uniform(0.0, 1.0);
@@ -46,16 +47,19 @@ TEST(ItemList, IsWhatAVectorWouldBe)
             list.push_back({next, "new"});
             truth.push_back({next++, "new"});
         } else if (choice < 0.9) {
-            const auto found = std::find_if(truth.begin(), truth.end(),
-                                            [any](const Thing& thing) { return thing.id == any; });
-            Thing* thing = list.edit(any);
+            const auto found =
+                std::find_if(truth.begin(), truth.end(),
+                             [any](const NamedThing& thing) { return thing.id == any; });
+            NamedThing* thing = list.edit(any);
             ASSERT_EQ(thing != nullptr, found != truth.end());
             if (thing != nullptr) {
                 thing->name = std::to_string(step);
                 found->name = std::to_string(step);
             }
         } else {
-            const auto is_meant = [any](const Thing& thing) { return thing.id % 97 == any % 97; };
+            const auto is_meant = [any](const NamedThing& thing) {
+                return thing.id % 97 == any % 97;
+            };
             list.eraseIf(is_meant);
             std::erase_if(truth, is_meant);
         }
@@ -81,8 +85,8 @@ TEST(ItemList, IsWhatAVectorWouldBe)
 
 TEST(ItemList, ACopyHoldsOnlyWhatChanged)
 {
-    ItemList<Thing> list = things(100'000);
-    const ItemList<Thing> before = list;
+    ItemList<NamedThing> list = things(100'000);
+    const ItemList<NamedThing> before = list;
     list.edit(50'000)->name = "other";
     std::size_t moved = 0;
     for (auto a = list.begin(), b = before.begin(); a != list.end(); ++a, ++b) {
@@ -99,18 +103,18 @@ TEST(ItemList, ACopyHoldsOnlyWhatChanged)
 TEST(ItemList, TellsWhatDiffersFromAnotherList)
 {
     test::Random random(12);
-    ItemList<Thing> list = things(3000);
+    ItemList<NamedThing> list = things(3000);
     for (int round = 0; round < 200; ++round) {
-        const ItemList<Thing> before = list;
+        const ItemList<NamedThing> before = list;
         std::set<std::uint32_t> removed;
         std::set<std::uint32_t> changed;
         for (std::size_t i = random.below(4); i > 0; --i) {
             const auto id = static_cast<std::uint32_t>(1 + random.below(3000));
-            if (Thing* thing = list.edit(id); thing != nullptr && random.chance(0.7)) {
+            if (NamedThing* thing = list.edit(id); thing != nullptr && random.chance(0.7)) {
                 thing->name = "round " + std::to_string(round);
                 changed.insert(id);
             } else if (thing != nullptr) {
-                list.eraseIf([id](const Thing& each) { return each.id == id; });
+                list.eraseIf([id](const NamedThing& each) { return each.id == id; });
                 removed.insert(id);
                 changed.erase(id);
             }
@@ -121,21 +125,22 @@ TEST(ItemList, TellsWhatDiffersFromAnotherList)
             list.push_back({id, "new"});
             added.insert(id);
         }
-        const auto expect = [&](const ItemList<Thing>& from, const ItemList<Thing>& to,
+        const auto expect = [&](const ItemList<NamedThing>& from, const ItemList<NamedThing>& to,
                                 const std::set<std::uint32_t>& fresh,
                                 const std::set<std::uint32_t>& gone) {
             std::set<std::uint32_t> found_fresh;
             std::set<std::uint32_t> found_gone;
             std::set<std::uint32_t> found_changed;
-            ItemList<Thing>::forEachChange(from, to, [&](const Thing* was, const Thing* is) {
-                const std::uint32_t id = was != nullptr ? was->id : is->id;
-                EXPECT_EQ(was, from.find(id));
-                EXPECT_EQ(is, to.find(id));
-                (was == nullptr  ? found_fresh
-                 : is == nullptr ? found_gone
-                                 : found_changed)
-                    .insert(id);
-            });
+            ItemList<NamedThing>::forEachChange(
+                from, to, [&](const NamedThing* was, const NamedThing* is) {
+                    const std::uint32_t id = was != nullptr ? was->id : is->id;
+                    EXPECT_EQ(was, from.find(id));
+                    EXPECT_EQ(is, to.find(id));
+                    (was == nullptr  ? found_fresh
+                     : is == nullptr ? found_gone
+                                     : found_changed)
+                        .insert(id);
+                });
             EXPECT_EQ(found_fresh, fresh);
             EXPECT_EQ(found_gone, gone);
             EXPECT_EQ(found_changed, changed);
