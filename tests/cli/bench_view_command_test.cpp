@@ -83,8 +83,9 @@ TEST(BenchViewCommand, PicturesAtRestAreWithinAPixel)
 
 TEST(BenchViewCommand, MeasuresTheErrorOfACoarsePicture)
 {
-    const nlohmann::json fine = measured({bundledMars()});
-    const nlohmann::json coarse = measured({bundledMars(), "--error-px", "16"});
+    const nlohmann::json fine = measured({bundledMars(), "--color-exaggerations", "1"});
+    const nlohmann::json coarse =
+        measured({bundledMars(), "--color-exaggerations", "1", "--error-px", "16"});
     const auto low_over_the_map = [](const nlohmann::json& bench) {
         return bench["maps"][0]["flights"][2]["resting_poses"][1];
     };
@@ -98,8 +99,9 @@ TEST(BenchViewCommand, MeasuresTheErrorOfACoarsePicture)
 
 TEST(BenchViewCommand, FliesTheSamePathsEveryTime)
 {
-    const nlohmann::json once = measured({bundledMars()});
-    const nlohmann::json again = measured({bundledMars(), "--target-ms", "5"});
+    const nlohmann::json once = measured({bundledMars(), "--color-exaggerations", "1"});
+    const nlohmann::json again =
+        measured({bundledMars(), "--color-exaggerations", "1", "--target-ms", "5"});
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t pose = 0; pose < 2; ++pose) {
             const auto camera = [&](const nlohmann::json& bench) {

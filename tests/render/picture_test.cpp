@@ -135,9 +135,11 @@ protected:
         ColorError means;
     };
 
-    ColorErrors colorErrors(const LoadedTestMap& map, const OrbitCamera& camera, DrawStyle style)
+    ColorErrors colorErrors(const LoadedTestMap& map,
+                            const OrbitCamera& camera,
+                            const Viewport& size,
+                            DrawStyle style)
     {
-        const Viewport size{.width = 1280, .height = 800};
         const ColorRamp& ramp = defaultColorRamp("");
         const SceneFrame frame = map.frame();
         const TintedScene scene{.drawn = {map.field(), frame, style.exaggeration},
@@ -148,7 +150,8 @@ protected:
         hillshade.look.mode = ShadingMode::Hillshade;
         const OffscreenPicture sharp = draw(camera, size, {}, style);
         const auto error_of = [&](int samples, const ColorSampling& sampling) {
-            const Picture tint = draw(camera, size, {}, style, samples).colors;
+            const Picture tint =
+                samples == 1 ? sharp.colors : draw(camera, size, {}, style, samples).colors;
             const Picture light = draw(camera, size, {}, hillshade, samples).colors;
             return measureColorError(
                 scene, camera, size,
@@ -166,15 +169,20 @@ protected:
     {
         renderer_->setLayers({terrainLayer(map.map, map.frame(), defaultColorRamp(""))});
         for (const double exaggeration : {0.5, 1.0, 2.0, 10.0}) {
-            const auto cameras = views(map, exaggeration, {.width = 1280, .height = 800});
-            // The whole map, and from the side, obliquely and from above, closer and closer.
+            // The whole map, and from the side, obliquely and from above, closer and closer. Where
+            // a sample is as wide as many pixels, a smaller picture shows the same.
+            constexpr Viewport kWindow{.width = 1280, .height = 800};
+            constexpr Viewport kSmall{.width = 640, .height = 400};
             constexpr std::array<std::size_t, 4> kViews{0, 3, 5, 7};
+            constexpr std::size_t kNearest = 7;
+            const auto cameras = views(map, exaggeration, kWindow);
             double centers_sum = 0.0;
             double means_sum = 0.0;
             for (const std::size_t view : kViews) {
                 DrawStyle style;
                 style.exaggeration = exaggeration;
-                const auto [centers, means] = colorErrors(map, cameras.at(view), style);
+                const auto [centers, means] =
+                    colorErrors(map, cameras.at(view), view == kNearest ? kSmall : kWindow, style);
                 std::printf(
                     "%s ×%g view %zu: 99%% of colors within %.1f of 255 of centers, %.1f "
                     "of means; of centers %.1f of means\n",
