@@ -43,6 +43,11 @@ constexpr std::array kStretches{
     Named<StretchKind>{StretchKind::Fixed, "fixed"},
 };
 
+constexpr std::array kLightFrames{
+    Named<LightFrame>{LightFrame::View, "fixed in the view"},
+    Named<LightFrame>{LightFrame::Body, "fixed on the body"},
+};
+
 constexpr std::array kOrders{
     Named<LayerOrder>{LayerOrder::Listed, "listed"},
     Named<LayerOrder>{LayerOrder::FinestFirst, "finest first"},
@@ -217,6 +222,13 @@ Json lookJson(const TerrainLook& look)
     json["contour_interval_m"] = look.contour_interval_m;
     json["light_azimuth_deg"] = degreesOf(look.light_azimuth);
     json["light_altitude_deg"] = degreesOf(look.light_altitude);
+    if (look.light_frame != LightFrame::View) {
+        json["light"] = nameIn(kLightFrames, look.light_frame);
+    }
+    if (look.subsolar) {
+        json["subsolar_longitude_deg"] = degreesOf(look.subsolar->longitude);
+        json["subsolar_latitude_deg"] = degreesOf(look.subsolar->latitude);
+    }
     return json;
 }
 
@@ -324,6 +336,17 @@ TerrainLook lookFrom(Members& members)
         "light_altitude_deg", look.light_altitude,
         [](double degrees) { return degrees >= -90.0 && degrees <= 90.0; },
         "an angle from -90 to 90");
+    members.choice("light", kLightFrames, look.light_frame);
+    if (members.has("subsolar_longitude_deg") || members.has("subsolar_latitude_deg")) {
+        look.subsolar.emplace();
+        members.angle(
+            "subsolar_longitude_deg", look.subsolar->longitude, [](double) { return true; },
+            "an angle");
+        members.angle(
+            "subsolar_latitude_deg", look.subsolar->latitude,
+            [](double degrees) { return degrees >= -90.0 && degrees <= 90.0; },
+            "a latitude from -90 to 90");
+    }
     return look;
 }
 

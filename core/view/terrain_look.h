@@ -2,7 +2,10 @@
 #pragma once
 
 #include "core/base/angle.h"
+#include "core/geo/frames.h"
 #include "core/terrain/heightfield.h"
+
+#include <optional>
 
 namespace marsview {
 
@@ -15,6 +18,17 @@ enum class ShadingMode {
 /// The gray of fully lit terrain in the mode Hillshade, as a fraction of white.
 inline constexpr double kHillshadeWhite = 0.92;
 
+/// What the light is fixed in.
+enum class LightFrame {
+    View, // azimuth and altitude where the camera looks
+    Body, // the sun stands over a place of the body; flat maps have the light of the view
+};
+
+/// Of the colors of a legend: what a place has with the sun overhead in addition to the night's
+/// share, which it has in the dark.
+inline constexpr double kSunShare = 0.92;
+inline constexpr double kNightShare = 0.08;
+
 struct TerrainLook {
     ShadingMode mode = ShadingMode::Tint;
     bool has_contours = false;
@@ -22,6 +36,10 @@ struct TerrainLook {
     Angle light_azimuth = Angle::degrees(315.0); // direction of the light source, clockwise from
                                                  // north
     Angle light_altitude = Angle::degrees(45.0); // above the horizon
+    LightFrame light_frame = LightFrame::View;
+    /// Where the sun is overhead while the light is fixed on the body: at 0° N, 0° E if empty. Kept
+    /// while it is not.
+    std::optional<GeographicPoint> subsolar{};
 
     bool operator==(const TerrainLook&) const = default;
 };

@@ -9,6 +9,7 @@
 #include "core/globe/body_camera.h"
 #include "core/globe/body_nodes.h"
 #include "core/globe/map_walls.h"
+#include "core/globe/sunlight.h"
 #include "core/view/scene_box.h"
 #include "ui/render/body_atlas.h"
 #include "ui/render/cover_texture.h"
@@ -531,7 +532,8 @@ void TerrainRenderer::Impl::drawLayer(std::size_t index,
          .has_voids = layer.hasVoids(),
          .is_ray_corrected = !isCheap(request) && !(request.is_interim && is_software),
          .cover_count = cover_count,
-         .is_on_body = body != nullptr});
+         .is_on_body = body != nullptr,
+         .is_sunlit = body != nullptr && style.look.light_frame == LightFrame::Body});
     glUseProgram(program.id());
     setUniforms(program, index, request, style, anchor);
 
@@ -603,7 +605,8 @@ void TerrainRenderer::Impl::drawWalls(std::size_t index,
              .has_contours = style.look.has_contours,
              .cover_count = static_cast<int>(std::min<std::size_t>(index, kCoversMax)),
              .is_on_body = true,
-             .is_wall = true});
+             .is_wall = true,
+             .is_sunlit = style.look.light_frame == LightFrame::Body});
         glUseProgram(program.id());
         setUniforms(program, index, request, style, {});
         glUniform1f(program.uniform("u_base"), static_cast<GLfloat>(layer.surface.baseMeters()));
@@ -801,8 +804,16 @@ void TerrainRenderer::Impl::setUniforms(const GlProgram& program,
         set(name, -level * std::sin(azimuth.radians()), -level * std::cos(azimuth.radians()),
             strength * std::sin(altitude.radians()));
     };
-    set_light("u_light", look.light_azimuth, look.light_altitude, kDirectLight);
-    set_light("u_fill_light", look.light_azimuth + kFillAzimuth, kFillAltitude, kFillLight);
+    if (layer.source.body && look.light_frame == LightFrame::Body) {
+        const Vec3 sun = directionToSun(look.subsolar.value_or(GeographicPoint{}),
+                                        layer.source.body->ellipsoid()) *
+                         kSunShare;
+        set("u_sun", sun.x, sun.y, sun.z);
+        set("u_slope_unit", slope_unit);
+    } else {
+        set_light("u_light", look.light_azimuth, look.light_altitude, kDirectLight);
+        set_light("u_fill_light", look.light_azimuth + kFillAzimuth, kFillAltitude, kFillLight);
+    }
     set("u_slope_square", slope_unit * slope_unit);
     set("u_slope_unit_true", layer.source.slope_max);
     const SlopeRange& slopes = layer.source.slope_range;

@@ -138,6 +138,11 @@ uniform vec4 u_pole[2];  // from the eye; height over the base
 out mat2 v_turn; // of slopes
 #endif
 out vec3 v_ray;          // from the eye, in the directions that slopes are turned to
+#ifdef SUN
+uniform vec3 u_sun; // toward it; its length is the strength of its light
+uniform float u_slope_unit;
+out vec3 v_light; // as u_light, at the vertex
+#endif
 
 #if COVERS > 0
 uniform sampler2D u_cover_place[COVERS]; // shares of a cover; 1 near it
@@ -343,6 +348,10 @@ void main()
                   dot(north, to_north));
 #endif
     v_ray = vec3(dot(v.p, to_east), dot(v.p, to_north), dot(v.p, up) / u_exaggeration);
+#ifdef SUN
+    v_light = vec3(-u_slope_unit * dot(to_east, u_sun), -u_slope_unit * dot(to_north, u_sun),
+                   dot(up, u_sun));
+#endif
     gl_Position = u_clip_from_eye * vec4(v.p, 1.0);
 }
 #endif
@@ -360,12 +369,28 @@ uniform float u_slope_square; // of the exaggerated slope of the texture's 1
 uniform float u_slope_unit_true;
 uniform vec2 u_slope_tint; // share of the ramp = slope in radians × x + y
 uniform vec2 u_tint; // share of the ramp = height × x + y
-uniform vec3 u_light;      // light = (z + slope · xy) × length of the normal
+#ifdef SUN
+in vec3 v_light;           // light = (z + slope · xy) × length of the normal
+#else
+uniform vec3 u_light;      // likewise
 uniform vec3 u_fill_light; // likewise
+#endif
 uniform float u_sample_px; // the width of a sample at a depth of 1, in pixels
 in float v_exact;
 out vec4 color;
 
+#ifdef SUN
+const float kDusk = 0.1;
+
+// The body itself hides the sun from slopes that face it in the night: their light ends where the
+// sun is 6 degrees below the horizon of the ellipsoid.
+float shadeOf(vec2 slope)
+{
+    float shorten = inversesqrt(u_slope_square * dot(slope, slope) + 1.0);
+    float facing = (v_light.z + dot(slope, v_light.xy)) * shorten;
+    return max(facing, 0.0) * clamp(1.0 + v_light.z / (kDusk * SUN_SHARE), 0.0, 1.0) + NIGHT_SHARE;
+}
+#else
 const float kAmbient = 0.28;
 const float kFillLoss = 0.028;
 const float kShadow = 2.4; // it ends where the light is 1 / kShadow
@@ -381,6 +406,7 @@ float shadeOf(vec2 slope)
     float shadow = clamp(1.0 - kShadow * facing, 0.0, 1.0);
     return max(facing, 0.0) + kAmbient + shadow * shadow * fill;
 }
+#endif
 
 vec3 rampColor(float share)
 {
@@ -775,21 +801,23 @@ void main()
 
 std::string vertexSourceFor(const TerrainShaderKey& key)
 {
-    return fmt::format("{}#define COVERS {}\n{}{}{}", kVertexStart, key.cover_count,
+    return fmt::format("{}#define COVERS {}\n{}{}{}{}", kVertexStart, key.cover_count,
                        key.is_on_body ? "#define BODY\n" : "", key.is_wall ? "#define WALL\n" : "",
-                       kTerrainVertex);
+                       key.is_sunlit ? "#define SUN\n" : "", kTerrainVertex);
 }
 
 Result<GlProgram> compiledTerrain(const TerrainShaderKey& key)
 {
     const std::string fragment = fmt::format(
         "#version 330 core\n#define RAMP_TEXELS {}.0\n#define HILLSHADE_WHITE {:.4f}\n"
-        "#define MODE {}\n#define COVERS {}\n{}{}{}{}{}{}",
-        kRampTexels, kHillshadeWhite, static_cast<int>(key.mode), key.cover_count,
-        key.has_contours ? "#define CONTOURS\n" : "",
+        "#define SUN_SHARE {:.4f}\n#define NIGHT_SHARE {:.4f}\n"
+        "#define MODE {}\n#define COVERS {}\n{}{}{}{}{}{}{}",
+        kRampTexels, kHillshadeWhite, kSunShare, kNightShare, static_cast<int>(key.mode),
+        key.cover_count, key.has_contours ? "#define CONTOURS\n" : "",
         key.is_ray_corrected ? "#define RAY_CORRECTED\n" : "",
         key.has_voids ? "#define VOIDS\n" : "", key.is_on_body ? "#define BODY\n" : "",
-        key.is_wall ? "#define WALL\n" : "", kTerrainFragment);
+        key.is_wall ? "#define WALL\n" : "", key.is_sunlit ? "#define SUN\n" : "",
+        kTerrainFragment);
     return GlProgram::create(vertexSourceFor(key).c_str(), fragment.c_str());
 }
 

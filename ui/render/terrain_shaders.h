@@ -24,7 +24,8 @@ struct TerrainShaderKey {
     bool is_ray_corrected = false;
     int cover_count = 0; // maps that lie over this one, at most kCoversMax
     bool is_on_body = false;
-    bool is_wall = false; // of a map on its body, see core/globe/map_walls.h
+    bool is_wall = false;   // of a map on its body, see core/globe/map_walls.h
+    bool is_sunlit = false; // likewise: the light is fixed on the body
     auto operator<=>(const TerrainShaderKey&) const = default;
 };
 

@@ -239,6 +239,11 @@ Project randomProject(Random& random)
     project.look.contour_interval_m = random.chance(0.5) ? 0.0 : random.uniform(0.1, 1e4);
     project.look.light_azimuth = randomAngle(random, -360.0, 720.0);
     project.look.light_altitude = randomAngle(random, 0.0, 90.0);
+    project.look.light_frame = static_cast<LightFrame>(random.below(2));
+    if (random.chance(0.5)) {
+        project.look.subsolar = GeographicPoint{.longitude = randomAngle(random, -400.0, 400.0),
+                                                .latitude = randomAngle(random, -90.0, 90.0)};
+    }
     if (random.chance(0.7)) {
         project.camera = ProjectCamera{.x = randomNumber(random),
                                        .y = randomNumber(random),
@@ -409,6 +414,27 @@ TEST(Project, OneChangeIsOneChangedLine)
     EXPECT_EQ(changed, 1);
 }
 
+TEST(Project, LightIsThatOfTheViewUnlessItIsFixedOnTheBody)
+{
+    const auto look = [](const std::string& members) {
+        return projectFrom(R"({"format":"MarsView project","version":1,"layers":[],"look":{)" +
+                               members + "}}",
+                           kFolders, "a.mvproj")
+            ->look;
+    };
+    EXPECT_EQ(look(R"("light_azimuth_deg":315.0,"light_altitude_deg":45.0)"), TerrainLook{});
+    TerrainLook lit;
+    lit.light_frame = LightFrame::Body;
+    lit.subsolar =
+        GeographicPoint{.longitude = Angle::degrees(226.2), .latitude = Angle::degrees(18.65)};
+    EXPECT_EQ(look(R"("light":"fixed on the body","subsolar_longitude_deg":226.2,)"
+                   R"("subsolar_latitude_deg":18.65)"),
+              lit);
+    // Files of the light of the view stay as they were.
+    EXPECT_EQ(text(Project{}).find("subsolar"), std::string::npos);
+    EXPECT_EQ(text(Project{}).find("\"light\""), std::string::npos);
+}
+
 TEST(Project, NewerVersionIsRefusedInOneSentence)
 {
     auto json = nlohmann::ordered_json::parse(text(smallProject("/a.tif")));
@@ -464,6 +490,9 @@ TEST(Project, FaultsAreNamed)
          "layers[0].band is not a whole number from 1 up"},
         {R"("version":1,"layers":[],"camera":{"distance_m":0})",
          "camera.distance_m is not a length above 0"},
+        {R"("version":1,"layers":[],"look":{"light":"lamp"})", "look.light is not a known choice"},
+        {R"("version":1,"layers":[],"look":{"subsolar_latitude_deg":91})",
+         "look.subsolar_latitude_deg is not a latitude from -90 to 90"},
         {R"("version":1,"layers":[{"file":"a","stretch":{"kind":"best"}}])",
          "layers[0].stretch.kind is not a known choice"},
         {R"("version":1,"layers":[{"file":"a","overrides":{"geotransform":[1,2]}}])",
