@@ -10,7 +10,9 @@
 #include "core/sources/output_check.h"
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
+#include <fmt/format.h>
 #include <memory>
 #include <optional>
 #include <string>
@@ -34,9 +36,38 @@ struct RenderOptions {
     std::string shading = "tint";
     std::string ramp;
     std::vector<double> light_deg{315.0, 45.0};
+    std::vector<double> sun_at; // longitude and latitude
     bool has_contours = false;
     SceneKind scene = SceneKind::Flat;
 };
+
+// The latitude is of the map's kind, as in other positions.
+GeographicPoint placeFrom(const RenderOptions& options, const Map& map)
+{
+    const RasterInfo& info = map.info();
+    const Angle latitude = Angle::degrees(options.sun_at.back());
+    const bool is_converted = options.map.latitudeKind(info.body) == LatitudeKind::Planetographic &&
+                              info.crs && info.crs->ellipsoid();
+    return {.longitude = Angle::degrees(options.sun_at.front()),
+            .latitude = is_converted ? info.crs->ellipsoid()->planetocentric(latitude) : latitude};
+}
+
+// What no check of a single number finds.
+void checkSun(const RenderOptions& options)
+{
+    constexpr double kLatitudeMax = 90.0;
+    if (options.sun_at.empty()) {
+        return;
+    }
+    if (std::abs(options.sun_at.back()) > kLatitudeMax) {
+        throw CLI::ValidationError(
+            "--sun-at", fmt::format("latitude {} is beyond 90 degrees", options.sun_at.back()));
+    }
+    if (options.scene != SceneKind::Body) {
+        throw CLI::ValidationError(
+            "--sun-at", "a flat map has the light of the view; add --scene body or use --light");
+    }
+}
 
 Status runRender(const RenderOptions& options)
 {
@@ -71,6 +102,9 @@ Status runRender(const RenderOptions& options)
     };
     if (!options.look_at.empty()) {
         picture_options.look_at = MapPoint{options.look_at.front(), options.look_at.back()};
+    }
+    if (!options.sun_at.empty()) {
+        picture_options.subsolar = placeFrom(options, *scene->map);
     }
     const Result<OffscreenPicture> picture = drawPicture(*scene, picture_options);
     if (!picture) {
@@ -138,15 +172,28 @@ void addRenderCommand(CLI::App& app, CommandAction& run)
     }
     command->add_option("--ramp", options->ramp, "color ramp; by default the one for the body")
         ->check(oneOf(ramps));
+    auto* light = command
+                      ->add_option("--light", options->light_deg,
+                                   "azimuth,altitude of the light source, degrees")
+                      ->delimiter(',')
+                      ->expected(2)
+                      ->capture_default_str()
+                      ->check(finiteNumber());
     command
-        ->add_option("--light", options->light_deg, "azimuth,altitude of the light source, degrees")
+        ->add_option("--sun-at", options->sun_at,
+                     "LON,LAT where the sun is overhead, degrees, east-positive; the light is then "
+                     "fixed on the body, whose night is dark; with --scene body")
+        ->type_name("LON,LAT")
         ->delimiter(',')
         ->expected(2)
-        ->capture_default_str()
-        ->check(finiteNumber());
+        ->check(finiteNumber())
+        ->excludes(light);
     command->add_flag("--contours", options->has_contours, "draw contour lines");
     addSceneOption(*command, options->scene);
-    command->callback([options, &run] { run = [options] { return runRender(*options); }; });
+    command->callback([options, &run] {
+        checkSun(*options);
+        run = [options] { return runRender(*options); };
+    });
 }
 
 } // namespace marsview

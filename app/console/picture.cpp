@@ -123,6 +123,8 @@ Result<OffscreenPicture> drawPicture(const Scene& scene, const PictureOptions& o
     style.look.has_contours = options.has_contours;
     style.look.light_azimuth = Angle::degrees(options.light_deg.front());
     style.look.light_altitude = Angle::degrees(options.light_deg.back());
+    style.look.light_frame = options.subsolar ? LightFrame::Body : LightFrame::View;
+    style.look.subsolar = options.subsolar;
     Result<OffscreenPicture> picture = drawOffscreen(*scene.renderer, request, style, DepthUse::No);
     if (picture && !options.samples && contrastOf(picture->colors) > kSmoothContrastMax) {
         SupersampledPicture finer(*scene.renderer, request, style);

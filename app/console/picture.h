@@ -24,6 +24,8 @@ struct PictureOptions {
     std::optional<int> samples{};
     ShadingMode shading = ShadingMode::Tint;
     std::array<double, 2> light_deg{315.0, 45.0}; // azimuth and altitude
+    /// On the body, in place of that light: where the sun is overhead.
+    std::optional<GeographicPoint> subsolar{};
     bool has_contours = false;
 };
 
