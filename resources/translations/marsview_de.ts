@@ -3975,6 +3975,34 @@ Was fehlt, lässt sich im Hinweis über der Karte suchen oder entfernen.</transl
         <extracomment>Resets the light to the north-west</extracomment>
         <translation>&amp;Zurücksetzen</translation>
     </message>
+    <message>
+        <source>Fixed in the &amp;view</source>
+        <translation>Fest in der &amp;Ansicht</translation>
+    </message>
+    <message>
+        <source>Fixed on the &amp;body</source>
+        <translation>Fest am Himmels&amp;körper</translation>
+    </message>
+    <message>
+        <source>The light turns with the camera: slopes look the same everywhere</source>
+        <translation>Das Licht folgt der Kamera: Hänge sehen überall gleich aus</translation>
+    </message>
+    <message>
+        <source>The sun stands over a place of the body, whose other side is dark. Moving the camera does not change the light.</source>
+        <translation>Die Sonne steht über einem Ort des Himmelskörpers, dessen andere Seite dunkel ist. Bewegungen der Kamera ändern das Licht nicht.</translation>
+    </message>
+    <message>
+        <source>Where the light comes from. Fixed in the view, it has an azimuth and an altitude at the center of the picture. Fixed on the body, the sun stands over the subsolar point, and the terminator separates day and night. Mountains cast no shadows.</source>
+        <translation>Woher das Licht kommt. Fest in der Ansicht hat es in der Bildmitte einen Azimut und eine Höhe. Fest am Himmelskörper steht die Sonne über dem subsolaren Punkt, und der Terminator trennt Tag und Nacht. Berge werfen keine Schatten.</translation>
+    </message>
+    <message>
+        <source>The flat map has the light of the view. The light of the globe is fixed on the body.</source>
+        <translation>Die flache Karte hat das Licht der Ansicht. Das Licht des Globus ist fest am Himmelskörper.</translation>
+    </message>
+    <message>
+        <source>The flat map has the light of the view. Show the globe to fix the light on the body.</source>
+        <translation>Die flache Karte hat das Licht der Ansicht. Auf dem Globus kann das Licht fest am Himmelskörper sein.</translation>
+    </message>
 </context>
 <context>
     <name>marsview::LoadStatus</name>
@@ -5612,6 +5640,21 @@ Bewegen Sie die Karte zu einer Ansicht, die Sie behalten wollen, und drücken Si
         <translation>Licht</translation>
     </message>
     <message>
+        <source>Light Fixed in the View</source>
+        <extracomment>Continues &quot;Undo …&quot;</extracomment>
+        <translation>Licht fest in der Ansicht</translation>
+    </message>
+    <message>
+        <source>Subsolar Point</source>
+        <extracomment>Continues &quot;Undo …&quot;</extracomment>
+        <translation>Subsolarer Punkt</translation>
+    </message>
+    <message>
+        <source>Light Fixed on the Body</source>
+        <extracomment>Continues &quot;Undo …&quot;</extracomment>
+        <translation>Licht fest am Himmelskörper</translation>
+    </message>
+    <message>
         <source>Color Stretch of %1</source>
         <extracomment>Continues &quot;Undo …&quot;; %1 is a layer</extracomment>
         <translation>Farbspreizung von %1</translation>
@@ -5898,6 +5941,65 @@ Bewegen Sie die Karte zu einer Ansicht, die Sie behalten wollen, und drücken Si
     <message>
         <source>Drag the lines to change the ends of the color stretch</source>
         <translation>Ziehen Sie die Linien, um die Enden der Farbspreizung zu ändern</translation>
+    </message>
+</context>
+<context>
+    <name>marsview::SunFields</name>
+    <message>
+        <source>The sun is overhead at</source>
+        <extracomment>Above the fields for a latitude and a longitude</extracomment>
+        <translation>Die Sonne steht im Zenit bei</translation>
+    </message>
+    <message>
+        <source>&amp;Sun Overhead at the Picture’s Center</source>
+        <translation>&amp;Sonne im Zenit der Bildmitte</translation>
+    </message>
+    <message>
+        <source>Latitude of the subsolar point</source>
+        <translation>Breite des subsolaren Punkts</translation>
+    </message>
+    <message>
+        <source>Longitude of the subsolar point</source>
+        <translation>Länge des subsolaren Punkts</translation>
+    </message>
+    <message>
+        <source>Light the place in the middle of the picture from straight above</source>
+        <translation>Den Ort in der Bildmitte senkrecht von oben beleuchten</translation>
+    </message>
+    <message>
+        <source>L&amp;atitude</source>
+        <translation>&amp;Breite</translation>
+    </message>
+    <message>
+        <source>Lon&amp;gitude</source>
+        <translation>&amp;Länge</translation>
+    </message>
+    <message>
+        <source>The sun is overhead at this place. Type degrees, or degrees, minutes and seconds.</source>
+        <translation>Die Sonne steht an diesem Ort im Zenit. Geben Sie Grad oder Grad, Minuten und Sekunden ein.</translation>
+    </message>
+    <message>
+        <source>The sun is overhead at this place. Type degrees, or degrees, minutes and seconds. The latitude is %1.</source>
+        <extracomment>%1 is a kind of latitude, such as planetocentric</extracomment>
+        <translation>Die Sonne steht an diesem Ort im Zenit. Geben Sie Grad oder Grad, Minuten und Sekunden ein. Die Breite ist %1.</translation>
+    </message>
+    <message>
+        <source>Latitudes range from 90° S to 90° N.</source>
+        <translation>Breiten reichen von 90° S bis 90° N.</translation>
+    </message>
+    <message>
+        <source>Longitudes range from 360° W to 360° E.</source>
+        <translation>Längen reichen von 360° W bis 360° O.</translation>
+    </message>
+    <message>
+        <source>This is not a latitude, such as %1.</source>
+        <extracomment>%1 is an example</extracomment>
+        <translation>Das ist keine Breite wie %1.</translation>
+    </message>
+    <message>
+        <source>This is not a longitude, such as %1.</source>
+        <extracomment>%1 is an example</extracomment>
+        <translation>Das ist keine Länge wie %1.</translation>
     </message>
 </context>
 <context>

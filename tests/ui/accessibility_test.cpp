@@ -3,6 +3,7 @@
 #include "ui/canvas/terrain_view.h"
 #include "ui/dialogs/address_dialog.h"
 #include "ui/dialogs/go_to_dialog.h"
+#include "ui/dialogs/light_popup.h"
 #include "ui/dialogs/preferences_dialog.h"
 #include "ui/dialogs/save_picture_dialog.h"
 #include "ui/dialogs/stretch_dialog.h"
@@ -10,7 +11,6 @@
 #include "ui/panels/georeferencing_panel.h"
 #include "ui/panels/haptics_panel.h"
 #include "ui/widgets/focus_frame.h"
-#include "ui/widgets/light_popup.h"
 #include "ui/window/window_actions.h"
 #include "ui/window/window_docks.h"
 

@@ -185,6 +185,13 @@ TEST_F(LayersTest, EveryChangeIsUndoneAndRedoneImmediately)
         {"shading", [&] { actions.shading_group->actions().last()->trigger(); }},
         {"contours", [&] { actions.contours->trigger(); }},
         {"light", [this] { controller().setLight(Angle::degrees(90.0), Angle::degrees(20.0)); }},
+        {"sun", [this] { controller().setSubsolarPoint({}); }},
+        {"subsolar point",
+         [this] {
+             controller().setSubsolarPoint(
+                 {.longitude = Angle::degrees(9.0), .latitude = Angle::degrees(5.0)});
+         }},
+        {"light of the view", [this] { controller().fixLightInView(); }},
         {"crs", override_crs},
         {"body", override_body},
         {"remove", [&] { actions.layer.remove->trigger(); }},

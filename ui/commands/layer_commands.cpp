@@ -4,7 +4,6 @@
 #include "ui/controllers/session_controller.h"
 #include "ui/panels/georeferencing_panel.h"
 #include "ui/panels/layers_panel.h"
-#include "ui/widgets/light_popup.h"
 #include "ui/window/main_tool_bar.h"
 #include "ui/window/window_actions.h"
 #include "ui/window/window_docks.h"
@@ -66,8 +65,6 @@ void LayerCommands::connectLook()
             [&session] { session.stepExaggeration(1); });
     connect(actions.exaggerate_less, &QAction::triggered, this,
             [&session] { session.stepExaggeration(-1); });
-    connect(actions.light, &QAction::triggered, this,
-            [this] { parts_.light.openBelow(parts_.tool_bar.lightAnchor()); });
     connect(actions.contours, &QAction::triggered, this,
             [&session](bool is_checked) { session.setContours(is_checked); });
     connect(actions.shading_group, &QActionGroup::triggered, this, [&session](QAction* action) {
@@ -83,7 +80,6 @@ void LayerCommands::connectLook()
                 session.setExaggeration(exaggeration, ChangeKind::OfDrag);
             });
     connect(&parts_.tool_bar, &MainToolBar::dragEnded, &session, &SessionController::endDrag);
-    connect(&parts_.light, &LightPopup::lightChanged, &session, &SessionController::setLight);
 }
 
 void LayerCommands::connectPanels()
@@ -112,7 +108,6 @@ void LayerCommands::showSession()
     const Session& session = parts_.session.session();
     parts_.actions.showSession(session);
     parts_.layers.setSession(session);
-    parts_.light.setLight(session.look.light_azimuth, session.look.light_altitude);
     const std::vector<const Layer*> shown = shownLayers(session);
     parts_.tool_bar.setExaggerationEnabled(!shown.empty());
     if (!shown.empty()) {

@@ -1,5 +1,5 @@
 // The commands on layers and on their look: menus, the panels of layers and of georeferencing, the
-// exaggeration in the toolbar, the light.
+// exaggeration in the toolbar.
 #pragma once
 
 #include <QObject>
@@ -8,7 +8,6 @@ namespace marsview {
 
 class GeoreferencingPanel;
 class LayersPanel;
-class LightPopup;
 class MainToolBar;
 class SessionController;
 class WindowDocks;
@@ -27,7 +26,6 @@ public:
         LayersPanel& layers;
         GeoreferencingPanel& georeferencing;
         MainToolBar& tool_bar;
-        LightPopup& light;
     };
 
     explicit LayerCommands(const Parts& parts);

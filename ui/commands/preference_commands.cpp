@@ -4,6 +4,7 @@
 #include "ui/commands/stretch_control.h"
 #include "ui/controllers/haptics/haptics_controller.h"
 #include "ui/controllers/session_controller.h"
+#include "ui/dialogs/light_popup.h"
 #include "ui/dialogs/preferences_dialog.h"
 #include "ui/overlay/map_labels.h"
 #include "ui/overlay/map_overlays.h"
@@ -72,6 +73,7 @@ void PreferenceCommands::set(const Preferences& preferences)
     parts_.measure_panel.setHeightUnit(preferences.height_unit);
     parts_.measure_panel.setCoordinateFormat(preferences.coordinates);
     parts_.georeferencing.setCoordinateFormat(preferences.coordinates);
+    parts_.light.setCoordinateFormat(preferences.coordinates);
     parts_.view.setAntialiasing(preferences.has_antialiasing);
     parts_.view.setFrameTarget(std::chrono::milliseconds(1000 / preferences.frames_per_s));
     parts_.view.setContactModel(preferences.contact_model);

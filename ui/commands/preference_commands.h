@@ -15,6 +15,7 @@ namespace marsview {
 class GeoreferencingPanel;
 class HapticsController;
 class LayersPanel;
+class LightPopup;
 class MapOverlays;
 class MeasureMarks;
 class MeasurePanel;
@@ -39,6 +40,7 @@ public:
         StatusReadout& readout;
         LayersPanel& layers;
         GeoreferencingPanel& georeferencing;
+        LightPopup& light;
         MeasurePanel& measure_panel;
         MeasureMarks& measure_marks;
         StretchControl& stretch;

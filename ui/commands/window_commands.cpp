@@ -92,6 +92,7 @@ WindowCommands::WindowCommands(const WindowParts& parts, const WindowOptions& op
                    .readout = parts.readout,
                    .layers = parts.layers,
                    .georeferencing = parts.georeferencing,
+                   .light = parts.light,
                    .measure_panel = parts.measure_panel,
                    .measure_marks = parts.measure_marks,
                    .stretch = parts.stretch,
@@ -115,8 +116,7 @@ WindowCommands::WindowCommands(const WindowParts& parts, const WindowOptions& op
               .docks = parts.docks,
               .layers = parts.layers,
               .georeferencing = parts.georeferencing,
-              .tool_bar = parts.tool_bar,
-              .light = parts.light})
+              .tool_bar = parts.tool_bar})
     , views({.session = parts.session,
              .view = parts.view,
              .scenes = parts.scenes,
@@ -216,6 +216,12 @@ WindowCommands::WindowCommands(const WindowParts& parts, const WindowOptions& op
              .annotating = parts.annotating,
              .vector_files = vector_files.overlays(),
              .layer_list = parts.layers.findChild<LayerModel*>()})
+    , light({.actions = parts.actions,
+             .session = parts.session,
+             .globe = parts.globe,
+             .scene = scene,
+             .tool_bar = parts.tool_bar,
+             .popup = parts.light})
 {
     scene.choose(options.scene);
     project.setScene({.choice = [this] { return scene.choice(); },

@@ -7,6 +7,7 @@
 #include "ui/commands/haptics_commands.h"
 #include "ui/commands/help_commands.h"
 #include "ui/commands/layer_commands.h"
+#include "ui/commands/light_commands.h"
 #include "ui/commands/measure_commands.h"
 #include "ui/commands/name_search.h"
 #include "ui/commands/place_commands.h"
@@ -97,6 +98,7 @@ public:
     SpaceMouseController spacemouse;
     HelpCommands help;
     SceneCommands scene;
+    LightCommands light;
 
 private:
     void showMessages(WindowMessages& messages);

@@ -575,6 +575,25 @@ void SessionController::setLight(Angle azimuth, Angle altitude)
            {.kind = SessionRun::Kind::Light, .serial = drag_serial_});
 }
 
+void SessionController::fixLightInView()
+{
+    TerrainLook look = session_.look;
+    look.light_frame = LightFrame::View;
+    //: Continues "Undo …"
+    change(tr("Light Fixed in the View"), withLook(session_, look));
+}
+
+void SessionController::setSubsolarPoint(const GeographicPoint& place)
+{
+    TerrainLook look = session_.look;
+    const bool is_fixed = look.light_frame == LightFrame::Body;
+    look.light_frame = LightFrame::Body;
+    look.subsolar = place;
+    //: Continues "Undo …"
+    change(is_fixed ? tr("Subsolar Point") : tr("Light Fixed on the Body"),
+           withLook(session_, look));
+}
+
 void SessionController::setStretch(LayerId id, const ColorStretch& stretch, ChangeKind kind)
 {
     if (const Layer* layer = layerOf(session_, id)) {

@@ -159,6 +159,9 @@ public:
     /// Shows contour lines so many meters apart; 0: automatic.
     void setContourInterval(double interval_m);
     void setLight(Angle azimuth, Angle altitude);
+    void fixLightInView();
+    /// Fixes the light on the body, with the sun overhead at that place.
+    void setSubsolarPoint(const GeographicPoint& place);
     void activate(LayerId id);
     /// Adds a vector file that was read, or changes how it is drawn.
     void setOverlay(const VectorOverlay& overlay);

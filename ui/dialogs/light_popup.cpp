@@ -1,13 +1,15 @@
-#include "ui/widgets/light_popup.h"
+#include "ui/dialogs/light_popup.h"
 
-#include "core/view/terrain_look.h"
+#include "ui/dialogs/sun_fields.h"
 
 #include <QFormLayout>
 #include <QGuiApplication>
 #include <QKeyEvent>
+#include <QLabel>
 #include <QMouseEvent>
 #include <QPainter>
 #include <QPushButton>
+#include <QRadioButton>
 #include <QScreen>
 #include <QSpinBox>
 #include <QVBoxLayout>
@@ -130,12 +132,60 @@ void LightPad::keyPressEvent(QKeyEvent* event)
 
 LightPopup::LightPopup(QWidget* parent)
     : QFrame(parent, Qt::Popup)
-    , pad_(new LightPad(this))
-    , azimuth_(new QSpinBox(this))
-    , altitude_(new QSpinBox(this))
+    , in_view_(new QRadioButton(tr("Fixed in the &view"), this))
+    , on_body_(new QRadioButton(tr("Fixed on the &body"), this))
+    , flat_(new QLabel(this))
 {
+    direction_ = makeDirection(); // sets other members
+    sun_ = new SunFields(this);   // after it in the order of the Tab key
     setAccessibleName(tr("Light"));
     setFrameShape(QFrame::StyledPanel);
+    makeFrames();
+    auto* layout = new QVBoxLayout(this);
+    layout->addWidget(in_view_);
+    layout->addWidget(on_body_);
+    layout->addWidget(flat_);
+    layout->addWidget(direction_);
+    layout->addWidget(sun_);
+    layout->setSizeConstraint(QLayout::SetFixedSize);
+    connect(sun_, &SunFields::pointChosen, this, &LightPopup::subsolarPointChosen);
+    connect(sun_, &SunFields::overheadRequested, this, &LightPopup::overheadRequested);
+    showFrame();
+}
+
+// What the light is fixed in.
+void LightPopup::makeFrames()
+{
+    in_view_->setObjectName(QStringLiteral("light of the view"));
+    on_body_->setObjectName(QStringLiteral("light on the body"));
+    in_view_->setToolTip(tr("The light turns with the camera: slopes look the same everywhere"));
+    on_body_->setToolTip(
+        tr("The sun stands over a place of the body, whose other side is dark. "
+           "Moving the camera does not change the light."));
+    setWhatsThis(
+        tr("Where the light comes from. Fixed in the view, it has an azimuth and an "
+           "altitude at the center of the picture. Fixed on the body, the sun stands over "
+           "the subsolar point, and the terminator separates day and night. Mountains "
+           "cast no shadows."));
+    flat_->setObjectName(QStringLiteral("light of the flat map"));
+    flat_->setWordWrap(true);
+    for (QRadioButton* button : {in_view_, on_body_}) {
+        connect(button, &QRadioButton::clicked, this, [this, button] {
+            const LightFrame frame = button == on_body_ ? LightFrame::Body : LightFrame::View;
+            if (is_globe_ && frame != frame_) {
+                Q_EMIT frameChosen(frame);
+            }
+        });
+    }
+}
+
+// Azimuth and altitude in the view.
+QWidget* LightPopup::makeDirection()
+{
+    auto* direction = new QWidget(this);
+    pad_ = new LightPad(direction);
+    azimuth_ = new QSpinBox(direction);
+    altitude_ = new QSpinBox(direction);
     azimuth_->setAccessibleName(tr("Azimuth of the light, clockwise from north"));
     azimuth_->setRange(0, 359);
     azimuth_->setWrapping(true);
@@ -149,8 +199,9 @@ LightPopup::LightPopup(QWidget* parent)
     form->addRow(tr("A&zimuth"), azimuth_);
     form->addRow(tr("A&ltitude"), altitude_);
     //: Resets the light to the north-west
-    auto* reset = new QPushButton(tr("&Reset"), this);
-    auto* layout = new QVBoxLayout(this);
+    auto* reset = new QPushButton(tr("&Reset"), direction);
+    auto* layout = new QVBoxLayout(direction);
+    layout->setContentsMargins(0, 0, 0, 0);
     layout->addWidget(pad_, 0, Qt::AlignHCenter);
     layout->addLayout(form);
     layout->addWidget(reset);
@@ -167,29 +218,84 @@ LightPopup::LightPopup(QWidget* parent)
         const TerrainLook look;
         Q_EMIT lightChanged(look.light_azimuth, look.light_altitude);
     });
+    return direction;
 }
 
-void LightPopup::setLight(Angle azimuth, Angle altitude)
+void LightPopup::setLook(const TerrainLook& look)
 {
-    pad_->setLight(azimuth, altitude);
+    pad_->setLight(look.light_azimuth, look.light_altitude);
     const QSignalBlocker azimuth_blocker(azimuth_);
     const QSignalBlocker altitude_blocker(altitude_);
-    azimuth_->setValue(wrapped(asDegrees(azimuth)));
-    altitude_->setValue(asDegrees(altitude));
+    azimuth_->setValue(wrapped(asDegrees(look.light_azimuth)));
+    altitude_->setValue(asDegrees(look.light_altitude));
+    sun_->setPoint(look.subsolar.value_or(GeographicPoint{}));
+    frame_ = look.light_frame;
+    showFrame();
+}
+
+void LightPopup::setCoordinateFormat(const CoordinateFormat& format)
+{
+    sun_->setCoordinateFormat(format);
+}
+
+void LightPopup::setBody(const RasterInfo* map)
+{
+    is_globe_ = map != nullptr;
+    if (map != nullptr) {
+        sun_->setBody(*map);
+    }
+    showFrame();
+}
+
+void LightPopup::showFrame()
+{
+    const bool is_sun = is_globe_ && frame_ == LightFrame::Body;
+    (is_sun ? on_body_ : in_view_)->setChecked(true);
+    on_body_->setEnabled(is_globe_);
+    flat_->setText(frame_ == LightFrame::Body
+                       ? tr("The flat map has the light of the view. The light of the globe is "
+                            "fixed on the body.")
+                       : tr("The flat map has the light of the view. Show the globe to fix the "
+                            "light on the body."));
+    flat_->setVisible(!is_globe_);
+    direction_->setVisible(!is_sun);
+    sun_->setVisible(is_sun);
+}
+
+// Escape closes the popup without what was typed.
+void LightPopup::keyPressEvent(QKeyEvent* event)
+{
+    if (event->matches(QKeySequence::Cancel)) {
+        sun_->restore();
+    }
+    QFrame::keyPressEvent(event);
+}
+
+// The sun's part is wider than that of the view.
+void LightPopup::resizeEvent(QResizeEvent* event)
+{
+    QFrame::resizeEvent(event);
+    if (isVisible()) {
+        stayOnScreen();
+    }
+}
+
+void LightPopup::stayOnScreen()
+{
+    const QRect area = screen()->availableGeometry();
+    const QPoint corner = pos();
+    move(std::clamp(corner.x(), area.left(), std::max(area.left(), area.right() - width())),
+         std::clamp(corner.y(), area.top(), std::max(area.top(), area.bottom() - height())));
 }
 
 void LightPopup::openBelow(const QWidget& anchor)
 {
     adjustSize();
-    QPoint corner = anchor.mapToGlobal(QPoint(0, anchor.height()));
-    const QRect screen = anchor.screen()->availableGeometry();
-    corner.setX(
-        std::clamp(corner.x(), screen.left(), std::max(screen.left(), screen.right() - width())));
-    corner.setY(
-        std::clamp(corner.y(), screen.top(), std::max(screen.top(), screen.bottom() - height())));
-    move(corner);
+    move(anchor.mapToGlobal(QPoint(0, anchor.height())));
+    stayOnScreen();
     show();
-    pad_->setFocus(Qt::PopupFocusReason);
+    const bool is_sun = on_body_->isChecked();
+    (is_sun ? static_cast<QWidget*>(sun_->firstField()) : pad_)->setFocus(Qt::PopupFocusReason);
 }
 
 } // namespace marsview

@@ -1,5 +1,7 @@
 #include "ui/overlay/body_overview.h"
 
+#include "core/globe/body_camera.h"
+#include "core/globe/sunlight.h"
 #include "core/view/map_preview.h"
 
 #include <algorithm>
@@ -13,6 +15,10 @@ namespace {
 
 constexpr double kDegreesPerPixel = 360.0 / static_cast<double>(kOverviewColumns);
 constexpr int kOutlineSteps = 64; // a side of a raster
+
+// Of the colors of the day: places in the night are still to be recognized.
+constexpr double kOverviewNight = 0.35;
+constexpr double kTwilight = 0.1; // sine of the sun's altitude on either side of the terminator
 
 GeographicPoint placeOfPixel(std::size_t column, std::size_t row)
 {
@@ -135,6 +141,31 @@ QImage overviewOf(const std::vector<float>& heights_m,
                   static_cast<int>(preview.rows), static_cast<int>(4 * preview.columns),
                   QImage::Format_RGBA8888)
         .copy();
+}
+
+void darkenNight(QImage& picture, const GeographicPoint& subsolar, const Ellipsoid& ellipsoid)
+{
+    const Vec3 to_sun = directionToSun(subsolar, ellipsoid);
+    std::vector<double> along_equator; // of the direction to the sun, toward each column
+    for (int column = 0; column < picture.width(); ++column) {
+        const Angle longitude = placeOfPixel(static_cast<std::size_t>(column), 0).longitude;
+        along_equator.push_back(std::cos(longitude.radians()) * to_sun.x +
+                                std::sin(longitude.radians()) * to_sun.y);
+    }
+    for (int row = 0; row < picture.height(); ++row) {
+        auto* pixel = reinterpret_cast<QRgb*>(picture.scanLine(row));
+        const Angle latitude = placeOfPixel(0, static_cast<std::size_t>(row)).latitude;
+        const Vec3 up = localAxes(ellipsoid, {.longitude = {}, .latitude = latitude}).up;
+        for (const double toward : along_equator) {
+            const double height = up.x * toward + up.z * to_sun.z;
+            const double day = std::clamp(0.5 + 0.5 * height / kTwilight, 0.0, 1.0);
+            const double share = kOverviewNight + (1.0 - kOverviewNight) * day;
+            const auto lit = [share](int color) { return static_cast<int>(share * color); };
+            *pixel =
+                qRgba(lit(qRed(*pixel)), lit(qGreen(*pixel)), lit(qBlue(*pixel)), qAlpha(*pixel));
+            ++pixel;
+        }
+    }
 }
 
 } // namespace marsview

@@ -36,4 +36,8 @@ QImage overviewOf(const std::vector<float>& heights_m,
                   double exaggeration,
                   double equator_m);
 
+/// Darkens the night of a sun that stands over a place. `picture` is that of overviewFrame(), in
+/// ARGB32_Premultiplied.
+void darkenNight(QImage& picture, const GeographicPoint& subsolar, const Ellipsoid& ellipsoid);
+
 } // namespace marsview

@@ -344,6 +344,10 @@ void GlobeOverlays::showBodyOverview()
             QPainter(&picture).drawImage(0, 0, layer);
         }
     }
+    const TerrainLook& look = globe_.look();
+    if (!picture.isNull() && look.light_frame == LightFrame::Body) {
+        darkenNight(picture, look.subsolar.value_or(GeographicPoint{}), scene.ellipsoid());
+    }
     if (!picture.isNull()) { // until then that of the layers before
         overview_ = picture;
         showSettings();

@@ -97,6 +97,8 @@ protected:
         controller.setExaggeration(3.5);
         controller.setContours(true);
         controller.setLight(Angle::degrees(123.4), Angle::degrees(56.7));
+        controller.setSubsolarPoint(
+            {.longitude = Angle::degrees(-133.8), .latitude = Angle::degrees(18.65)});
         controller.activate(below);
     }
     Project saved() const { return window_->commands().project.project(); }
