@@ -366,6 +366,25 @@ TEST_F(RenderCommand, DrawsWithEveryShadingAndRamp)
     }
 }
 
+TEST_F(RenderCommand, TheSunLightsTheSideOfTheBodyThatItStandsOver)
+{
+    const auto brightness = [&](const std::string& sun_at) {
+        const std::string png = folder_.file("sun.png");
+        EXPECT_EQ(render({bundledMars(), "-o", png, "--scene", "body", "--size", "161x121",
+                          "--shading", "hillshade", "--look-at", "-60,20", "--tilt", "0",
+                          "--exaggeration", "1", "--sun-at=" + sun_at})
+                      .exit_status,
+                  0);
+        const std::string all = pixels(png);
+        return static_cast<int>(static_cast<unsigned char>(all[60 * 161 + 80]));
+    };
+    const int noon = brightness("-60,20");
+    EXPECT_NEAR(noon, 255 * 0.92, 12);
+    EXPECT_NEAR(brightness("300,20"), noon, 1) << "another turn";
+    EXPECT_NEAR(brightness("120,-20"), 255 * 0.92 * 0.08, 3) << "midnight";
+    EXPECT_LT(brightness("-60,80"), 0.75 * noon);
+}
+
 TEST_F(RenderCommand, RefusesToDrawADamagedPreparedMap)
 {
     namespace fs = std::filesystem;

@@ -200,6 +200,37 @@ TEST_F(SunlightTest, DoesNotChangeWithTheCamera)
     EXPECT_GT(brightest - darkest, 60);
 }
 
+// Planes that rise to the east and to the north, by closed form.
+TEST_F(SunlightTest, SlopesAreLitByTheAngleOfTheirExaggeratedNormal)
+{
+    const double step_m = kEquatorial * Angle::degrees(1.0).radians();
+    constexpr double kEast = 0.15; // on the equator
+    constexpr double kNorth = 0.1;
+    const WholeBody body(kSphere, [&](std::size_t column, std::size_t row) {
+        return step_m * (kEast * (static_cast<double>(column % 20) - 10.0) -
+                         kNorth * (static_cast<double>(row % 20) - 10.0));
+    });
+    const GeographicPoint place = at(10.5, 39.5); // of column 190 and row 50
+    const double longitude = place.longitude.radians();
+    const Vec3 up = normalAt(place, body.ellipsoid());
+    const Vec3 east{-std::sin(longitude), std::cos(longitude), 0.0};
+    const Vec3 north = cross(up, east);
+    for (const GeographicPoint& subsolar :
+         {at(10, 40), at(70, 10), at(-50, 10), at(10, -45), at(-170, 60), at(75, 35)}) {
+        const Vec3 sun = normalAt(subsolar, body.ellipsoid());
+        for (const double exaggeration : {1.0, 2.0}) {
+            const double rise_east = exaggeration * kEast / std::cos(place.latitude.radians());
+            const double rise_north = exaggeration * kNorth;
+            const Vec3 normal = normalized(up - east * rise_east - north * rise_north);
+            const Picture picture = drawFrom(body, over(place, 1e6, 0.0, 0.0), subsolar,
+                                             ShadingMode::Hillshade, exaggeration);
+            EXPECT_NEAR(picture.rgb[3 * static_cast<std::size_t>(150 * kSize.width + 150)],
+                        expectedRed(dot(normal, sun)), 3.0)
+                << subsolar.longitude.degrees() << " " << exaggeration;
+        }
+    }
+}
+
 // Slopes that face the sun are lit up to six degrees beyond the terminator, and no further.
 TEST_F(SunlightTest, DoesNotShineThroughTheBody)
 {
