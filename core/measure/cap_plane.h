@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -29,6 +30,8 @@ public:
     explicit CapPlane(const std::vector<double>& turns);
 
     const PoleCap& shape() const noexcept { return shape_; }
+    /// The number of samples of the circle.
+    std::size_t size() const noexcept { return circle_.size(); }
     /// The point at a share of the distance from the pole to the circle, above the edge from a
     /// sample to the next one, of which `u` is the share in longitude. What lies beyond the edge,
     /// between it and the circle, is put on it: with `share` 1 this is the edge's point at `u`.
@@ -43,6 +46,50 @@ public:
     std::uint32_t faceAt(std::size_t sample, const Point& point) const noexcept;
     /// What the corners of a face contribute at a point of its plane: their sum is 1.
     std::array<double, 3> weights(std::uint32_t face, const Point& point) const noexcept;
+
+    /// Elevations, from those of the circle, `at_circle(sample)`, and of the pole. They are linear
+    /// along each of the ways from the pole to the samples of the circle.
+    template <typename F>
+    double poleHeight(F&& at_circle) const
+    {
+        double sum_m = 0.0;
+        for (std::uint32_t i = 0; i < shape_.poleSampleCount(); ++i) {
+            sum_m += at_circle(shape_.poleSample(i));
+        }
+        return sum_m / shape_.poleSampleCount();
+    }
+    template <typename F>
+    std::array<double, 3> cornerHeights(std::uint32_t face, double pole_m, F&& at_circle) const
+    {
+        std::array<double, 3> heights{};
+        for (std::size_t i = 0; i < heights.size(); ++i) {
+            const std::uint32_t number = shape_.face(face)[i];
+            if (number < circle_.size()) {
+                heights[i] = at_circle(number);
+                continue;
+            }
+            const PoleCap::Place place = shape_.placeOf(number);
+            heights[i] = place.share == 0.0
+                             ? pole_m
+                             : pole_m + (at_circle(place.sample) - pole_m) * place.share;
+        }
+        return heights;
+    }
+    /// At a point of a face; NaN if a corner that counts there is void.
+    template <typename F>
+    double height(std::uint32_t face, const Point& point, double pole_m, F&& at_circle) const
+    {
+        constexpr double kRounding = 1e-9;
+        const std::array<double, 3> heights = cornerHeights(face, pole_m, at_circle);
+        const std::array<double, 3> shares = weights(face, point);
+        double sum_m = 0.0;
+        for (std::size_t i = 0; i < heights.size(); ++i) {
+            sum_m += std::isnan(heights[i]) && std::abs(shares[i]) < kRounding
+                         ? 0.0
+                         : shares[i] * heights[i];
+        }
+        return sum_m;
+    }
 
     /// Follows the straight line between two points of the cap from triangle to triangle, from
     /// `face`, which has the first one. Calls leave(face, share of the line) where it leaves a

@@ -109,12 +109,8 @@ std::unique_ptr<const CapTerrain> MeasuredTerrain::capAt(std::size_t row)
     const Vec3 sample = ground_.cartesian(*position, 0.0);
     CapTerrain cap{
         .plane = CapPlane(turns), .row = row, .radius_m = std::hypot(sample.x, sample.y)};
-    const PoleCap& shape = cap.plane.shape();
-    double sum_m = 0.0;
-    for (std::uint32_t i = 0; i < shape.poleSampleCount(); ++i) {
-        sum_m += vertex(shape.poleSample(i), row);
-    }
-    cap.pole_m = sum_m / shape.poleSampleCount();
+    cap.pole_m =
+        cap.plane.poleHeight([this, row](std::uint32_t number) { return vertex(number, row); });
     return std::make_unique<const CapTerrain>(std::move(cap));
 }
 
@@ -136,35 +132,15 @@ CapPlane::Point MeasuredTerrain::outwardIn(GroundPosition position) const
 
 std::array<double, 3> MeasuredTerrain::corners(const CapTerrain& cap, std::uint32_t face)
 {
-    const PoleCap& shape = cap.plane.shape();
-    std::array<double, 3> heights{};
-    for (std::size_t i = 0; i < heights.size(); ++i) {
-        const std::uint32_t number = shape.face(face)[i];
-        if (number < cellColumns()) {
-            heights[i] = vertex(number, cap.row);
-            continue;
-        }
-        const PoleCap::Place place = shape.placeOf(number);
-        heights[i] = place.share == 0.0
-                         ? cap.pole_m
-                         : cap.pole_m + (vertex(place.sample, cap.row) - cap.pole_m) * place.share;
-    }
-    return heights;
+    return cap.plane.cornerHeights(
+        face, cap.pole_m, [this, &cap](std::uint32_t number) { return vertex(number, cap.row); });
 }
 
 double
 MeasuredTerrain::elevation(const CapTerrain& cap, std::uint32_t face, const CapPlane::Point& point)
 {
-    constexpr double kRounding = 1e-9;
-    const std::array<double, 3> heights = corners(cap, face);
-    const std::array<double, 3> weights = cap.plane.weights(face, point);
-    double sum_m = 0.0;
-    for (std::size_t i = 0; i < heights.size(); ++i) {
-        sum_m += std::isnan(heights[i]) && std::abs(weights[i]) < kRounding
-                     ? 0.0
-                     : weights[i] * heights[i];
-    }
-    return sum_m;
+    return cap.plane.height(face, point, cap.pole_m,
+                            [this, &cap](std::uint32_t number) { return vertex(number, cap.row); });
 }
 
 std::optional<GroundPosition> MeasuredTerrain::fromMap(MapPoint map) const

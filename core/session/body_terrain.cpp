@@ -2,8 +2,6 @@
 
 #include "core/globe/body_camera.h"
 #include "core/terrain/ray_cast.h"
-#include "core/terrain/seam.h"
-#include "core/terrain/triangulation.h"
 
 #include <algorithm>
 #include <array>
@@ -58,6 +56,7 @@ std::optional<std::pair<double, double>> within(const Ray& ray, double equatoria
 BodyTerrain::BodyTerrain(std::shared_ptr<const Map> map, std::shared_ptr<const BodyGrid> grid)
     : map_(std::move(map))
     , grid_(std::move(grid))
+    , surface_(map_->georeference(), map_->heightfield())
 {
     const Georeference& georeference = map_->georeference();
     const GeoTransform::Terms& t = georeference.transform().terms();
@@ -67,24 +66,25 @@ BodyTerrain::BodyTerrain(std::shared_ptr<const Map> map, std::shared_ptr<const B
     }
 }
 
-// The position, moved onto the row next to a pole, or nothing where the map ends.
+// The position, in the columns of the surface, or nothing where the map ends.
 std::optional<GridPoint> BodyTerrain::onSurface(GridPoint grid) const
 {
     const Heightfield& heightfield = map_->heightfield();
     const double last_column = static_cast<double>(heightfield.columns() - 1);
     const double last_row = static_cast<double>(heightfield.rows() - 1);
-    if (grid.row < 0.0 && grid_->poleAtFirstRow() != BodyGrid::Pole::None) {
+    if (grid.row < 0.0 && grid_->isPole(0)) {
         grid.row = 0.0;
     }
-    if (grid.row > last_row && grid_->poleAtLastRow() != BodyGrid::Pole::None) {
+    if (grid.row > last_row && grid_->isPole(heightfield.rows() - 1)) {
         grid.row = last_row;
     }
     if (map_->georeference().wrapsAround() && grid.column < 0.0) {
         grid.column += columns_per_turn_; // into the strip behind the last column
     }
     const double columns_end = map_->georeference().wrapsAround() ? last_column + 1.0 : last_column;
-    const bool is_on =
-        grid.column >= 0.0 && grid.column <= columns_end && grid.row >= 0.0 && grid.row <= last_row;
+    const bool is_on = grid.column >= 0.0 && grid.column <= columns_end &&
+                       (grid.row >= 0.0 || grid_->poleAtFirstRow() != BodyGrid::Pole::None) &&
+                       (grid.row <= last_row || grid_->poleAtLastRow() != BodyGrid::Pole::None);
     return is_on ? std::optional(grid) : std::nullopt;
 }
 
@@ -98,24 +98,6 @@ double BodyTerrain::height(const GeographicPoint& place, Tiles tiles) const
 {
     const std::optional<GridPoint> grid = gridAt(place);
     return grid ? heightOnGrid(*grid, tiles) : kNaN;
-}
-
-double BodyTerrain::heightOnGrid(const GridPoint& grid, Tiles tiles) const
-{
-    const Heightfield& heightfield = map_->heightfield();
-    const auto read = [&](const GridPoint& at) {
-        return tiles == Tiles::Waiting ? heightfield.heightWaiting(at) : heightfield.heightNow(at);
-    };
-    if (map_->georeference().wrapsAround()) {
-        if (const auto seam = seamCell(grid, heightfield.columns(), heightfield.rows())) {
-            const double last = static_cast<double>(heightfield.columns() - 1);
-            const double row = static_cast<double>(seam->row);
-            return heightInCell({read({last, row}), read({0.0, row}), read({last, row + 1.0}),
-                                 read({0.0, row + 1.0})},
-                                seam->u, seam->v);
-        }
-    }
-    return read(grid);
 }
 
 BodyTerrain::Place BodyTerrain::placeAt(const Ray& ray, double t, double exaggeration) const

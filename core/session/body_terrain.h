@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/body/body_grid.h"
+#include "core/measure/closed_surface.h"
 #include "core/session/map.h"
 #include "core/view/camera.h"
 
@@ -14,14 +15,14 @@ namespace marsview {
 
 /// A point of the terrain that a ray meets.
 struct BodyHit {
-    GridPoint grid;          // of the map; between its last column and one more across its seam
+    GridPoint grid; // of the map; also between its last column and one more, or a row and a pole
     double height_m = 0.0;   // of the surface, not exaggerated
     double distance_m = 0.0; // along the ray
 };
 
 /// A map with its grid on the body. Longitude is periodic, and a map that closes around the body
-/// has terrain in the strip between its last and first column. Between its outermost row and a pole
-/// the height is that of the row. Immutable; copies share; any thread.
+/// has terrain in the strip between its last and first column, and triangles close it between its
+/// outermost row and a pole (ClosedSurface). Immutable; copies share; any thread.
 class BodyTerrain {
 public:
     BodyTerrain(std::shared_ptr<const Map> map, std::shared_ptr<const BodyGrid> grid);
@@ -29,15 +30,19 @@ public:
     const std::shared_ptr<const Map>& map() const noexcept { return map_; }
     const std::shared_ptr<const BodyGrid>& grid() const noexcept { return grid_; }
 
-    /// Where a place is on the map's grid; nothing where the map has no surface, voids apart.
+    /// Where a place is on the map's grid; nothing where the map has no surface, voids apart. Next
+    /// to a pole, rows may lie beyond the outermost ones.
     std::optional<GridPoint> gridAt(const GeographicPoint& place) const;
-    /// The terrain to use where tiles of the map are missing: Now uses the coarser tiles that
-    /// replace them, Waiting loads the tiles themselves.
-    enum class Tiles { Now, Waiting };
+    using Tiles = ClosedSurface::Tiles;
     /// The elevation in meters; NaN where the map has no surface.
     double height(const GeographicPoint& place, Tiles tiles = Tiles::Now) const;
     /// The same at a position that gridAt() found.
-    double heightOnGrid(const GridPoint& grid, Tiles tiles = Tiles::Now) const;
+    double heightOnGrid(const GridPoint& grid, Tiles tiles = Tiles::Now) const
+    {
+        return surface_.height(grid, tiles);
+    }
+    /// Whether that is of full resolution.
+    bool isExact(const GridPoint& grid) const { return surface_.isExact(grid); }
 
     /// The first point of the terrain along a ray of the body-fixed frame that begins above it, at
     /// full resolution; for a tiled map, at the finest resident level. To a thousandth of a cell.
@@ -67,6 +72,7 @@ private:
 
     std::shared_ptr<const Map> map_;
     std::shared_ptr<const BodyGrid> grid_;
+    ClosedSurface surface_;
     double columns_per_turn_ = 0.0; // 0 where longitude is not periodic along the columns
 };
 

@@ -351,10 +351,10 @@ void GlobeView::report()
     }
     // A ray takes what is loaded; where it is coarser, the samples themselves are requested.
     if (ground && !isMoving() && drag_ == MapAction::None) {
-        const Heightfield& heightfield = layers()[ground->index].map->heightfield();
-        if (!heightfield.isExact(ground->hit.grid)) {
-            static_cast<void>(heightfield.height(ground->hit.grid));
-            if (heightfield.tiles()->isLoading()) {
+        const BodyTerrain& read = ground_.scene.maps()[ground->index];
+        if (!read.isExact(ground->hit.grid)) {
+            static_cast<void>(read.heightOnGrid(ground->hit.grid, BodyTerrain::Tiles::Requested));
+            if (read.map()->heightfield().tiles()->isLoading()) {
                 sample_timer_.start(kSampleInterval);
             }
         }

@@ -1,10 +1,12 @@
 #include "ui/text/place_facts.h"
 
+#include "core/measure/closed_surface.h"
 #include "core/terrain/surface_slope.h"
 #include "ui/text/number_text.h"
 
 #include <QCoreApplication>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -14,6 +16,12 @@ namespace {
 QString placeTr(const char* text)
 {
     return QCoreApplication::translate("PlaceFacts", text);
+}
+
+// The number of the nearest sample.
+QString nearest(double place, std::size_t count)
+{
+    return numberText(std::clamp(std::round(place), 0.0, static_cast<double>(count - 1)), 0);
 }
 
 } // namespace
@@ -38,9 +46,10 @@ PlaceFacts placeFacts(const Map& map, const QString& layer, GridPoint grid, cons
 {
     const Heightfield& heightfield = map.heightfield();
     const Georeference& georeference = map.georeference();
-    const double height_m = heightfield.height(grid); // requests missing tiles
+    const ClosedSurface surface(georeference, heightfield);
+    const double height_m = surface.height(grid, ClosedSurface::Tiles::Requested);
     PlaceFacts place;
-    place.is_rough = !heightfield.isExact(grid);
+    place.is_rough = !surface.isExact(grid);
     const auto add = [&place](const char* name, const QString& value) {
         place.facts.push_back({placeTr(name), value});
     };
@@ -79,7 +88,8 @@ PlaceFacts placeFacts(const Map& map, const QString& layer, GridPoint grid, cons
     add(QT_TRANSLATE_NOOP("PlaceFacts", "Sample"),
         //: The nearest sample of the raster, counted from 0
         placeTr(QT_TRANSLATE_NOOP("PlaceFacts", "column %1, row %2"))
-            .arg(numberText(std::round(grid.column), 0), numberText(std::round(grid.row), 0)));
+            .arg(nearest(grid.column, heightfield.columns()),
+                 nearest(grid.row, heightfield.rows())));
     return place;
 }
 

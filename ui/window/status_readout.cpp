@@ -138,8 +138,18 @@ void StatusReadout::setMaps(const std::shared_ptr<const Map>& scene,
     if (!scene || !scene_) {
         detail_px_.reset(); // that of a picture without a map
     }
-    scene_ = scene;
-    active_ = active;
+    const auto set = [](const std::shared_ptr<const Map>& map, std::shared_ptr<const Map>& kept,
+                        std::optional<ClosedSurface>& surface) {
+        if (map != kept) {
+            kept = map;
+            surface.reset();
+            if (map) {
+                surface.emplace(map->georeference(), map->heightfield());
+            }
+        }
+    };
+    set(scene, scene_, scene_surface_);
+    set(active, active_, active_surface_);
     for (QWidget* part : std::initializer_list<QWidget*>{
              source_, coordinate_, format_button_, height_rule_, height_, detail_rule_, detail_}) {
         part->setVisible(scene_ != nullptr);
@@ -294,11 +304,12 @@ void StatusReadout::reserveWidths()
 
 StatusReadout::ReadHeight StatusReadout::heightAt(const RayHit& hit) const
 {
-    const auto read = [this](const Map& map, GridPoint grid, double height_m) {
+    const auto read = [this](const Map& map, const ClosedSurface& surface, GridPoint grid,
+                             double height_m) {
         const Heightfield& heightfield = map.heightfield();
-        const bool is_exact = heightfield.isExact(grid);
+        const bool is_exact = surface.isExact(grid);
         if (heightfield.isTiled() && is_exact) {
-            height_m = heightfield.heightNow(grid); // the ray may have come a moment too early
+            height_m = surface.height(grid); // the ray may have come a moment too early
         }
         if (std::isnan(height_m)) {
             //: In place of an elevation: the map has none there
@@ -318,10 +329,10 @@ StatusReadout::ReadHeight StatusReadout::heightAt(const RayHit& hit) const
         const GridPoint grid = active_->georeference().toGrid(hit.grid, scene_->georeference());
         const double height_m = active_->heightfield().heightNow(grid);
         if (std::isfinite(height_m)) {
-            return read(*active_, grid, height_m);
+            return read(*active_, *active_surface_, grid, height_m);
         }
     }
-    return read(*scene_, hit.grid, hit.height_m);
+    return read(*scene_, *scene_surface_, hit.grid, hit.height_m);
 }
 
 void StatusReadout::refresh()

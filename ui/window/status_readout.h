@@ -1,6 +1,7 @@
 // The status bar's readout: position and elevation under the pointer, the stylus or the crosshair.
 #pragma once
 
+#include "core/measure/closed_surface.h"
 #include "core/terrain/ray_cast.h"
 #include "ui/canvas/terrain_view.h"
 #include "ui/text/coordinate_text.h"
@@ -82,6 +83,8 @@ private:
 
     std::shared_ptr<const Map> scene_;
     std::shared_ptr<const Map> active_;
+    std::optional<ClosedSurface> scene_surface_; // of those maps
+    std::optional<ClosedSurface> active_surface_;
     std::optional<ReadPlace> place_;
     bool is_place_known_ = false; // not before setPlace() for these maps
     CoordinateFormat format_;

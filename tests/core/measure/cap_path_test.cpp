@@ -1,8 +1,8 @@
-#include "core/body/body_mesh.h"
 #include "core/measure/cap_path.h"
 #include "core/measure/terrain_slope.h"
 #include "tests/core/measure/measured_lines.h"
 #include "tests/core/measure/measured_map.h"
+#include "tests/core/measure/polar_maps.h"
 #include "tests/support/map_maker.h"
 #include "tests/support/nan.h"
 #include "tests/support/random.h"
@@ -23,111 +23,12 @@
 namespace marsview::test {
 namespace {
 
-struct PolarMap {
-    std::string name;
-    MapMaker::Place place;
-    double pole_deg;         // 90 or -90
-    double row_distance_deg; // of the outermost row from it
-    friend std::ostream& operator<<(std::ostream& out, const PolarMap& map)
-    {
-        return out << map.name;
-    }
-};
-
-const std::vector<PolarMap> kMaps{
-    {"North", {1440, 6, {0, 0.25, 0, 90, 0, -0.25}, "IAU_2015:49900"}, 90.0, 0.125},
-    {"South", {720, 5, {-180, 0.5, 0, -87.5, 0, -0.5}, "IAU_2015:30100"}, -90.0, 0.25},
-    {"OddColumns", {45, 22, {0, 8, 0, 90, 0, -8}, "IAU_2015:49900"}, 90.0, 4.0},
-    {"Westward", {360, 180, {360, -1, 0, 90, 0, -1}, "IAU_2015:49900"}, 90.0, 0.5},
-    {"Northward", {360, 20, {0, 1, 0, -90, 0, 1}, "IAU_2015:49900"}, -90.0, 0.5},
-    {"RepeatsAColumn", {361, 10, {-0.5, 1, 0, 90, 0, -1}, "IAU_2015:49900"}, 90.0, 0.5},
-    {"AWholeCellAway", {360, 10, {0, 1, 0, 89.5, 0, -1}, "IAU_2015:49900"}, 90.0, 1.0},
-    {"Projected",
-     {720,
-      12,
-      {-5458203.0762, 15161.6752, 0, 2729101.5381, 0, -15161.6752},
-      "+proj=eqc +R=1737400 +units=m"},
-     90.0,
-     0.25},
-};
-
-std::shared_ptr<const Map> rough(MapMaker& maker, const PolarMap& map, double relief_m)
-{
-    Random random(11);
-    std::vector<double> heights;
-    for (std::size_t i = 0; i < map.place.columns * map.place.rows; ++i) {
-        heights.push_back(random.uniform(0.0, relief_m));
-    }
-    const std::size_t columns = map.place.columns;
-    return maker.make(map.place, [&](std::size_t c, std::size_t r) {
-        const bool is_repeated = map.name == "RepeatsAColumn" && c + 1 == columns;
-        return heights[r * columns + (is_repeated ? 0 : c)];
-    });
-}
-
 int gapsOf(const Profile& profile)
 {
     return static_cast<int>(
         std::count_if(profile.points.begin(), profile.points.end(),
                       [](const ProfilePoint& point) { return std::isnan(point.elevation_m); }));
 }
-
-// The triangles of a pole one by one in space, as the globe has them.
-class ListedCap {
-public:
-    ListedCap(const Map& map, double pole_deg)
-    {
-        JobMonitor monitor;
-        const auto mesh = BodyMesh::build(map.filled(), map.georeference(), 1.0, monitor);
-        EXPECT_TRUE(mesh) << (mesh ? "" : mesh.error().message);
-        const BodyIndex cells = BodyIndex{2} * (*mesh)->cellColumns() * (*mesh)->cellRows();
-        for (BodyIndex face = cells; face < (*mesh)->faceCount(); ++face) {
-            const auto points = (*mesh)->points(face);
-            if ((points[0].z > 0.0) == (pole_deg > 0.0)) {
-                faces_.push_back(points);
-            }
-        }
-    }
-
-    // How far above a point, along a line, a triangle lies; NaN without one.
-    double heightAbove(const Vec3& foot, const Vec3& up) const
-    {
-        for (const auto& [a, b, c] : faces_) {
-            const Big along = big(up);
-            const Big ab = big(b - a);
-            const Big ac = big(c - a);
-            const Big to = big(a - foot);
-            const Big normal = cross(ab, ac);
-            const long double height = dot(to, normal) / dot(along, normal);
-            Big at;
-            for (std::size_t i = 0; i < 3; ++i) {
-                at[i] = along[i] * height - to[i];
-            }
-            const long double square = dot(normal, normal);
-            const long double second = dot(cross(at, ac), normal) / square;
-            const long double third = dot(cross(ab, at), normal) / square;
-            constexpr long double kRounding = 1e-9L;
-            if (second >= -kRounding && third >= -kRounding && second + third <= 1 + kRounding) {
-                return static_cast<double>(height);
-            }
-        }
-        return kNan;
-    }
-
-private:
-    using Big = std::array<long double, 3>;
-    static Big big(const Vec3& v) { return {v.x, v.y, v.z}; }
-    static Big cross(const Big& a, const Big& b)
-    {
-        return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-    }
-    static long double dot(const Big& a, const Big& b)
-    {
-        return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    }
-
-    std::vector<std::array<ScenePoint, 3>> faces_;
-};
 
 // Lines over the pole along a meridian, past it at several distances, along the edge of its cap,
 // and such that end or begin within it, in shares of the distance of the row.
@@ -334,7 +235,7 @@ TEST_P(PathInCap, HasTheSlopesOfItsTriangles)
     EXPECT_GT(compared, 50);
 }
 
-INSTANTIATE_TEST_SUITE_P(CapPath, PathInCap, testing::ValuesIn(kMaps), [](const auto& tested) {
+INSTANTIATE_TEST_SUITE_P(CapPath, PathInCap, testing::ValuesIn(kPolarMaps), [](const auto& tested) {
     return tested.param.name;
 });
 

@@ -1,7 +1,9 @@
 // The globe in the window: View › Scene, navigation, readout, and what it disables.
+#include "tests/core/measure/measured_map.h"
 #include "tests/support/random.h"
 #include "tests/ui/globe/globe_window.h"
 #include "ui/commands/window_commands.h"
+#include "ui/text/place_facts.h"
 #include "ui/window/status_readout.h"
 
 #include <QImage>
@@ -12,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 namespace marsview {
 namespace {
@@ -178,6 +181,31 @@ TEST_F(GlobeTest, ReadsTheFullResolutionElevationOfTheMapUnderThePointer)
     EXPECT_NEAR(reading->hit.height_m, globe().terrain()->map()->height(place), 0.5);
     ASSERT_TRUE(waitFor([this] { return !window_->readout()->heightLabel().isEmpty(); }));
     EXPECT_FALSE(window_->readout()->coordinateLabel().isEmpty());
+}
+
+// 2026-11: the latitude and the elevation of the outermost row of samples, 89.875°.
+TEST_F(GlobeTest, ReadsThePlaceAtAPoleAndTheElevationOfProfiles)
+{
+    ASSERT_TRUE(showGlobe());
+    const auto map = view().map();
+    MeasuredTerrain measured = test::terrainOf(*map);
+    for (const auto& [longitude_deg, latitude_deg] :
+         {std::pair{30.0, 89.95}, {-160.0, 90.0}, {71.0, -89.93}, {200.0, -90.0}}) {
+        const GeographicPoint place{.longitude = Angle::degrees(longitude_deg),
+                                    .latitude = Angle::degrees(latitude_deg)};
+        globe().setCamera({.target = place, .distance_m = 3e5});
+        move(globeMiddle());
+        ASSERT_TRUE(globe().reading());
+        const BodyHit& hit = globe().reading()->hit;
+        const auto read = map->georeference().toGeographic(hit.grid);
+        ASSERT_TRUE(read);
+        EXPECT_NEAR(read->latitude.degrees(), latitude_deg, 0.01);
+        const double truth_m = measured.elevation(measured.ground().position(*read));
+        EXPECT_NEAR(hit.height_m, truth_m, 0.5);
+        EXPECT_FALSE(window_->readout()->heightLabel().isEmpty());
+        const PlaceFacts facts = placeFacts(*map, {}, hit.grid, {});
+        EXPECT_NEAR(facts.elevation.toDouble(), truth_m, 0.5);
+    }
 }
 
 TEST_F(GlobeTest, ReadsWhereTheMapHasNoData)
