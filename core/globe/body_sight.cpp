@@ -44,12 +44,54 @@ void addEdge(const BodySight& sight,
     }
 }
 
+// How far inside the picture places are: positive where they are in it.
+class PictureMargin {
+public:
+    PictureMargin(const CameraPose& pose, const Ellipsoid& ellipsoid, const Viewport& viewport)
+        : pose_(pose)
+        , equatorial_m_(ellipsoid.equatorial_m)
+        , flat_(ellipsoid.equatorial_m / ellipsoid.polar_m)
+        , up_slope_(std::tan(0.5 * pose.field_of_view.radians()))
+        , right_slope_(up_slope_ * viewport.aspect())
+    {}
+
+    // `direction` is from the body's center, of length 1.
+    float at(const Vec3& direction) const
+    {
+        const double radius_m =
+            equatorial_m_ / std::hypot(direction.x, direction.y, direction.z * flat_);
+        const ScenePoint place = direction * radius_m;
+        // The normal, up to its length, which is that of the place.
+        const Vec3 normal{place.x, place.y, place.z * flat_ * flat_};
+        const Vec3 to = place - pose_.eye;
+        const double depth_m = dot(to, pose_.axes.forward);
+        const double facing = -dot(to, normal) / (length(to) * length(normal));
+        double margin = std::min(facing, depth_m / length(to));
+        if (depth_m > 0.0) {
+            margin = std::min({margin,
+                               1.0 - std::abs(dot(to, pose_.axes.right)) / (depth_m * right_slope_),
+                               1.0 - std::abs(dot(to, pose_.axes.up)) / (depth_m * up_slope_)});
+        }
+        return static_cast<float>(margin);
+    }
+
+private:
+    CameraPose pose_;
+    double equatorial_m_;
+    double flat_;
+    double up_slope_;
+    double right_slope_;
+};
+
 } // namespace
 
 GeographicPoint BodySight::placeAt(double column, double row) const noexcept
 {
-    return {.longitude = Angle::degrees(-180.0 + 360.0 * column / static_cast<double>(columns - 1)),
-            .latitude = Angle::degrees(90.0 - 180.0 * row / static_cast<double>(rows - 1))};
+    const double right = column / static_cast<double>(columns - 1);
+    const double down = row / static_cast<double>(rows - 1);
+    return plane ? plane->placeAt({2.0 * right - 1.0, 1.0 - 2.0 * down})
+                 : GeographicPoint{.longitude = Angle::degrees(-180.0 + 360.0 * right),
+                                   .latitude = Angle::degrees(90.0 - 180.0 * down)};
 }
 
 BodySight bodySight(const CameraPose& pose,
@@ -59,38 +101,44 @@ BodySight bodySight(const CameraPose& pose,
                     std::size_t rows)
 {
     MARSVIEW_CHECK(columns >= 2 && rows >= 2);
-    BodySight sight{.columns = columns, .rows = rows, .margins = {}};
+    BodySight sight{.columns = columns, .rows = rows, .plane = {}, .margins = {}};
     sight.margins.reserve(columns * rows);
-    const double up_slope = std::tan(0.5 * pose.field_of_view.radians());
-    const double right_slope = up_slope * viewport.aspect();
+    const PictureMargin margin(pose, ellipsoid, viewport);
     std::vector<std::array<double, 2>> meridians(columns); // cosine and sine of the longitude
     for (std::size_t column = 0; column < columns; ++column) {
         const double longitude =
             sight.placeAt(static_cast<double>(column), 0.0).longitude.radians();
         meridians[column] = {std::cos(longitude), std::sin(longitude)};
     }
-    const double flat = ellipsoid.equatorial_m / ellipsoid.polar_m;
     for (std::size_t row = 0; row < rows; ++row) {
         const double latitude = sight.placeAt(0.0, static_cast<double>(row)).latitude.radians();
         const double cosine = std::cos(latitude);
         const double sine = std::sin(latitude);
-        const double radius_m =
-            ellipsoid.equatorial_m / std::hypot(cosine, sine * flat); // planetocentric
         for (const auto& [along, across] : meridians) {
-            const ScenePoint place{radius_m * cosine * along, radius_m * cosine * across,
-                                   radius_m * sine};
-            // The normal, up to its length, which is that of the place.
-            const Vec3 normal{place.x, place.y, place.z * flat * flat};
-            const Vec3 to = place - pose.eye;
-            const double depth_m = dot(to, pose.axes.forward);
-            const double facing = -dot(to, normal) / (length(to) * length(normal));
-            double margin = std::min(facing, depth_m / length(to));
-            if (depth_m > 0.0) {
-                margin = std::min(
-                    {margin, 1.0 - std::abs(dot(to, pose.axes.right)) / (depth_m * right_slope),
-                     1.0 - std::abs(dot(to, pose.axes.up)) / (depth_m * up_slope)});
-            }
-            sight.margins.push_back(static_cast<float>(margin));
+            sight.margins.push_back(margin.at({cosine * along, cosine * across, sine}));
+        }
+    }
+    return sight;
+}
+
+BodySight bodySight(const CameraPose& pose,
+                    const Ellipsoid& ellipsoid,
+                    const Viewport& viewport,
+                    const PolarPlane& plane,
+                    std::size_t side)
+{
+    MARSVIEW_CHECK(side >= 2);
+    BodySight sight{.columns = side, .rows = side, .plane = plane, .margins = {}};
+    sight.margins.reserve(side * side);
+    const PictureMargin margin(pose, ellipsoid, viewport);
+    for (std::size_t row = 0; row < side; ++row) {
+        for (std::size_t column = 0; column < side; ++column) {
+            const GeographicPoint place =
+                sight.placeAt(static_cast<double>(column), static_cast<double>(row));
+            const double cosine = std::cos(place.latitude.radians());
+            sight.margins.push_back(margin.at({cosine * std::cos(place.longitude.radians()),
+                                               cosine * std::sin(place.longitude.radians()),
+                                               std::sin(place.latitude.radians())}));
         }
     }
     return sight;
@@ -119,13 +167,30 @@ double shareOfBody(const BodySight& sight)
 {
     double seen = 0.0;
     double all = 0.0;
+    const auto add = [&](std::size_t column, std::size_t row, double weight) {
+        all += weight;
+        seen += sight.margin(column, row) > 0.0F ? weight : 0.0;
+    };
+    if (sight.plane) {
+        for (std::size_t row = 0; row < sight.rows; ++row) {
+            for (std::size_t column = 0; column < sight.columns; ++column) {
+                const double poleward =
+                    std::abs(sight.placeAt(static_cast<double>(column), static_cast<double>(row))
+                                 .latitude.radians());
+                if (poleward >= PolarPlane::kEdge.radians()) {
+                    const double scale = 1.0 + std::sin(poleward); // that of the map is 2 / scale
+                    add(column, row, scale * scale);
+                }
+            }
+        }
+        return seen / all;
+    }
     for (std::size_t row = 0; row < sight.rows; ++row) {
         const double weight =
             std::cos(sight.placeAt(0.0, static_cast<double>(row)).latitude.radians());
         for (std::size_t column = 0; column + 1 < sight.columns;
              ++column) { // the last is the first
-            all += weight;
-            seen += sight.margin(column, row) > 0.0F ? weight : 0.0;
+            add(column, row, weight);
         }
     }
     return seen / all;

@@ -2937,6 +2937,33 @@ y %2</translation>
     </message>
 </context>
 <context>
+    <name>marsview::GlobeOverlays</name>
+    <message>
+        <source>North
+Pole</source>
+        <extracomment>In the corner of the overview map around a pole; may have two short lines</extracomment>
+        <translation>Nord-
+pol</translation>
+    </message>
+    <message>
+        <source>South
+Pole</source>
+        <extracomment>In the corner of the overview map around a pole; may have two short lines</extracomment>
+        <translation>Süd-
+pol</translation>
+    </message>
+    <message>
+        <source>North pole</source>
+        <extracomment>For screen readers: what the overview map shows</extracomment>
+        <translation>Nordpol</translation>
+    </message>
+    <message>
+        <source>South pole</source>
+        <extracomment>For screen readers: what the overview map shows</extracomment>
+        <translation>Südpol</translation>
+    </message>
+</context>
+<context>
     <name>marsview::GlobeView</name>
     <message>
         <source>Globe</source>
@@ -4593,6 +4620,11 @@ Was fehlt, lässt sich im Hinweis über der Karte suchen oder entfernen.</transl
         <source>The view is at %1% of the way from west to east and %2% from south to north; %3% of the map is in sight. Arrow keys move it.</source>
         <extracomment>For screen readers: %1 and %2 are percentages of the map&apos;s width and height, %3 of its area</extracomment>
         <translation>Die Ansicht liegt bei %1 % des Wegs von West nach Ost und %2 % von Süd nach Nord; %3 % der Karte sind zu sehen. Die Pfeiltasten bewegen sie.</translation>
+    </message>
+    <message>
+        <source>%1. The view is at %2; %3% of the map is in sight. Arrow keys move it.</source>
+        <extracomment>For screen readers: %1 is what the map shows, &quot;North pole&quot;, %2 a position, %3 a percentage of the map&apos;s area</extracomment>
+        <translation>%1. Die Ansicht liegt bei %2; %3 % der Karte sind zu sehen. Die Pfeiltasten bewegen sie.</translation>
     </message>
 </context>
 <context>

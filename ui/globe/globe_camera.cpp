@@ -230,7 +230,7 @@ void GlobeCamera::flyTo(const BodyTerrain& map)
     fly(camera, kFlyDuration);
 }
 
-void GlobeCamera::lookAt(const GeographicPoint& place)
+void GlobeCamera::lookAt(const GeographicPoint& place, std::optional<Angle> azimuth)
 {
     if (ground_.isEmpty()) {
         return;
@@ -238,6 +238,7 @@ void GlobeCamera::lookAt(const GeographicPoint& place)
     BodyCamera camera = motion_.camera();
     camera.target = place;
     camera.height_m = ground_.heightOrZero(place);
+    camera.azimuth = azimuth.value_or(camera.azimuth);
     motion_.jumpTo(camera);
 }
 

@@ -51,8 +51,8 @@ public:
     void flyNearer(const GeographicPoint& place);
     /// To where all of a layer is in sight, from the same side unless it is seen as a ball.
     void flyTo(const BodyTerrain& map);
-    /// At once, from the same side and distance.
-    void lookAt(const GeographicPoint& place);
+    /// At once, from the same distance and side, or with another azimuth.
+    void lookAt(const GeographicPoint& place, std::optional<Angle> azimuth = {});
 
     /// The ground at a pixel, which a drag or a zoom holds; off the body, the nearest point of its
     /// edge.

@@ -116,8 +116,11 @@ public:
     /// Flies to where all of a layer is in sight, or does so when it is placed. False if the layer
     /// is not among those to show.
     bool flyToLayer(const std::shared_ptr<const Map>& map);
-    /// Looks at a place at once, from the same side and distance.
-    void lookAt(const GeographicPoint& place) { camera_.lookAt(place); }
+    /// Looks at a place at once, from the same distance and side, or with another azimuth.
+    void lookAt(const GeographicPoint& place, std::optional<Angle> azimuth = {})
+    {
+        camera_.lookAt(place, azimuth);
+    }
 
     /// The terrain under a position of the widget: the layer, and where it is on its grid.
     std::optional<BodyScenePoint> groundAt(QPointF position) const;

@@ -21,11 +21,12 @@
 #include "ui/overlay/map_labels.h"
 #include "ui/overlay/map_overlays.h"
 #include "ui/overlay/measure_marks.h"
-#include "ui/overlay/minimap.h"
 #include "ui/overlay/overlay_layout.h"
 #include "ui/overlay/overview_picture.h"
 #include "ui/overlay/place_mark.h"
 #include "ui/overlay/scale_bar_view.h"
+#include "ui/text/coordinate_text.h"
+#include "ui/text/number_text.h"
 #include "ui/widgets/focus_frame.h"
 
 #include <QAction>
@@ -37,7 +38,6 @@
 #include <cmath>
 #include <initializer_list>
 #include <limits>
-#include <numbers>
 #include <tuple>
 #include <utility>
 
@@ -48,12 +48,20 @@ namespace {
 constexpr std::size_t kSightColumns = 181;
 constexpr std::size_t kSightRows = 91;
 
+// Around a pole: about a pixel of the overview map apart.
+constexpr std::size_t kPolarSightSide = 121;
+
 constexpr Angle kFromAbove = Angle::degrees(10.0);
 constexpr int kSeenAlpha = 40; // of 255
 
 ScenePoint inDegrees(const GeographicPoint& place)
 {
     return {std::remainder(place.longitude.degrees(), 360.0), place.latitude.degrees(), 0.0};
+}
+
+ScenePoint onPlane(const PolarPoint& point)
+{
+    return {point.x, point.y, 0.0};
 }
 
 ContourView contoursOf(GlobeView& globe)
@@ -150,8 +158,10 @@ void GlobeOverlays::connectParts()
     }
     connect(flat_.labels(), &MapLabels::namesChanged, labels_,
             [this] { labels_->setNames(flat_.labels()->names()); });
-    connect(flat_.labels(), &MapLabels::formatChanged, labels_,
-            [this] { labels_->setCoordinateFormat(flat_.labels()->coordinateFormat()); });
+    connect(flat_.labels(), &MapLabels::formatChanged, labels_, [this] {
+        labels_->setCoordinateFormat(flat_.labels()->coordinateFormat());
+        showScene(); // values on the overview map
+    });
     connect(&globe_, &GlobeView::toolChanged, this, &GlobeOverlays::showSettings);
     connect(&flat_, &MapOverlays::settingsChanged, this, &GlobeOverlays::showSettings);
     connect(&flat_, &MapOverlays::markChanged, this, &GlobeOverlays::showMark);
@@ -181,6 +191,7 @@ void GlobeOverlays::connectParts()
         return boxes;
     });
     connect(minimap_, &Minimap::placeRequested, this, &GlobeOverlays::lookAt);
+    connect(minimap_, &Minimap::dragEnded, this, &GlobeOverlays::showSight);
     connect(compass_, &Compass::northRequested, &globe_, &GlobeView::turnNorthUp);
     connect(hint_, &GestureHint::dismissed, this, [this] {
         if (hint_->isAncestorOf(QApplication::focusWidget())) {
@@ -260,7 +271,7 @@ void GlobeOverlays::readOverview()
         reading_->cancel();
         reading_.reset();
     }
-    overviews_m_.clear();
+    overviews_m_ = {};
     if (globe_.scene().isEmpty()) {
         overview_ = {};
         return;
@@ -268,20 +279,43 @@ void GlobeOverlays::readOverview()
     if (localLayer()) {
         return; // made at once
     }
+    readBodyOverview(wantedOverview());
+}
+
+void GlobeOverlays::readBodyOverview(BodyOverview overview)
+{
+    if (reading_ && being_read_ == overview) {
+        return;
+    }
+    if (reading_) {
+        reading_->cancel();
+    }
     reading_ = std::make_shared<JobMonitor>();
-    jobs_.run([this, scene = globe_.scene(),
+    being_read_ = overview;
+    jobs_.run([this, overview, scene = globe_.scene(),
                monitor = reading_](const std::shared_ptr<DetachedJobs::Outlet>& outlet) {
-        std::vector<std::vector<float>> overviews_m;
+        std::vector<std::vector<float>> heights_m;
         for (const BodyTerrain& terrain : scene.maps()) {
-            overviews_m.push_back(overviewHeights(terrain, *monitor));
+            heights_m.push_back(overviewHeights(terrain, *monitor, overview));
         }
-        outlet->post([this, monitor, overviews_m = std::move(overviews_m)] {
+        outlet->post([this, overview, monitor, heights_m = std::move(heights_m)] {
             if (monitor == reading_) {
-                overviews_m_ = overviews_m;
+                reading_.reset();
+                heightsOf(overview) = heights_m;
                 showOverview();
             }
         });
     });
+}
+
+std::vector<std::vector<float>>& GlobeOverlays::heightsOf(BodyOverview overview)
+{
+    return overviews_m_.at(static_cast<std::size_t>(overview));
+}
+
+BodyOverview GlobeOverlays::wantedOverview() const
+{
+    return minimap_->isDragged() ? shown_ : overviewFor(globe_.camera().target.latitude, shown_);
 }
 
 // The widest layer in the middle of the picture, unless all of them together are seen as a ball:
@@ -323,21 +357,32 @@ void GlobeOverlays::showOverview()
     showSight();
 }
 
-// All layers, on top of each other.
+// All layers, on top of each other. Where heights are on their way, the overview that is shown
+// stays.
 void GlobeOverlays::showBodyOverview()
 {
     const BodyScene& scene = globe_.scene();
-    const double equator_m = 2.0 * std::numbers::pi * scene.ellipsoid().equatorial_m;
+    const BodyOverview wanted = wantedOverview();
+    const bool is_read = heightsOf(wanted).size() == scene.maps().size();
+    if (is_read || overview_.isNull()) {
+        shown_ = wanted;
+    }
+    if (!is_read) {
+        readBodyOverview(wanted);
+    }
+    const std::vector<std::vector<float>>& heights_m = heightsOf(shown_);
     QImage picture;
     std::vector<QPolygonF> outlines;
     for (std::size_t i = scene.maps().size(); i > 0; --i) {
-        const std::vector<QPolygonF> pieces = outlineOf(scene.maps()[i - 1].map()->georeference());
+        const std::vector<QPolygonF> pieces =
+            outlineOf(scene.maps()[i - 1].map()->georeference(), shown_);
         outlines.insert(outlines.end(), pieces.begin(), pieces.end());
-        if (overviews_m_.size() != scene.maps().size()) {
+        if (heights_m.size() != scene.maps().size()) {
             continue; // on their way
         }
-        const QImage layer = overviewOf(overviews_m_[i - 1], globe_.layers()[i - 1], globe_.look(),
-                                        globe_.exaggeration(), equator_m);
+        const QImage layer =
+            overviewOf(heights_m[i - 1], shown_, globe_.layers()[i - 1], globe_.look(),
+                       globe_.exaggeration(), scene.ellipsoid().equatorial_m);
         if (picture.isNull()) {
             picture = layer.convertToFormat(QImage::Format_ARGB32_Premultiplied);
         } else if (!layer.isNull()) {
@@ -346,15 +391,58 @@ void GlobeOverlays::showBodyOverview()
     }
     const TerrainLook& look = globe_.look();
     if (!picture.isNull() && look.light_frame == LightFrame::Body) {
-        darkenNight(picture, look.subsolar.value_or(GeographicPoint{}), scene.ellipsoid());
+        darkenNight(picture, shown_, look.subsolar.value_or(GeographicPoint{}), scene.ellipsoid());
     }
     if (!picture.isNull()) { // until then that of the layers before
         overview_ = picture;
         showSettings();
     }
-    minimap_->setMap(overview_, overviewFrame(), kOverviewColumns, kOverviewRows);
+    const QSize size = overviewSize(shown_);
+    minimap_->setMap(overview_, overviewFrame(shown_), static_cast<std::size_t>(size.width()),
+                     static_cast<std::size_t>(size.height()));
+    if (shown_ != BodyOverview::Whole) {
+        minimap_->setDisc(discOf(shown_));
+    }
     minimap_->setOutlines(std::move(outlines));
     showSight();
+}
+
+MinimapDisc GlobeOverlays::discOf(BodyOverview overview) const
+{
+    const PolarPlane plane(overview);
+    MinimapDisc disc{//: In the corner of the overview map around a pole; may have two short lines
+                     .caption = plane.isNorth() ? tr("North\nPole") : tr("South\nPole"),
+                     //: For screen readers: what the overview map shows
+                     .name = plane.isNorth() ? tr("North pole") : tr("South pole"),
+                     .lines = {},
+                     .labels = {}};
+    const CoordinateFormat format = flat_.labels()->coordinateFormat();
+    const Body* body = globe_.scene().maps().front().map()->info().body;
+    const double side = plane.isNorth() ? 1.0 : -1.0;
+    const auto at = [&](double longitude_deg, double poleward_deg) {
+        const PolarPoint point = plane.at({.longitude = Angle::degrees(longitude_deg),
+                                           .latitude = Angle::degrees(side * poleward_deg)});
+        return QPointF(point.x, point.y);
+    };
+    const double edge_deg = PolarPlane::kEdge.degrees();
+    for (const double poleward_deg : {60.0, 70.0, 80.0}) {
+        QPolygonF circle;
+        for (int longitude_deg = 0; longitude_deg <= 360; longitude_deg += 5) {
+            circle << at(longitude_deg, poleward_deg);
+        }
+        disc.lines.push_back(circle);
+        disc.labels.push_back({at(45.0, poleward_deg), // between meridians
+                               QStringLiteral("%1°").arg(numberText(poleward_deg, 0))});
+    }
+    for (const double longitude_deg : {0.0, 90.0, 180.0, 270.0}) {
+        const bool is_of_sides = std::fmod(longitude_deg, 180.0) != 0.0; // east or west of 0°
+        disc.lines.push_back(QPolygonF{at(longitude_deg, edge_deg), at(longitude_deg, 90.0)});
+        disc.labels.push_back({at(longitude_deg, edge_deg),
+                               is_of_sides
+                                   ? longitudeText(Angle::degrees(longitude_deg), format, body, 0)
+                                   : QStringLiteral("%1°").arg(numberText(longitude_deg, 0))});
+    }
+    return disc;
 }
 
 void GlobeOverlays::showScene()
@@ -390,6 +478,13 @@ void GlobeOverlays::showSight()
         showOverview(); // comes back here
         return;
     }
+    if (!local && wantedOverview() != shown_) {
+        if (heightsOf(wantedOverview()).size() == globe_.scene().maps().size()) {
+            showOverview(); // comes back here
+            return;
+        }
+        readBodyOverview(wantedOverview());
+    }
     local ? showLocalSight(*local) : showBodySight();
     showLegend();
 }
@@ -400,18 +495,35 @@ void GlobeOverlays::showBodySight()
     const Ellipsoid& ellipsoid = globe_.scene().ellipsoid();
     const Viewport viewport = globe_.viewport();
     const CameraPose pose = poseOf(camera, ellipsoid);
-    const BodySight seen = bodySight(pose, ellipsoid, viewport, kSightColumns, kSightRows);
-    MinimapSight sight{.target = inDegrees(camera.target),
-                       .eye = inDegrees(placeOf(pose.eye, ellipsoid).foot),
-                       .heading = camera.azimuth,
-                       .half_width = Angle::radians(std::atan(
-                           viewport.aspect() * std::tan(0.5 * camera.field_of_view.radians()))),
-                       .is_from_above = camera.tilt < kFromAbove,
-                       .seen = seenPicture(seen),
-                       .share = shareOfBody(seen)};
-    for (const auto& edge : edgesOf(seen)) {
-        sight.edges.emplace_back(edge[0].longitude.degrees(), edge[0].latitude.degrees(),
-                                 edge[1].longitude.degrees(), edge[1].latitude.degrees());
+    const auto plane =
+        shown_ == BodyOverview::Whole ? std::nullopt : std::optional<PolarPlane>(shown_);
+    const BodySight seen = plane ? bodySight(pose, ellipsoid, viewport, *plane, kPolarSightSide)
+                                 : bodySight(pose, ellipsoid, viewport, kSightColumns, kSightRows);
+    const auto on_map = [&plane](const GeographicPoint& place) {
+        return plane ? onPlane(plane->at(place)) : inDegrees(place);
+    };
+    MinimapSight sight{
+        .target = on_map(camera.target),
+        .eye = on_map(placeOf(pose.eye, ellipsoid).foot),
+        .heading = plane ? plane->heading(camera.azimuth, camera.target.longitude) : camera.azimuth,
+        .half_width = Angle::radians(
+            std::atan(viewport.aspect() * std::tan(0.5 * camera.field_of_view.radians()))),
+        .is_from_above = camera.tilt < kFromAbove,
+        .seen = seenPicture(seen),
+        .share = shareOfBody(seen)};
+    if (plane) {
+        sight.place = geographicText(camera.target, flat_.labels()->coordinateFormat(),
+                                     globe_.scene().maps().front().map()->info(), 1);
+    }
+    for (const auto& [from, to] : edgesOf(seen)) {
+        if (plane) {
+            const PolarPoint a = plane->at(from);
+            const PolarPoint b = plane->at(to);
+            sight.edges.emplace_back(a.x, a.y, b.x, b.y);
+        } else {
+            sight.edges.emplace_back(from.longitude.degrees(), from.latitude.degrees(),
+                                     to.longitude.degrees(), to.latitude.degrees());
+        }
     }
     minimap_->setSight(sight);
 }
@@ -438,6 +550,15 @@ void GlobeOverlays::showLocalSight(const Map& map)
 void GlobeOverlays::lookAt(const ScenePoint& place)
 {
     const auto local = local_.lock();
+    if (!local && shown_ != BodyOverview::Whole) {
+        // The map does not turn under the view: north is on all sides of the pole.
+        const PolarPlane plane(shown_);
+        const BodyCamera& camera = globe_.camera();
+        const GeographicPoint there = plane.placeAt({place.x, place.y});
+        globe_.lookAt(there, plane.azimuth(plane.heading(camera.azimuth, camera.target.longitude),
+                                           there.longitude));
+        return;
+    }
     if (!local) {
         globe_.lookAt({.longitude = Angle::degrees(place.x), .latitude = Angle::degrees(place.y)});
         return;

@@ -2,14 +2,17 @@
 #pragma once
 
 #include "core/base/job_monitor.h"
+#include "core/globe/polar_plane.h"
 #include "core/session/map.h"
 #include "ui/controllers/detached_jobs.h"
+#include "ui/overlay/minimap.h"
 
 #include <QImage>
 #include <QList>
 #include <QObject>
 #include <QRectF>
 
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -31,15 +34,15 @@ class HandPointer;
 class Legend;
 class MapOverlays;
 class MeasureMarks;
-class Minimap;
 class OverlayLayout;
 class PlaceMark;
 class ScaleBarView;
 
 /// Creates the overlays of a globe at the places that they have on the flat map, shows and hides
 /// them by the same actions, and passes their requests to the globe. The overview map shows the
-/// whole body, or, of layers that are not seen as a ball, the widest one. A child of the globe;
-/// `flat` outlives it.
+/// whole body, or the surroundings of a pole that the view is near to (overviewFor), or, of layers
+/// that are not seen as a ball, the widest one. It does not change while it is dragged. A child of
+/// the globe; `flat` outlives it.
 class GlobeOverlays final : public QObject {
     Q_OBJECT
 
@@ -75,8 +78,12 @@ private:
     void connectParts();
     void showSettings();
     void readOverview();
+    void readBodyOverview(BodyOverview overview);
+    BodyOverview wantedOverview() const;
+    std::vector<std::vector<float>>& heightsOf(BodyOverview overview);
     void showOverview();
     void showBodyOverview();
+    MinimapDisc discOf(BodyOverview overview) const;
     std::optional<std::size_t> localLayer() const;
     void showBodySight();
     void showLocalSight(const Map& map);
@@ -107,10 +114,13 @@ private:
     GestureHint* hint_ = nullptr;
     FocusFrame* focus_frame_ = nullptr;
     OverlayLayout* layout_ = nullptr;
-    std::shared_ptr<JobMonitor> reading_;         // of the overview
-    std::vector<std::vector<float>> overviews_m_; // elevations, a map
-    QImage overview_;                             // the latest; null until there is one
-    std::weak_ptr<const Map> local_;              // whose overview it is; empty for the body's
+    std::shared_ptr<JobMonitor> reading_; // of the overview
+    BodyOverview being_read_ = BodyOverview::Whole;
+    // Elevations, a map, of each kind of overview that has been shown.
+    std::array<std::vector<std::vector<float>>, 3> overviews_m_;
+    BodyOverview shown_ = BodyOverview::Whole;
+    QImage overview_;                // the latest; null until there is one
+    std::weak_ptr<const Map> local_; // whose overview it is; empty for the body's
     DetachedJobs jobs_;
 };
 

@@ -2,6 +2,7 @@
 
 #include "ui/widgets/plate.h"
 
+#include <QFontMetricsF>
 #include <QKeyEvent>
 #include <QLocale>
 #include <QMouseEvent>
@@ -29,6 +30,8 @@ constexpr double kWedgeShortest = 20.0;
 constexpr double kWedgeLongest = 48.0;     // shows the direction, not the sight: the footprint does
 constexpr double kFootprintSmallest = 7.0; // below, a ring shows where it is
 constexpr double kOutlineSmallest = 4.0;
+constexpr int kLabelPixels = 9;
+constexpr double kLabeledSmallest = 110.0; // the disc, to have labels in it
 constexpr int kArcSteps = 16;
 constexpr double kTurn = 360.0; // degrees
 
@@ -89,6 +92,7 @@ void Minimap::setMap(const QImage& preview,
     }
     camera_.reset();
     sight_.reset();
+    disc_.reset();
     outlines_.clear();
     footprint_.clear();
     is_dragged_ = false;
@@ -106,6 +110,7 @@ void Minimap::clear()
         preview_ = {};
         camera_.reset();
         sight_.reset();
+        disc_.reset();
         outlines_.clear();
         footprint_.clear();
         is_dragged_ = false;
@@ -133,6 +138,14 @@ void Minimap::setOutlines(std::vector<QPolygonF> outlines)
 {
     outlines_ = std::move(outlines);
     drawn_map_ = {};
+    update();
+}
+
+void Minimap::setDisc(const MinimapDisc& disc)
+{
+    disc_ = disc;
+    drawn_map_ = {};
+    describe();
     update();
 }
 
@@ -205,6 +218,11 @@ QPointF Minimap::positionOf(const ScenePoint& place) const
 // Longitude goes on behind the edge of a map of a whole body.
 ScenePoint Minimap::onMap(const ScenePoint& place) const
 {
+    if (disc_) {
+        const double radius = (bounds_.east - bounds_.west) / 2.0;
+        const double share = std::min(1.0, radius / std::hypot(place.x, place.y));
+        return {place.x * share, place.y * share, place.z};
+    }
     const double x = sight_ ? std::remainder(place.x, kTurn) : place.x;
     GridPoint grid = map_->frame.toGrid({x, place.y, place.z});
     grid.column = std::clamp(grid.column, 0.0, static_cast<double>(map_->columns - 1));
@@ -261,8 +279,9 @@ void Minimap::mouseMoveEvent(QMouseEvent* event)
 void Minimap::mouseReleaseEvent(QMouseEvent* event)
 {
     event->accept();
-    if (event->button() == Qt::LeftButton) {
+    if (event->button() == Qt::LeftButton && is_dragged_) {
         is_dragged_ = false;
+        Q_EMIT dragEnded();
     }
 }
 
@@ -291,14 +310,20 @@ void Minimap::describe()
             return QLocale().toString(static_cast<int>(std::lround(share * 100.0)));
         };
         const ScenePoint at = *target();
+        const double seen = sight_ ? sight_->share : shareOfMap(footprint_, *map_);
         const double east = (at.x - bounds_.west) / (bounds_.east - bounds_.west);
         const double north = (at.y - bounds_.south) / (bounds_.north - bounds_.south);
-        const double seen = sight_ ? sight_->share : shareOfMap(footprint_, *map_);
         //: For screen readers: %1 and %2 are percentages of the map's width and height, %3 of its
         //: area
         text = tr("The view is at %1% of the way from west to east and %2% from south to north; "
                   "%3% of the map is in sight. Arrow keys move it.")
                    .arg(percent(east), percent(north), percent(seen));
+        if (disc_ && sight_) {
+            //: For screen readers: %1 is what the map shows, "North pole", %2 a position, %3 a
+            //: percentage of the map's area
+            text = tr("%1. The view is at %2; %3% of the map is in sight. Arrow keys move it.")
+                       .arg(disc_->name, sight_->place, percent(seen));
+        }
     }
     if (text != accessibleDescription()) {
         setAccessibleDescription(text);
@@ -380,6 +405,9 @@ void Minimap::drawSight(QPainter& painter) const
     painter.setRenderHint(QPainter::SmoothPixmapTransform);
     const QRectF map(positionOf({bounds_.west, bounds_.north, 0.0}),
                      positionOf({bounds_.east, bounds_.south, 0.0}));
+    if (disc_) {
+        painter.setClipPath(edge(), Qt::IntersectClip);
+    }
     painter.drawImage(map, sight_->seen);
     QPainterPath path;
     for (const QLineF& edge : sight_->edges) {
@@ -430,11 +458,32 @@ void Minimap::drawWedge(QPainter& painter, QPointF eye, const std::vector<QPoint
     painter.drawEllipse(eye, 3.2, 3.2);
 }
 
+// Around the pixels of the raster, or the disc.
+QPainterPath Minimap::edge() const
+{
+    QPainterPath path;
+    if (disc_) {
+        path.addEllipse(QRectF(positionOf({bounds_.west, bounds_.north, 0.0}),
+                               positionOf({bounds_.east, bounds_.south, 0.0})));
+        return path;
+    }
+    QPolygonF corners;
+    for (const GridPoint& corner : outerCorners(*map_)) {
+        corners << from_grid_.map(QPointF(corner.column, corner.row));
+    }
+    path.addPolygon(corners);
+    path.closeSubpath();
+    return path;
+}
+
 // What does not change with the camera.
 void Minimap::drawMap(QPainter& painter) const
 {
     painter.setRenderHint(QPainter::SmoothPixmapTransform);
     painter.setRenderHint(QPainter::Antialiasing);
+    if (disc_) {
+        painter.setClipPath(edge());
+    }
     if (!preview_.isNull()) {
         painter.setTransform(from_grid_);
         painter.drawImage(
@@ -442,20 +491,32 @@ void Minimap::drawMap(QPainter& painter) const
             preview_);
         painter.resetTransform();
     }
-    QPolygonF edge;
-    for (const GridPoint& corner : outerCorners(*map_)) {
-        edge << from_grid_.map(QPointF(corner.column, corner.row));
-    }
+    drawLines(painter);
+    painter.setClipping(false);
     painter.setPen(QPen(overlayFaintColor(), 1.0));
     painter.setBrush(Qt::NoBrush);
-    painter.drawPolygon(edge);
-    for (const QPolygonF& outline : outlines_) {
+    painter.drawPath(edge());
+    drawLabels(painter);
+}
+
+void Minimap::drawLines(QPainter& painter) const
+{
+    const auto line_of = [this](const QPolygonF& points) {
         QPolygonF line;
-        for (const QPointF& point : outline) {
+        for (const QPointF& point : points) {
             line << positionOf({point.x(), point.y(), 0.0});
         }
+        return line;
+    };
+    if (disc_) {
+        painter.setPen(QPen(QColor(255, 255, 255, 70), 1.0));
+        for (const QPolygonF& line : disc_->lines) {
+            painter.drawPolyline(line_of(line));
+        }
+    }
+    for (const QPolygonF& outline : outlines_) {
         QPainterPath path;
-        path.addPolygon(line);
+        path.addPolygon(line_of(outline));
         const QRectF extent = path.boundingRect();
         if (std::max(extent.width(), extent.height()) < kOutlineSmallest) {
             path = {};
@@ -463,6 +524,44 @@ void Minimap::drawMap(QPainter& painter) const
                                 QSizeF(kOutlineSmallest, kOutlineSmallest)));
         }
         drawContrasting(painter, path, outlineColor(), 1.0);
+    }
+}
+
+// Of the graticule, within the disc, and the caption in its corner.
+void Minimap::drawLabels(QPainter& painter) const
+{
+    if (!disc_) {
+        return;
+    }
+    QFont small = font();
+    small.setPixelSize(kLabelPixels);
+    const QFontMetricsF metrics(small);
+    const QRectF inside = edge().boundingRect();
+    const auto draw = [&](const QRectF& box, const QString& text, int alpha) {
+        QPainterPath path;
+        path.addText(box.left(), box.top() + metrics.ascent(), small, text);
+        painter.strokePath(path, QPen(QColor(0, 0, 0, 150), 2.0));
+        QColor color = overlayTextColor();
+        color.setAlpha(alpha);
+        painter.fillPath(path, color);
+    };
+    double top = inside.top() - 1.0;
+    for (const QString& line : disc_->caption.split(QLatin1Char('\n'))) {
+        draw({inside.left(), top, metrics.horizontalAdvance(line), metrics.height()}, line, 255);
+        top += metrics.height() - 1.0;
+    }
+    if (inside.width() < kLabeledSmallest) {
+        return;
+    }
+    for (const MinimapDisc::Label& label : disc_->labels) {
+        QRectF box(0.0, 0.0, metrics.horizontalAdvance(label.text), metrics.height());
+        box.moveCenter(positionOf({label.at.x(), label.at.y(), 0.0}));
+        // Those at the edge are moved into it.
+        box.moveLeft(
+            std::clamp(box.left(), inside.left() + 3.0, inside.right() - 3.0 - box.width()));
+        box.moveTop(
+            std::clamp(box.top(), inside.top() + 1.0, inside.bottom() - 1.0 - box.height()));
+        draw(box, label.text, 190);
     }
 }
 

@@ -6,8 +6,10 @@
 
 #include <QImage>
 #include <QLineF>
+#include <QPainterPath>
 #include <QPixmap>
 #include <QPolygonF>
+#include <QString>
 #include <QTransform>
 #include <QWidget>
 
@@ -16,16 +18,30 @@
 
 namespace marsview {
 
-/// What a camera over a whole body sees, on a map of longitude (x) and latitude (y) in degrees.
+/// What a camera over a body sees, on a map of longitude (x) and latitude (y) in degrees or on a
+/// disc.
 struct MinimapSight {
     ScenePoint target;
     ScenePoint eye;
-    Angle heading{};             // of the view, clockwise from north
+    Angle heading{};             // of the view, clockwise from up
     Angle half_width{};          // to the left and right edge of the picture
     bool is_from_above = true;   // the heading is not shown
     QImage seen{};               // covers the map; opaque where the picture is
     std::vector<QLineF> edges{}; // around it
-    double share = 0.0;          // of the body
+    double share = 0.0;          // of the map
+    QString place{};             // the target in words, needed on a disc
+};
+
+/// A map that is the disc within its square, around a pole.
+struct MinimapDisc {
+    struct Label {
+        QPointF at; // in the scene
+        QString text;
+    };
+    QString caption; // short, may have two lines; in the upper left corner
+    QString name;    // for screen readers
+    std::vector<QPolygonF> lines;
+    std::vector<Label> labels;
 };
 
 /// Shows a map from above, north up and east to the right however its raster lies, with the part
@@ -46,6 +62,8 @@ public:
     /// Lines on the map, in scene coordinates; setMap() and clear() remove them. One that is too
     /// small to be seen becomes a mark.
     void setOutlines(std::vector<QPolygonF> outlines);
+    /// Makes the map a disc; setMap() and clear() undo it.
+    void setDisc(const MinimapDisc& disc);
     /// Instead of a camera over a plane.
     void setSight(const MinimapSight& sight);
     /// `viewport` is the map's in device pixels.
@@ -62,9 +80,13 @@ public:
     QPointF positionOf(const ScenePoint& place) const;
     ScenePoint placeAt(QPointF position) const;
 
+    /// Between a press and the release: another map would move the places under the pointer.
+    bool isDragged() const noexcept { return is_dragged_; }
+
 Q_SIGNALS:
     /// The camera should look at this place; its height is that of the camera's target.
     void placeRequested(const ScenePoint& place);
+    void dragEnded();
     /// The preferred size has changed.
     void roomChanged();
 
@@ -86,9 +108,12 @@ private:
     };
 
     ScenePoint onMap(const ScenePoint& place) const;
+    QPainterPath edge() const;
     std::optional<ScenePoint> target() const;
     void place();
     void drawMap(QPainter& painter) const;
+    void drawLines(QPainter& painter) const;
+    void drawLabels(QPainter& painter) const;
     void drawCamera(QPainter& painter) const;
     void drawSight(QPainter& painter) const;
     void drawWedge(QPainter& painter, QPointF eye, const std::vector<QPointF>& arc) const;
@@ -99,6 +124,7 @@ private:
     Bounds bounds_;
     std::optional<OrbitCamera> camera_;
     std::optional<MinimapSight> sight_;
+    std::optional<MinimapDisc> disc_;
     std::vector<QPolygonF> outlines_;
     Viewport viewport_;
     QSize largest_size_{220, 160};
