@@ -355,6 +355,11 @@ void MainWindow::openAll(const QStringList& files)
     commands_->files.open(files);
 }
 
+void MainWindow::openAtStart(const QStringList& files)
+{
+    commands_->files.openAtStart(files);
+}
+
 void MainWindow::openSample(const QString& file)
 {
     controller_->openSample(file);

@@ -24,6 +24,7 @@
 #include <QSurfaceFormat>
 #include <QTimer>
 #include <QTranslator>
+#include <QWidget>
 
 #include <algorithm>
 #include <cstdio>
@@ -43,10 +44,41 @@ void printProblem(const QString& problem)
     std::fprintf(stderr, "marsview: %s\n", problem.toUtf8().constData());
 }
 
+// The platform of Qt that the user asks for, by option or by Qt's environment variable.
+QString wantedPlatform(int argc, char** argv)
+{
+    QString platform = qEnvironmentVariable("QT_QPA_PLATFORM");
+    for (int i = 1; i < argc; ++i) {
+        const QString word = QString::fromLocal8Bit(argv[i]);
+        const QString name = word.section(QLatin1Char('='), 0, 0);
+        if (name == QStringLiteral("-platform") || name == QStringLiteral("--platform")) {
+            platform = word != name   ? word.section(QLatin1Char('='), 1)
+                       : i + 1 < argc ? QString::fromLocal8Bit(argv[i + 1])
+                                      : QString();
+        }
+    }
+    return platform.section(QLatin1Char(':'), 0, 0); // parameters of the platform follow
+}
+
+QString& platformAskedFor()
+{
+    static QString platform;
+    return platform;
+}
+
 // Without a display Qt aborts with its own advice. During startup, only our message is printed.
-void reportFatalOnly(QtMsgType type, const QMessageLogContext&, const QString&)
+void reportFatalOnly(QtMsgType type, const QMessageLogContext&, const QString& text)
 {
     if (type == QtFatalMsg) {
+        const QString& platform = platformAskedFor();
+        const QString known = text.section(QStringLiteral("Available platform plugins are: "), 1)
+                                  .section(QLatin1Char('.'), 0, 0);
+        if (!platform.isEmpty() && !known.isEmpty() &&
+            !known.split(QStringLiteral(", ")).contains(platform)) {
+            printProblem(QStringLiteral("-platform: unknown platform \"%1\". Known platforms: %2")
+                             .arg(platform, known));
+            std::_Exit(kUsage);
+        }
         std::fputs(
             "marsview: cannot open a display; start in a desktop session, or under "
             "xvfb-run\n",
@@ -58,10 +90,36 @@ void reportFatalOnly(QtMsgType type, const QMessageLogContext&, const QString&)
 // Passes only Qt's own options to Qt, which removes them from `arguments`.
 std::unique_ptr<QApplication> makeApplication(int& argc, char** argv)
 {
+    platformAskedFor() = wantedPlatform(argc, argv);
     const QtMessageHandler handler = qInstallMessageHandler(reportFatalOnly);
     auto application = std::make_unique<QApplication>(argc, argv);
     qInstallMessageHandler(handler);
     return application;
+}
+
+bool& isStyleSheetRefused()
+{
+    static bool is_refused = false;
+    return is_refused;
+}
+
+// Qt reads the style sheet for the first widget, and only warns.
+bool checkStyleSheet()
+{
+    if (qApp->styleSheet().isEmpty()) {
+        return true;
+    }
+    const QtMessageHandler handler =
+        qInstallMessageHandler([](QtMsgType, const QMessageLogContext&, const QString& text) {
+            isStyleSheetRefused() =
+                isStyleSheetRefused() || text.contains(QStringLiteral("parse application"));
+        });
+    QWidget().ensurePolished();
+    qInstallMessageHandler(handler);
+    if (isStyleSheetRefused()) {
+        printProblem(QStringLiteral("-stylesheet: the file is not a valid style sheet of Qt"));
+    }
+    return !isStyleSheetRefused();
 }
 
 // The style that the user asks for, by option or by Qt's environment variable, which Qt ignores if
@@ -128,7 +186,7 @@ int runWindow(QApplication& application, const marsview::WindowArguments& option
         for (const std::string& map : options.maps) {
             maps.append(QString::fromStdString(map));
         }
-        window.openAll(maps);
+        window.openAtStart(maps);
     } else if (!sample.isEmpty()) {
         window.openSample(sample);
     }
@@ -184,7 +242,7 @@ int main(int argc, char** argv)
             std::fprintf(stderr, "marsview: %s: not an option of this Qt version\n", pointers[1]);
             return kUsage;
         }
-        if (!applyStyle(arguments->style)) {
+        if (!applyStyle(arguments->style) || !checkStyleSheet()) {
             return kUsage;
         }
         QCoreApplication::setOrganizationName(QStringLiteral("MarsView"));

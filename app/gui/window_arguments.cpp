@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cstddef>
 #include <filesystem>
@@ -224,6 +225,15 @@ private:
     {
         if (file.empty()) {
             return usage("--screenshot", "the file name is empty");
+        }
+        std::string ending = std::filesystem::path(file).extension().string();
+        std::transform(ending.begin(), ending.end(), ending.begin(),
+                       [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+        if (ending != ".png" && ending != ".jpg" && ending != ".jpeg") {
+            return usage("--screenshot",
+                         fmt::format("\"{}\" does not end in .png or .jpg; other formats are not "
+                                     "written",
+                                     file));
         }
         arguments_.screenshot = file;
         return std::nullopt;

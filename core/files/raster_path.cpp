@@ -53,6 +53,22 @@ void appendSiblings(const fs::path& path,
     }
 }
 
+// "; it is named /vsizip/… in the archive" for a path that goes on below an archive's own.
+std::string archiveHintFor(const std::string& path)
+{
+    std::error_code ignored;
+    for (fs::path parent = fs::path(path).parent_path(); parent.has_filename();
+         parent = parent.parent_path()) {
+        if (fs::is_regular_file(parent, ignored)) {
+            const std::string archive = archiveNameFor(parent.string());
+            return archive.empty() ? fmt::format("; {} is a file, not a folder", parent.string())
+                                   : fmt::format("; a file in that archive is named {}{}", archive,
+                                                 path.substr(parent.string().size()));
+        }
+    }
+    return {};
+}
+
 void appendArchiveEntries(const std::string& archive, std::vector<std::string>& names)
 {
     for (ArchiveRaster& raster : rastersInArchive(archive)) {
@@ -114,7 +130,8 @@ Result<std::vector<std::string>> rasterNamesFor(const std::string& path)
         if (path.find(':') != std::string::npos) {
             return names;
         }
-        return Error{ErrorCode::NotFound, fmt::format("{}: does not exist", path)};
+        const std::string hint = archiveHintFor(path);
+        return Error{ErrorCode::NotFound, fmt::format("{}: does not exist{}", path, hint)};
     }
     if (status.type() == fs::file_type::none) {
         return Error{ErrorCode::Unreadable, fmt::format("{}: {}", path, failure.message())};

@@ -44,6 +44,12 @@ Result<OpenFiles> checkOutputs(const FilesInUse& files)
         if (path.empty() || (is_there && !fs::is_regular_file(path, none))) {
             continue; // a terminal or /dev/null loses nothing
         }
+        if (const fs::path folder = fs::path(path).parent_path();
+            !folder.empty() && !fs::is_directory(folder, none)) {
+            return Error{ErrorCode::Invalid,
+                         fmt::format("{}: the folder {} does not exist; create it first", path,
+                                     folder.string())};
+        }
         if (!has_sources && is_there) { // otherwise it cannot be part of a map
             has_sources = true;
             for (const std::string& map : files.maps) {

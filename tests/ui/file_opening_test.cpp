@@ -10,6 +10,7 @@
 #include <QAction>
 #include <QLabel>
 #include <QMenu>
+#include <QUndoStack>
 
 #include <gtest/gtest.h>
 
@@ -56,6 +57,21 @@ TEST_F(FileOpeningTest, AMissingProjectDoesNotKeepTheMapsAfterItFromOpening)
     EXPECT_TRUE(notice->isVisible());
     EXPECT_TRUE(notice->text().contains(QStringLiteral("missing.mvproj")))
         << notice->text().toStdString();
+}
+
+// 2026-11: the first Ctrl+Z after `marsview A B` removed B.
+TEST_F(FileOpeningTest, FilesOfTheStartAreNotUndoneAndLaterOnesAre)
+{
+    makeWindow(kSmall);
+    window_->openAtStart({maps_.hill(), maps_.moon()});
+    ASSERT_TRUE(waitFor([this] { return window_->session().layers.size() == 2; }));
+    ASSERT_TRUE(waitUntilSettled(*window_));
+    EXPECT_FALSE(window_->undoStack().canUndo());
+    window_->open(QString::fromStdString(test::bundledMars()));
+    ASSERT_TRUE(waitFor([this] { return window_->session().layers.size() == 3; }));
+    window_->undoStack().undo();
+    EXPECT_EQ(window_->session().layers.size(), 2U);
+    EXPECT_FALSE(window_->undoStack().canUndo());
 }
 
 TEST_F(FileOpeningTest, AProgramWithoutItsMapsHasNoMenuOfThem)

@@ -200,6 +200,26 @@ TEST(Program, PassesQtsOwnOptionsOnToQt)
     EXPECT_EQ(none.exit_code, 1) << "OpenGL is not available on that platform";
 }
 
+TEST(Program, NamesTheValueOfAnOptionThatQtDoesNotKnow)
+{
+    const TestMaps maps;
+    const Outcome platform = run({QStringLiteral("-platform"), QStringLiteral("nosuch")});
+    EXPECT_EQ(platform.exit_code, 2);
+    EXPECT_TRUE(platform.errors.startsWith(
+        QStringLiteral("marsview: -platform: unknown platform \"nosuch\". Known platforms: ")))
+        << platform.errors.toStdString();
+    EXPECT_TRUE(platform.errors.contains(QStringLiteral("xcb")));
+    const QString sheet = maps.path(QStringLiteral("sheet.qss"));
+    QFile file(sheet);
+    ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+    file.write("QWidget { color: ");
+    file.close();
+    const Outcome style = run({QStringLiteral("-stylesheet"), sheet, maps.hill()});
+    EXPECT_EQ(style.exit_code, 2);
+    EXPECT_EQ(style.errors,
+              QStringLiteral("marsview: -stylesheet: the file is not a valid style sheet of Qt"));
+}
+
 TEST(Program, OpensSeveralMapsTheLastOnTop)
 {
     const TestMaps maps;

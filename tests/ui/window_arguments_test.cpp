@@ -69,7 +69,11 @@ TEST(WindowArguments, AreRefusedWithTheOptionAndTheReason)
           Case{{"--size"}, "--size: a value is missing"},
           Case{{"-style"}, "-style: a value is missing"},
           Case{{"--geometry", "800x"}, "--geometry: "},
-          Case{{"--screenshot", ""}, "--screenshot: "}, Case{{""}, "DEM: "},
+          Case{{"--screenshot", ""}, "--screenshot: "},
+          Case{{"--screenshot", "a.gif"},
+               "--screenshot: \"a.gif\" does not end in .png or .jpg; other formats are not "
+               "written"},
+          Case{{""}, "DEM: "},
           Case{{"file://server/a.tif"}, "file://server/a.tif: names the computer"}}) {
         const auto arguments = parsed(c.words);
         ASSERT_FALSE(arguments) << c.start;

@@ -80,6 +80,16 @@ FileOpening::FileOpening(const Parts& parts)
 
 void FileOpening::open(const QStringList& files)
 {
+    openFiles(files, &SessionController::open);
+}
+
+void FileOpening::openAtStart(const QStringList& files)
+{
+    openFiles(files, &SessionController::openAtStart);
+}
+
+void FileOpening::openFiles(const QStringList& files, OpenMaps open_maps)
+{
     Q_EMIT requested();
     QStringList maps;
     QStringList vector_files;
@@ -87,18 +97,18 @@ void FileOpening::open(const QStringList& files)
         (!isAddress(file) && isVectorFile(file.toStdString()) ? vector_files : maps).append(file);
     }
     if (!maps.isEmpty()) {
-        openMaps(maps);
+        openMaps(maps, open_maps);
     }
     parts_.vector_files.open(vector_files);
 }
 
-void FileOpening::openMaps(QStringList maps)
+void FileOpening::openMaps(QStringList maps, OpenMaps open_maps)
 {
     const auto project = std::find_if(maps.begin(), maps.end(), [](const QString& file) {
         return isProjectPath(file.toStdString()) && !isAddress(file);
     });
     if (project == maps.end()) {
-        parts_.session.open(maps);
+        (parts_.session.*open_maps)(maps);
         return;
     }
     const QString file = *project;

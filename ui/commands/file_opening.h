@@ -39,6 +39,8 @@ public:
 
     /// Maps lie on top of each other and of the first project; vector files are drawn over them.
     void open(const QStringList& files);
+    /// The same for the files that the program is started with: maps are no steps of undo.
+    void openAtStart(const QStringList& files);
     /// Asks for files, then opens them.
     void chooseFile();
     void chooseFolder();
@@ -53,7 +55,9 @@ Q_SIGNALS:
 
 private:
     static QStringList rasterFilters();
-    void openMaps(QStringList maps);
+    using OpenMaps = void (SessionController::*)(const QStringList&);
+    void openFiles(const QStringList& files, OpenMaps open_maps);
+    void openMaps(QStringList maps, OpenMaps open_maps);
     void fillBundledMaps();
     void openBundledMap(const QString& file);
     bool isBundled(const QString& file) const;

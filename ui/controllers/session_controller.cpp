@@ -148,6 +148,16 @@ SessionController::~SessionController()
 
 void SessionController::open(const QStringList& files)
 {
+    openFiles(files, false);
+}
+
+void SessionController::openAtStart(const QStringList& files)
+{
+    openFiles(files, true);
+}
+
+void SessionController::openFiles(const QStringList& files, bool is_at_start)
+{
     if (files.isEmpty()) {
         return;
     }
@@ -159,7 +169,9 @@ void SessionController::open(const QStringList& files)
         loader_->cancel();
     }
     for (const QString& file : files) {
-        enqueue({.purpose = Load::Purpose::Open, .spec = {.path = file.toStdString()}});
+        enqueue({.purpose = Load::Purpose::Open,
+                 .spec = {.path = file.toStdString()},
+                 .is_at_start = is_at_start});
     }
     startNext();
 }
@@ -406,7 +418,7 @@ void SessionController::accept(const std::shared_ptr<const Map>& map)
                 replaced_sample_ = layer;
             }
         }
-        if (is_sample && undo_stack_.count() == 0) {
+        if ((is_sample || load.is_at_start) && undo_stack_.count() == 0) {
             apply(after);
         } else {
             //: Continues "Undo …"; %1 is a layer

@@ -90,6 +90,9 @@ public:
 
     /// Each becomes a layer on top when it is loaded. May be called before the view can draw.
     void open(const QStringList& files);
+    /// The same for files that the program is started with: not a step of undo, unless the user has
+    /// changed something by the time that they are loaded.
+    void openAtStart(const QStringList& files);
     /// As a sample: not a step of undo, and replaced by the first map that the user opens. Does
     /// nothing if a layer is open or being opened.
     void openSample(const QString& file);
@@ -217,6 +220,7 @@ private:
             Locate
         } purpose = Purpose::Open;
         RasterSpec spec;
+        bool is_at_start = false;
         LayerId layer = LayerId::None; // that is overridden or missing, or whose preview it is
         std::shared_ptr<const Map> as_declared{}; // the map before its nodata value was assumed
     };
@@ -233,6 +237,7 @@ private:
         int number = 0; // counted from 1
     };
 
+    void openFiles(const QStringList& files, bool is_at_start);
     void enqueue(Load load);
     void startNext();
     void dropLoadsOf(LayerId id);

@@ -89,5 +89,21 @@ TEST(RasterPath, RefusesMissingAndEmptyFiles)
     }
 }
 
+TEST(RasterPath, NamesAFileInAnArchiveThatIsWrittenLikeAFolder)
+{
+    const test::TempFolder folder;
+    const std::string zip = folder.write("two.zip", "x");
+    const auto in_zip = rasterNamesFor(zip + "/b/x.tif");
+    ASSERT_FALSE(in_zip);
+    EXPECT_EQ(in_zip.error().message,
+              zip + "/b/x.tif: does not exist; a file in that archive is named /vsizip/" + zip +
+                  "/b/x.tif");
+    const std::string file = folder.write("map.tif", "x");
+    const auto in_file = rasterNamesFor(file + "/x.tif");
+    ASSERT_FALSE(in_file);
+    EXPECT_EQ(in_file.error().message,
+              file + "/x.tif: does not exist; " + file + " is a file, not a folder");
+}
+
 } // namespace
 } // namespace marsview

@@ -41,6 +41,17 @@ TEST(OutputCheck, RefusesInputFilesUnderAnyName)
                 HasSubstr("is given for two outputs; choose two files"));
 }
 
+TEST(OutputCheck, RefusesAFileInAFolderThatIsNotThere)
+{
+    const TempFolder folder;
+    const auto status = checkOutputs(
+        {.maps = {bundledMars()}, .read = {}, .written = {folder.file("missing/picture.png")}});
+    ASSERT_FALSE(status);
+    EXPECT_EQ(status.error().message, folder.file("missing/picture.png") + ": the folder " +
+                                          folder.file("missing") +
+                                          " does not exist; create it first");
+}
+
 TEST(OutputCheck, RefusesThePartsOfAMap)
 {
     const TempFolder folder;
