@@ -86,16 +86,23 @@ ContourView contoursOf(GlobeView& globe)
             .exaggeration = [&globe] { return globe.exaggeration(); }};
 }
 
+// Bright where the picture shows the ground. Nothing where it shows all of a disc around a pole:
+// brightness tells nothing apart there, and takes contrast from the relief.
 QImage seenPicture(const BodySight& sight)
 {
+    bool is_all_seen = true;
     QImage picture(static_cast<int>(sight.columns), static_cast<int>(sight.rows),
                    QImage::Format_ARGB32);
     for (int row = 0; row < picture.height(); ++row) {
         for (int column = 0; column < picture.width(); ++column) {
             const bool is_seen = sight.margin(static_cast<std::size_t>(column),
                                               static_cast<std::size_t>(row)) > 0.0F;
+            is_all_seen = is_all_seen && is_seen;
             picture.setPixel(column, row, qRgba(255, 255, 255, is_seen ? kSeenAlpha : 0));
         }
+    }
+    if (is_all_seen) {
+        picture.fill(Qt::transparent);
     }
     return picture;
 }
