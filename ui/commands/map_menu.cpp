@@ -92,6 +92,7 @@ void MapMenu::showCard(const MenuPlace& place, QPoint at)
         view_.window());
     card_->setAttribute(Qt::WA_DeleteOnClose);
     card_->showAt(at);
+    card_->activateWindow(); // some window managers give a new tool window no focus
 }
 
 } // namespace marsview

@@ -27,9 +27,8 @@ constexpr double kScreenShareMax = 0.5; // of its height
 } // namespace
 
 PlaceDialog::PlaceDialog(std::function<PlaceFacts()> read, QWidget* parent)
-    : QDialog(parent, // not as a tool window: window managers give a new one no focus
-              Qt::Dialog | Qt::WindowTitleHint | Qt::WindowCloseButtonHint |
-                  Qt::CustomizeWindowHint)
+    : QDialog(parent,
+              Qt::Tool | Qt::WindowTitleHint | Qt::WindowCloseButtonHint | Qt::CustomizeWindowHint)
     , read_(std::move(read))
     , scroll_(new QScrollArea(this))
 {

@@ -194,7 +194,8 @@ TEST_F(FlightRecordTest, ReportsWhyItCannotBeWritten)
     Q_EMIT dialog()->fileSelected(QStringLiteral("/no/such/folder/flight.csv"));
     ASSERT_TRUE(waitFor([&] { return failed.count() == 1; }));
     const QString problem = failed[0][0].toString();
-    EXPECT_TRUE(problem.startsWith(QStringLiteral("/no/such/folder/flight.csv: cannot be written")))
+    EXPECT_TRUE(problem.startsWith(
+        QStringLiteral("/no/such/folder/flight.csv: the folder /no/such/folder does not exist")))
         << problem.toStdString();
     EXPECT_EQ(panelText(), problem);
 }
