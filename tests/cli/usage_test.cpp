@@ -451,8 +451,10 @@ TEST(Usage, LeavesNoUnfinishedOutputBehind)
     const ProgramOutput refused =
         runCli({"trace", bundledMars(), "--goals", goals, "-o", "/no/such/folder/trace.csv"});
     EXPECT_EQ(refused.exit_status, 1);
-    EXPECT_THAT(refused.err,
-                StartsWith("marsview-cli: /no/such/folder/trace.csv: cannot be written"));
+    EXPECT_THAT(
+        refused.err,
+        StartsWith(
+            "marsview-cli: /no/such/folder/trace.csv: the folder /no/such/folder does not exist"));
 }
 
 TEST(Usage, LeavesNoUnfinishedOutputBehindAfterControlC)

@@ -88,9 +88,8 @@ void FeaturePicker::showCard(const PlaceFacts& facts, QPoint at)
         return;
     }
     closeCard();
-    card_ = new PlaceDialog(read, &parts_.window);
+    card_ = new PlaceDialog(read, PlaceDialog::Focus::Map, &parts_.window);
     card_->setAttribute(Qt::WA_DeleteOnClose);
-    card_->setAttribute(Qt::WA_ShowWithoutActivating); // keys are still those of the map
     card_->setWindowTitle(tr("Feature"));
     connect(card_, &QDialog::finished, this, [this] { parts_.overlays.select(std::nullopt); });
     card_->showAt(at);

@@ -89,10 +89,9 @@ void MapMenu::showCard(const MenuPlace& place, QPoint at)
             }
             return *last;
         },
-        view_.window());
+        PlaceDialog::Focus::Card, view_.window());
     card_->setAttribute(Qt::WA_DeleteOnClose);
     card_->showAt(at);
-    card_->activateWindow(); // some window managers give a new tool window no focus
 }
 
 } // namespace marsview

@@ -26,9 +26,11 @@ constexpr double kScreenShareMax = 0.5; // of its height
 
 } // namespace
 
-PlaceDialog::PlaceDialog(std::function<PlaceFacts()> read, QWidget* parent)
+PlaceDialog::PlaceDialog(std::function<PlaceFacts()> read, Focus focus, QWidget* parent)
     : QDialog(parent,
-              Qt::Tool | Qt::WindowTitleHint | Qt::WindowCloseButtonHint | Qt::CustomizeWindowHint)
+              // Some window managers, such as openbox, give a tool window no focus.
+              (focus == Focus::Card ? Qt::Dialog : Qt::Tool) | Qt::WindowTitleHint |
+                  Qt::WindowCloseButtonHint | Qt::CustomizeWindowHint)
     , read_(std::move(read))
     , scroll_(new QScrollArea(this))
 {
@@ -42,6 +44,7 @@ PlaceDialog::PlaceDialog(std::function<PlaceFacts()> read, QWidget* parent)
     // The card's own ground; that of a list differs.
     scroll_->viewport()->setAutoFillBackground(false);
     facts->setAutoFillBackground(false);
+    setAttribute(Qt::WA_ShowWithoutActivating, focus == Focus::Map);
     setWindowTitle(tr("What Is Here"));
     setObjectName(QStringLiteral("placeDialog"));
     form_->setHorizontalSpacing(16);

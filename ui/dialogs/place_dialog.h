@@ -20,8 +20,11 @@ class PlaceDialog final : public QDialog {
     Q_OBJECT
 
 public:
+    /// What keys are for once the card is shown.
+    enum class Focus { Card, Map };
+
     /// `read` gives the facts, and is asked again while they are rough.
-    explicit PlaceDialog(std::function<PlaceFacts()> read, QWidget* parent = nullptr);
+    PlaceDialog(std::function<PlaceFacts()> read, Focus focus, QWidget* parent = nullptr);
 
     /// Opens it next to a place of the screen.
     void showAt(QPoint place);
