@@ -410,10 +410,10 @@ TEST(LoopCommand, FailsIfTheRecordingFails)
     EXPECT_THAT(full.err, StartsWith("marsview-cli: record:/dev/full: cannot be written (No space "
                                      "left on device); free disk space"));
     for (const char* option : {"--record", "--flight"}) {
-        const ProgramOutput other = runCli({"loop", bundledMars(), "--device", "sim:", "--seconds",
-                                            "0.2", option, "/nowhere/a.csv"});
+        const ProgramOutput other = runCli(
+            {"loop", bundledMars(), "--device", "sim:", "--seconds", "0.2", option, "/proc/a.csv"});
         EXPECT_EQ(other.exit_status, 1);
-        EXPECT_THAT(other.err, StartsWith("marsview-cli: /nowhere/a.csv: cannot be written (No "
+        EXPECT_THAT(other.err, StartsWith("marsview-cli: /proc/a.csv: cannot be written (No "
                                           "such file or directory); choose another file"));
     }
 }
