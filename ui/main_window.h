@@ -55,7 +55,7 @@ public:
     /// The same for several: maps lie on top of each other and of the first project, and vector
     /// files are drawn over them.
     void openAll(const QStringList& files);
-    /// The same for the files that the program is started with: maps are no steps of undo.
+    /// The same for the files that the program is started with. Opening these maps is not undone.
     void openAtStart(const QStringList& files);
     /// As a map to look at until the user opens one.
     void openSample(const QString& file);

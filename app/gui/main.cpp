@@ -44,40 +44,42 @@ void printProblem(const QString& problem)
     std::fprintf(stderr, "marsview: %s\n", problem.toUtf8().constData());
 }
 
-// The platform of Qt that the user asks for, by option or by Qt's environment variable.
-QString wantedPlatform(int argc, char** argv)
+// The platforms of Qt that the user asks for, by option or by Qt's environment variable.
+QStringList wantedPlatforms(int argc, char** argv)
 {
-    QString platform = qEnvironmentVariable("QT_QPA_PLATFORM");
+    QString platforms = qEnvironmentVariable("QT_QPA_PLATFORM");
     for (int i = 1; i < argc; ++i) {
         const QString word = QString::fromLocal8Bit(argv[i]);
         const QString name = word.section(QLatin1Char('='), 0, 0);
         if (name == QStringLiteral("-platform") || name == QStringLiteral("--platform")) {
-            platform = word != name   ? word.section(QLatin1Char('='), 1)
-                       : i + 1 < argc ? QString::fromLocal8Bit(argv[i + 1])
-                                      : QString();
+            platforms = word != name   ? word.section(QLatin1Char('='), 1)
+                        : i + 1 < argc ? QString::fromLocal8Bit(argv[i + 1])
+                                       : QString();
         }
     }
-    return platform.section(QLatin1Char(':'), 0, 0); // parameters of the platform follow
+    QStringList names;
+    for (const QString& platform : platforms.split(QLatin1Char(';'), Qt::SkipEmptyParts)) {
+        names.append(platform.section(QLatin1Char(':'), 0, 0)); // its parameters follow
+    }
+    return names;
 }
 
-QString& platformAskedFor()
-{
-    static QString platform;
-    return platform;
-}
+// For reportFatalOnly().
+QStringList wanted_platforms;
 
 // Without a display Qt aborts with its own advice. During startup, only our message is printed.
 void reportFatalOnly(QtMsgType type, const QMessageLogContext&, const QString& text)
 {
     if (type == QtFatalMsg) {
-        const QString& platform = platformAskedFor();
         const QString known = text.section(QStringLiteral("Available platform plugins are: "), 1)
                                   .section(QLatin1Char('.'), 0, 0);
-        if (!platform.isEmpty() && !known.isEmpty() &&
-            !known.split(QStringLiteral(", ")).contains(platform)) {
-            printProblem(QStringLiteral("-platform: unknown platform \"%1\". Known platforms: %2")
-                             .arg(platform, known));
-            std::_Exit(kUsage);
+        for (const QString& platform : wanted_platforms) {
+            if (!known.isEmpty() && !known.split(QStringLiteral(", ")).contains(platform)) {
+                printProblem(
+                    QStringLiteral("-platform: unknown platform \"%1\". Known platforms: %2")
+                        .arg(platform, known));
+                std::_Exit(kUsage);
+            }
         }
         std::fputs(
             "marsview: cannot open a display; start in a desktop session, or under "
@@ -90,17 +92,11 @@ void reportFatalOnly(QtMsgType type, const QMessageLogContext&, const QString& t
 // Passes only Qt's own options to Qt, which removes them from `arguments`.
 std::unique_ptr<QApplication> makeApplication(int& argc, char** argv)
 {
-    platformAskedFor() = wantedPlatform(argc, argv);
+    wanted_platforms = wantedPlatforms(argc, argv);
     const QtMessageHandler handler = qInstallMessageHandler(reportFatalOnly);
     auto application = std::make_unique<QApplication>(argc, argv);
     qInstallMessageHandler(handler);
     return application;
-}
-
-bool& isStyleSheetRefused()
-{
-    static bool is_refused = false;
-    return is_refused;
 }
 
 // Qt reads the style sheet for the first widget, and only warns.
@@ -109,17 +105,17 @@ bool checkStyleSheet()
     if (qApp->styleSheet().isEmpty()) {
         return true;
     }
+    static bool is_refused = false;
     const QtMessageHandler handler =
         qInstallMessageHandler([](QtMsgType, const QMessageLogContext&, const QString& text) {
-            isStyleSheetRefused() =
-                isStyleSheetRefused() || text.contains(QStringLiteral("parse application"));
+            is_refused = is_refused || text.contains(QStringLiteral("parse application"));
         });
     QWidget().ensurePolished();
     qInstallMessageHandler(handler);
-    if (isStyleSheetRefused()) {
+    if (is_refused) {
         printProblem(QStringLiteral("-stylesheet: the file is not a valid style sheet of Qt"));
     }
-    return !isStyleSheetRefused();
+    return !is_refused;
 }
 
 // The style that the user asks for, by option or by Qt's environment variable, which Qt ignores if

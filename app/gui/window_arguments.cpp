@@ -2,10 +2,10 @@
 
 #include "core/base/nearest_word.h"
 #include "core/files/file_address.h"
+#include "core/files/raster_path.h"
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cstddef>
 #include <filesystem>
@@ -226,9 +226,7 @@ private:
         if (file.empty()) {
             return usage("--screenshot", "the file name is empty");
         }
-        std::string ending = std::filesystem::path(file).extension().string();
-        std::transform(ending.begin(), ending.end(), ending.begin(),
-                       [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+        const std::string ending = lowerCase(std::filesystem::path(file).extension().string());
         if (ending != ".png" && ending != ".jpg" && ending != ".jpeg") {
             return usage("--screenshot",
                          fmt::format("\"{}\" does not end in .png or .jpg; other formats are not "

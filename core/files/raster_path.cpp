@@ -53,7 +53,7 @@ void appendSiblings(const fs::path& path,
     }
 }
 
-// "; it is named /vsizip/… in the archive" for a path that goes on below an archive's own.
+// What to add to a refusal if the path goes on below a file: the name in an archive, or a reason.
 std::string archiveHintFor(const std::string& path)
 {
     std::error_code ignored;

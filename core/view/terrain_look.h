@@ -24,8 +24,8 @@ enum class LightFrame {
     Body, // the sun stands over a place of the body; flat maps have the light of the view
 };
 
-/// Of the colors of a legend: what a place has with the sun overhead in addition to the night's
-/// share, which it has in the dark.
+/// Shares of the legend's color: a place in the dark has kNightShare of it, and a place with the
+/// sun overhead has both.
 inline constexpr double kSunShare = 0.92;
 inline constexpr double kNightShare = 0.08;
 

@@ -39,7 +39,7 @@ public:
 
     /// Maps lie on top of each other and of the first project; vector files are drawn over them.
     void open(const QStringList& files);
-    /// The same for the files that the program is started with: maps are no steps of undo.
+    /// The same for the files that the program is started with. Opening these maps is not undone.
     void openAtStart(const QStringList& files);
     /// Asks for files, then opens them.
     void chooseFile();

@@ -86,8 +86,8 @@ ContourView contoursOf(GlobeView& globe)
             .exaggeration = [&globe] { return globe.exaggeration(); }};
 }
 
-// Bright where the picture shows the ground. Nothing where it shows all of a disc around a pole:
-// brightness tells nothing apart there, and takes contrast from the relief.
+// Bright where the picture shows the ground. Transparent where it shows the whole disc around a
+// pole: brightening all of it would only flatten the relief.
 QImage seenPicture(const BodySight& sight)
 {
     bool is_all_seen = true;

@@ -59,15 +59,9 @@ class PathInCap : public testing::TestWithParam<PolarMap> {};
 TEST_P(PathInCap, HasTheHeightsOfTheTrianglesOfTheGlobe)
 {
     const PolarMap& tested = GetParam();
-    constexpr double kReliefM = 2.0;
     MapMaker maker;
-    const auto map = rough(maker, tested, kReliefM);
-    const auto flat = maker.make(tested.place, [](std::size_t, std::size_t) { return 0.0; });
-    const ListedCap cap(*map, tested.pole_deg);
-    const ListedCap base(*flat, tested.pole_deg);
-    MeasuredTerrain terrain = terrainOf(*map);
-    const double r = tested.row_distance_deg / 57.29578;
-    const double tolerance_m = kReliefM * (2.0 * r * r + 1e-5) + 1e-4;
+    const CapRelief relief(maker, tested);
+    MeasuredTerrain terrain = terrainOf(*relief.map());
     double worst_m = 0.0;
     int compared = 0;
     for (const auto& positions : linesOf(tested)) {
@@ -78,20 +72,19 @@ TEST_P(PathInCap, HasTheHeightsOfTheTrianglesOfTheGlobe)
             const double distance_m = line.lengthM() * i / 100;
             const GroundPosition here = line.at(distance_m);
             const LocalFrame frame = terrain.ground().frameAt(here);
-            const double truth_m =
-                cap.heightAbove(frame.origin, frame.up) - base.heightAbove(frame.origin, frame.up);
+            const double truth_m = relief.above(frame.origin, frame.up);
             if (std::isnan(truth_m)) {
                 continue; // outside
             }
             ++compared;
             worst_m = std::max(worst_m, std::abs(interpolated(profile, distance_m) - truth_m));
-            EXPECT_NEAR(terrain.elevation(here), truth_m, tolerance_m);
+            EXPECT_NEAR(terrain.elevation(here), truth_m, relief.toleranceM());
         }
     }
     std::printf("%d elevations, largest difference %.2g m of %.2g m\n", compared, worst_m,
-                tolerance_m);
+                relief.toleranceM());
     EXPECT_GT(compared, 500);
-    EXPECT_LE(worst_m, tolerance_m);
+    EXPECT_LE(worst_m, relief.toleranceM());
 }
 
 // Between its points a profile is straight, and it has no step, neither at the edges of triangles

@@ -37,32 +37,25 @@ class ClosedSurfaceAtAPole : public testing::TestWithParam<PolarMap> {};
 TEST_P(ClosedSurfaceAtAPole, HasTheElevationsOfTheTrianglesOfTheGlobe)
 {
     const PolarMap& tested = GetParam();
-    constexpr double kReliefM = 2.0;
     MapMaker maker;
-    const auto map = rough(maker, tested, kReliefM);
-    const auto flat = maker.make(tested.place, [](std::size_t, std::size_t) { return 0.0; });
-    const ListedCap cap(*map, tested.pole_deg);
-    const ListedCap base(*flat, tested.pole_deg);
-    const BodyTerrain terrain = onBody(map);
-    const double r = tested.row_distance_deg / 57.29578;
-    const double tolerance_m = kReliefM * (2.0 * r * r + 1e-5) + 1e-4;
+    const CapRelief relief(maker, tested);
+    const BodyTerrain terrain = onBody(relief.map());
     Random random(5);
     double worst_m = 0.0;
     int compared = 0;
     for (int i = 0; i < 300; ++i) {
         const GeographicPoint place = placeInCap(tested, random);
         const BodyPositions::Foot foot = footOf(terrain.grid()->ellipsoid(), place);
-        const double truth_m = cap.heightAbove(foot.surface_m, foot.normal) -
-                               base.heightAbove(foot.surface_m, foot.normal);
+        const double truth_m = relief.above(foot.surface_m, foot.normal);
         if (std::isnan(truth_m)) {
             continue; // outside
         }
         ++compared;
         worst_m = std::max(worst_m, std::abs(terrain.height(place) - truth_m));
-        EXPECT_NEAR(terrain.height(place), truth_m, tolerance_m);
+        EXPECT_NEAR(terrain.height(place), truth_m, relief.toleranceM());
     }
     std::printf("%d elevations, largest difference %.2g m of %.2g m\n", compared, worst_m,
-                tolerance_m);
+                relief.toleranceM());
     EXPECT_GT(compared, 250);
 }
 

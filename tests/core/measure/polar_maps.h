@@ -117,4 +117,36 @@ private:
     std::vector<std::array<ScenePoint, 3>> faces_;
 };
 
+/// A map with 2 m of relief, and how far its triangles at the pole lie above those without relief.
+class CapRelief {
+public:
+    CapRelief(MapMaker& maker, const PolarMap& tested)
+        : map_(rough(maker, tested, kReliefM))
+        , cap_(*map_, tested.pole_deg)
+        , base_(*maker.make(tested.place, [](std::size_t, std::size_t) { return 0.0; }),
+                tested.pole_deg)
+        , row_distance_(tested.row_distance_deg / 57.29578)
+    {}
+
+    const std::shared_ptr<const Map>& map() const { return map_; }
+    /// NaN without a triangle.
+    double above(const Vec3& foot, const Vec3& up) const
+    {
+        return cap_.heightAbove(foot, up) - base_.heightAbove(foot, up);
+    }
+    /// Of effects of second order.
+    double toleranceM() const
+    {
+        return kReliefM * (2.0 * row_distance_ * row_distance_ + 1e-5) + 1e-4;
+    }
+
+private:
+    static constexpr double kReliefM = 2.0;
+
+    std::shared_ptr<const Map> map_;
+    ListedCap cap_;
+    ListedCap base_;
+    double row_distance_; // of the outermost row from the pole, radians
+};
+
 } // namespace marsview::test
