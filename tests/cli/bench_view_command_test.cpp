@@ -1,3 +1,4 @@
+#include "core/view/frame_governor.h"
 #include "tests/cli/run_cli.h"
 #include "tests/support/make_raster.h"
 #include "tests/support/shared_data.h"
@@ -56,7 +57,7 @@ TEST(BenchViewCommand, MeasuresEveryFlightOverTheBundledMap)
             EXPECT_GT(frame["frame_ms"], 0.0);
             EXPECT_GT(frame["triangle_count"], 0);
             EXPECT_GE(frame["error_threshold_px"], 1.0);
-            EXPECT_LE(frame["error_threshold_px"], 8.0);
+            EXPECT_LE(frame["error_threshold_px"], kErrorPxMax); // a busy machine reaches it
             EXPECT_GE(frame["scale"], 0.5);
             EXPECT_LE(frame["scale"], 1.0);
         }

@@ -138,7 +138,7 @@ TEST_F(MapMenuTest, WhatIsHereDoesNotDependOnTheExaggeration)
         ASSERT_NE(card(), nullptr);
         EXPECT_TRUE(card()->isVisible());
         EXPECT_FALSE(card()->isModal());
-        // Under openbox a new tool window gets no focus by itself.
+        // A new tool window gets no focus under openbox, no new window without a window manager.
         EXPECT_TRUE(waitFor([&] { return card()->isActiveWindow(); }));
         EXPECT_EQ(fact(QStringLiteral("Layer")), QStringLiteral("plane.asc"));
         EXPECT_EQ(fact(QStringLiteral("Sample")), QStringLiteral("column 20, row 12"));

@@ -131,6 +131,9 @@ void PlaceDialog::showAt(QPoint place)
     card.moveBottom(std::min(card.bottom(), screen.bottom()));
     card.moveTop(std::max(card.top(), screen.top()));
     move(card.topLeft());
+    if (!testAttribute(Qt::WA_ShowWithoutActivating)) {
+        activateWindow(); // without a window manager nobody else does
+    }
 }
 
 void PlaceDialog::setReader(std::function<PlaceFacts()> read)
