@@ -173,7 +173,7 @@ MainWindow::MainWindow(const WindowOptions& options, QWidget* parent)
         place_->fit();
     }
     commands_->preferences.set(options_.isRemembered() ? preferencesFrom(QSettings())
-                                                       : Preferences{});
+                                                       : options_.preferences);
     showSession();
     commands_->haptics.connectToRemembered(preferences().reconnects_device
                                                ? HapticsCommands::LastDevice::Connect

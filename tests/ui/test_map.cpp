@@ -76,7 +76,9 @@ QString TestMaps::placed(const std::string& name,
 
 WindowOptions testWindowOptions()
 {
+    // Without a GPU, smooth edges take half of the time of most tests.
     return {.geometry = WindowOptions::Geometry::Fixed,
+            .preferences = {.has_antialiasing = false},
             .failures = WindowOptions::Failures::BySignalOnly,
             .scene = SceneChoice::Flat};
 }

@@ -6,6 +6,7 @@
 #include "ui/controllers/session_controller.h"
 #include "ui/dialogs/light_popup.h"
 #include "ui/dialogs/preferences_dialog.h"
+#include "ui/globe/globe_view.h"
 #include "ui/overlay/map_labels.h"
 #include "ui/overlay/map_overlays.h"
 #include "ui/overlay/measure_marks.h"
@@ -74,9 +75,13 @@ void PreferenceCommands::set(const Preferences& preferences)
     parts_.measure_panel.setCoordinateFormat(preferences.coordinates);
     parts_.georeferencing.setCoordinateFormat(preferences.coordinates);
     parts_.light.setCoordinateFormat(preferences.coordinates);
+    const std::chrono::milliseconds frame_target(1000 / preferences.frames_per_s);
     parts_.view.setAntialiasing(preferences.has_antialiasing);
-    parts_.view.setFrameTarget(std::chrono::milliseconds(1000 / preferences.frames_per_s));
+    parts_.globe.setAntialiasing(preferences.has_antialiasing);
+    parts_.view.setFrameTarget(frame_target);
+    parts_.globe.setFrameTarget(frame_target);
     parts_.view.setContactModel(preferences.contact_model);
+    parts_.globe.setContactModel(preferences.contact_model);
     parts_.haptics.setContactModel(preferences.contact_model);
     applyToMaps();
     parts_.actions.showContactModel(preferences.contact_model);

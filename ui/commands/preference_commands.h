@@ -13,6 +13,7 @@ class QMainWindow;
 namespace marsview {
 
 class GeoreferencingPanel;
+class GlobeView;
 class HapticsController;
 class LayersPanel;
 class LightPopup;
@@ -35,6 +36,7 @@ public:
         WindowActions& actions;
         SessionController& session;
         TerrainView& view;
+        GlobeView& globe;
         MapOverlays& overlays;
         HapticsController& haptics;
         StatusReadout& readout;

@@ -87,6 +87,7 @@ WindowCommands::WindowCommands(const WindowParts& parts, const WindowOptions& op
                    .actions = parts.actions,
                    .session = parts.session,
                    .view = parts.view,
+                   .globe = parts.globe,
                    .overlays = parts.overlays,
                    .haptics = parts.haptics,
                    .readout = parts.readout,

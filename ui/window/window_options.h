@@ -5,6 +5,7 @@
 #include "haptics/sound/sound_player.h"
 #include "ui/controllers/device_finder.h"
 #include "ui/controllers/map_opener.h"
+#include "ui/controllers/preferences.h"
 #include "ui/controllers/spacemouse_controller.h"
 #include "ui/window/window_messages.h"
 
@@ -17,6 +18,8 @@ struct WindowOptions {
     /// Size, place, docks, recent files and preferences are taken from, and left for, the next
     /// window; or all of it is as on the first day.
     enum class Geometry { Remembered, Fixed } geometry = Geometry::Remembered;
+    /// Those of the first day.
+    Preferences preferences{};
     /// Where failures are reported besides the signal.
     using Failures = WindowMessages::Failures;
     Failures failures = Failures::AsNotices;

@@ -350,5 +350,20 @@ TEST_F(GlobeDrawingTest, ProjectsAndSavedViewsKeepTheGlobeAndItsCamera)
     EXPECT_TRUE(globe().isHidden());
 }
 
+TEST_F(GlobeDrawingTest, HasSmoothEdgesIfPreferred)
+{
+    ASSERT_TRUE(showGlobe());
+    lookAt(0.0, 0.0, 2e7); // all of it, before the sky
+    Preferences preferences = window_->preferences();
+    const auto pictureWith = [&](bool has_antialiasing) {
+        preferences.has_antialiasing = has_antialiasing;
+        window_->setPreferences(preferences);
+        return picture();
+    };
+    const QImage rough = pictureWith(false);
+    EXPECT_GT(differing(pictureWith(true), rough), 1000);
+    EXPECT_EQ(differing(pictureWith(false), rough), 0);
+}
+
 } // namespace
 } // namespace marsview

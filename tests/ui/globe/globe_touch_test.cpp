@@ -193,6 +193,27 @@ TEST_F(GlobeTouchTest, SpaceAloneZoomsAboutTheGrabbedPlace)
     EXPECT_EQ(globe().stylus()->mode, StylusMode::Hover);
 }
 
+TEST_F(GlobeTouchTest, FeelsWithTheContactModelThatIsChosen)
+{
+    ASSERT_TRUE(beginTouch(-133.0, 40.0, 1e6));
+    const auto heightOfProxy = [this](ContactModelKind kind) {
+        Preferences preferences = window_->preferences();
+        preferences.contact_model = kind;
+        window_->setPreferences(preferences);
+        move(globeMiddle());
+        press(globeMiddle());
+        EXPECT_TRUE(globe().stylus() && globe().stylus()->is_in_contact);
+        const BodyPlace proxy = placeOf(globe().stylus()->proxy, body());
+        release(globeMiddle());
+        return proxy.height_m - globe().terrain()->height(proxy.foot) * globe().exaggeration();
+    };
+    const double cell_m = globe().terrain()->map()->georeference().pixelHeightMeters();
+    EXPECT_NEAR(heightOfProxy(kContactModelDefault), 0.0, 0.02 * cell_m);
+    // The proxy is the center of a sphere on the ground.
+    EXPECT_GT(heightOfProxy(ContactModelKind::VirtualProxy), 0.05 * cell_m);
+    EXPECT_NEAR(heightOfProxy(kContactModelDefault), 0.0, 0.02 * cell_m);
+}
+
 TEST_F(GlobeTouchTest, OtherToolsLiftTheStylus)
 {
     ASSERT_TRUE(beginTouch(-133.0, 10.0, 1e6));
