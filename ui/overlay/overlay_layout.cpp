@@ -106,7 +106,16 @@ void OverlayLayout::arrange()
         return; // a part changed its room because it was given another
     }
     const QScopedValueRollback<bool> guard(is_arranging_, true);
-    const QRect room = host_->rect();
+    // Where a part is shown, Qt first finishes pending layouts, which may resize the host.
+    QRect room;
+    do {
+        room = host_->rect();
+        placeParts(room);
+    } while (host_->rect() != room);
+}
+
+void OverlayLayout::placeParts(const QRect& room)
+{
     const QRect inside = room.adjusted(kMargin, covered_height_ + kMargin, -kMargin, -kMargin);
     std::vector<QRect> taken;
     // Shows a part there, in left-to-right terms, or hides it.

@@ -56,6 +56,7 @@ private:
     };
 
     void arrange();
+    void placeParts(const QRect& room);
     bool isNeeded(const QWidget* part) const;
 
     QWidget* host_ = nullptr;

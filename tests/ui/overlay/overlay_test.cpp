@@ -16,6 +16,7 @@
 #include <QLocale>
 #include <QSignalSpy>
 #include <QTest>
+#include <QVBoxLayout>
 
 #include <gtest/gtest.h>
 
@@ -668,6 +669,32 @@ TEST_F(OverlayLayoutTest, PlacesThePartsInTheirCorners)
     EXPECT_EQ(legend_->geometry().bottomLeft(), QPoint(10, 689));
     EXPECT_NEAR(force_meter_->geometry().center().x(), 500, 1);
     EXPECT_EQ(force_meter_->geometry().bottom(), 689);
+}
+
+// As when a panel closes with the tool for which the hint was hidden.
+TEST_F(OverlayLayoutTest, FollowsTheSizeThatTheHostGetsWhileAPartIsShown)
+{
+    layout_->setWanted(hint_, false);
+    QWidget window;
+    window.setAttribute(Qt::WA_DontShowOnScreen);
+    auto* layout = new QVBoxLayout(&window);
+    layout->setContentsMargins({});
+    auto* panel = new QWidget;
+    panel->setFixedHeight(300);
+    layout->addWidget(&host_, 1);
+    layout->addWidget(panel);
+    window.resize(1000, 800);
+    window.show();
+    QCoreApplication::processEvents();
+    const int before = host_.height();
+    panel->hide();
+    layout_->setWanted(hint_, true);
+    EXPECT_TRUE(hint_->isVisible());
+    QCoreApplication::processEvents();
+    EXPECT_GT(host_.height(), before + 200);
+    EXPECT_GT(scale_bar_->geometry().bottom(), host_.height() - 30);
+    EXPECT_GT(legend_->geometry().bottom(), host_.height() - 30);
+    host_.setParent(nullptr); // not the window's to delete
 }
 
 TEST_F(OverlayLayoutTest, IsMirroredFromRightToLeft)
