@@ -322,6 +322,7 @@ OtherScene SceneCommands::sceneForSession() const
 {
     GlobeView* globe = &parts_.globe;
     return {.fly_to = [globe](const auto& map) { return globe->flyToLayer(map); },
+            .reveal = [globe](const auto& map) { return globe->revealLayer(map); },
             .range_in_picture = [globe](const auto& map) { return globe->rangeInPicture(map); }};
 }
 

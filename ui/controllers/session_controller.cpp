@@ -770,6 +770,9 @@ void SessionController::revealWhatCame()
         return;
     }
     to_reveal_ = LayerId::None;
+    if (other_scene_ && other_scene_->reveal(layer->map)) {
+        return;
+    }
     for (int row = 0; row < kMiddleProbes; ++row) {
         for (int column = 0; column < kMiddleProbes; ++column) {
             const auto position =

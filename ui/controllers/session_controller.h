@@ -54,6 +54,8 @@ enum class ChangeKind { Single, OfDrag };
 struct OtherScene {
     /// Flies to where all of a layer is in sight; false if the layer is not in the scene.
     std::function<bool(const std::shared_ptr<const Map>&)> fly_to;
+    /// The same, unless some of the layer is in sight.
+    std::function<bool(const std::shared_ptr<const Map>&)> reveal;
     /// The elevations of a layer in the picture; empty if the picture shows none of it.
     std::function<std::optional<HeightRange>(const std::shared_ptr<const Map>&)> range_in_picture;
 };

@@ -20,6 +20,9 @@ using std::chrono::milliseconds;
 // The interval at which samples that were requested are looked for.
 constexpr milliseconds kSampleInterval{40};
 
+// Of a layer, along each side, when it is looked whether some of it is in the picture.
+constexpr std::size_t kProbedParts = 4;
+
 QLabel* textOver(QWidget& view)
 {
     auto* label = new QLabel(&view);
@@ -191,6 +194,18 @@ Viewport GlobeView::viewport() const
 
 bool GlobeView::flyToLayer(const std::shared_ptr<const Map>& map)
 {
+    is_awaited_only_unseen_ = false;
+    return flyWhenPlaced(map);
+}
+
+bool GlobeView::revealLayer(const std::shared_ptr<const Map>& map)
+{
+    is_awaited_only_unseen_ = true;
+    return flyWhenPlaced(map);
+}
+
+bool GlobeView::flyWhenPlaced(const std::shared_ptr<const Map>& map)
+{
     awaited_.reset();
     if (!layers_.isWanted(map)) {
         return false;
@@ -208,8 +223,26 @@ void GlobeView::flyToAwaited()
         maps.begin(), maps.end(), [&](const BodyTerrain& terrain) { return terrain.map() == map; });
     if (map && placed != maps.end()) {
         awaited_.reset();
-        camera_.flyTo(*placed);
+        if (!is_awaited_only_unseen_ || !isAnyInPicture(*placed)) {
+            camera_.flyTo(*placed);
+        }
     }
+}
+
+// Of a few samples all over it.
+bool GlobeView::isAnyInPicture(const BodyTerrain& terrain) const
+{
+    const BodyGrid& grid = *terrain.grid();
+    for (std::size_t i = 0; i <= kProbedParts; ++i) {
+        for (std::size_t k = 0; k <= kProbedParts; ++k) {
+            const std::size_t column = k * (grid.columns() - 1) / kProbedParts;
+            const std::size_t row = i * (grid.rows() - 1) / kProbedParts;
+            if (isInPicture(grid.at(column, row, 0.0))) {
+                return true;
+            }
+        }
+    }
+    return false;
 }
 
 void GlobeView::flyTo(const BodyCamera& camera)

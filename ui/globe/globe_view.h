@@ -116,6 +116,8 @@ public:
     /// Flies to where all of a layer is in sight, or does so when it is placed. False if the layer
     /// is not among those to show.
     bool flyToLayer(const std::shared_ptr<const Map>& map);
+    /// The same, unless some of the layer is in the picture.
+    bool revealLayer(const std::shared_ptr<const Map>& map);
     /// Looks at a place at once, from the same distance and side, or with another azimuth.
     void lookAt(const GeographicPoint& place, std::optional<Angle> azimuth = {})
     {
@@ -227,6 +229,8 @@ private:
     void connectParts();
     void showLayers(bool is_other_body);
     void finishPlacing();
+    bool flyWhenPlaced(const std::shared_ptr<const Map>& map);
+    bool isAnyInPicture(const BodyTerrain& terrain) const;
     void flyToAwaited();
     void releaseGraphics() { canvas_.release(); }
     void report();
@@ -248,6 +252,7 @@ private:
     GlobeCamera camera_;
     std::optional<BodyCamera> first_camera_; // when a layer is placed
     std::weak_ptr<const Map> awaited_;       // to fly to when it is placed
+    bool is_awaited_only_unseen_ = false;    // and none of it is in the picture then
     Tool tool_ = Tool::Pan;
     std::map<Tool, PlaceTool*> place_tools_;
 

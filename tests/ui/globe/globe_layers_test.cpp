@@ -190,6 +190,34 @@ TEST_F(GlobeLayersTest, AMapThatIsOpenedOnTheGlobeIsInItsPictureOnceTheWindowHas
     EXPECT_EQ(globe().scene().maps().size(), 2U);
 }
 
+TEST_F(GlobeLayersTest, AMapThatIsOpenedOutOfSightIsFlownTo)
+{
+    ASSERT_TRUE(showGlobe());
+    globe().setCamera(
+        {.target = {.longitude = Angle::degrees(100.0), .latitude = Angle::degrees(-40.0)},
+         .distance_m = 1e6});
+    ASSERT_TRUE(openNested());
+    ASSERT_TRUE(rests());
+    ASSERT_EQ(globe().scene().maps().size(), 2U);
+    EXPECT_NEAR(globe().camera().target.latitude.degrees(), 80.0, 10.0);
+    const auto ground = globe().groundAt(globeMiddle());
+    ASSERT_TRUE(ground);
+    EXPECT_EQ(ground->index, 0U);
+}
+
+TEST_F(GlobeLayersTest, AMapThatIsOpenedInSightLeavesTheCameraWhereItIs)
+{
+    ASSERT_TRUE(showGlobe());
+    globe().setCamera(
+        {.target = {.longitude = {}, .latitude = Angle::degrees(85.0)}, .distance_m = 1e6});
+    const BodyCamera before = globe().camera();
+    ASSERT_TRUE(openNested());
+    ASSERT_TRUE(rests());
+    ASSERT_EQ(globe().scene().maps().size(), 2U);
+    EXPECT_NEAR(globe().camera().target.latitude.degrees(), before.target.latitude.degrees(), 1e-9);
+    EXPECT_NEAR(globe().camera().target.longitude.degrees(), 0.0, 1e-9);
+}
+
 // The flat map hides the lower one; a notice offers the globe.
 TEST_F(GlobeLayersTest, ANoticeOffersTheGlobeForLayersOfOtherCrss)
 {
