@@ -1142,7 +1142,7 @@
         <translation>%1 liegt außerhalb der Karte.</translation>
     </message>
     <message>
-        <source>Open a file of names with File › Open Names….</source>
+        <source>Open a file of names with File › Open Names…</source>
         <translation>Öffnen Sie mit Datei › Namen öffnen … eine Datei mit Namen.</translation>
     </message>
     <message>
@@ -1874,8 +1874,8 @@
         <translation>Lizenz</translation>
     </message>
     <message>
-        <source>Licensed under the MIT License</source>
-        <translation>Lizenziert unter der MIT-Lizenz</translation>
+        <source>MIT License; with QCustomPlot, which draws its diagrams, this program is distributed under the GNU General Public License, version 3</source>
+        <translation>MIT-Lizenz; mit QCustomPlot, das seine Diagramme zeichnet, wird dieses Programm unter der GNU General Public License, Version 3, weitergegeben</translation>
     </message>
     <message>
         <source>Icon of the program</source>
@@ -4653,8 +4653,8 @@ Was fehlt, lässt sich im Hinweis über der Karte suchen oder entfernen.</transl
 <context>
     <name>marsview::NameSearch</name>
     <message>
-        <source>Map › Go to Place… goes to coordinates (Ctrl+G).</source>
-        <translation>Zu Koordinaten führt Karte › Gehe zu Ort … (Strg+G).</translation>
+        <source>View › Go to Place… goes to coordinates (Ctrl+G).</source>
+        <translation>Zu Koordinaten führt Ansicht › Gehe zu Ort … (Strg+G).</translation>
     </message>
     <message>
         <source>%1 names in %2</source>

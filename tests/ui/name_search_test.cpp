@@ -190,7 +190,7 @@ TEST_F(NameSearchTest, CoordinatesAreReferredToTheDialogThatTakesThem)
     openMars();
     QTest::keyClicks(&field(), QStringLiteral("18.65 N 226.2 E"));
     EXPECT_EQ(listed(completer()).back().toStdString(),
-              "Map › Go to Place… goes to coordinates (Ctrl+G).");
+              "View › Go to Place… goes to coordinates (Ctrl+G).");
 }
 
 TEST_F(NameSearchTest, GoToPlaceTakesNamesAndCoordinates)
@@ -220,7 +220,7 @@ TEST_F(NameSearchTest, ABodyWithoutNamesSaysHowToOpenAFileOfNames)
     ASSERT_TRUE(openAndWait(*window_, map));
     QTest::keyClicks(&field(), QStringLiteral("sa"));
     EXPECT_EQ(listed(completer()).join(u'\n').toStdString(),
-              "No names on the Earth.\nOpen a file of names with File › Open Names….");
+              "No names on the Earth.\nOpen a file of names with File › Open Names…");
 
     const QString names = maps_.path(QStringLiteral("peaks.csv"));
     QFile file(names);

@@ -50,7 +50,7 @@ NameSearch::NameSearch(const Parts& parts, QObject* parent)
         const bool has_digit =
             std::any_of(text.begin(), text.end(), [](QChar c) { return c.isDigit(); });
         return has_digit ? why + QLatin1Char('\n') +
-                               tr("Map › Go to Place… goes to coordinates (Ctrl+G).")
+                               tr("View › Go to Place… goes to coordinates (Ctrl+G).")
                          : why;
     });
     connect(completer_, &NameCompleter::chosen, this, [this](const PlaceName& place) {

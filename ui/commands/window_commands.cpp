@@ -62,7 +62,8 @@ WindowCommands::WindowCommands(const WindowParts& parts, const WindowOptions& op
                     .notices = parts.notices,
                     .memory = options.isRemembered() ? RecentFiles::Memory::Settings
                                                      : RecentFiles::Memory::WindowOnly,
-                    .has_questions = options.questions == WindowOptions::Questions::Ask})
+                    .has_questions = options.questions == WindowOptions::Questions::Ask,
+                    .bundled_maps = QString::fromStdString(options.bundled_maps.string())})
     , contours({.window = parts.window,
                 .session = parts.session,
                 .scenes = parts.scenes,

@@ -39,7 +39,9 @@ AboutDialog::AboutDialog(const QString& graphics, QWidget* parent)
     add(tr("GDAL"), QString::fromStdString(gdalVersion()));
     add(tr("Qt"), QString::fromLatin1(qVersion()));
     add(tr("OpenGL"), graphics.isEmpty() ? tr("none") : graphics);
-    add(tr("License"), tr("Licensed under the MIT License"));
+    add(tr("License"),
+        tr("MIT License; with QCustomPlot, which draws its diagrams, this program is "
+           "distributed under the GNU General Public License, version 3"));
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
     auto* layout = new QVBoxLayout(this);

@@ -140,7 +140,10 @@ QString ProjectMenu::folder() const
         return QDir::homePath();
     }
     const QFileInfo map(QString::fromStdString(active->map->spec().path));
-    return map.exists() ? map.absolutePath() : QDir::homePath();
+    const QFileInfo folder(map.absolutePath());
+    const bool is_bundled = folder == QFileInfo(parts_.bundled_maps);
+    return map.exists() && !is_bundled && folder.isWritable() ? folder.absoluteFilePath()
+                                                              : QDir::homePath();
 }
 
 void ProjectMenu::saveAs(const std::function<void()>& next)

@@ -37,6 +37,8 @@ public:
         RecentFiles::Memory memory = RecentFiles::Memory::WindowOnly;
         /// Whether questions are asked; otherwise unsaved changes are dropped.
         bool has_questions = false;
+        /// Of the maps that come with the program; empty for none.
+        QString bundled_maps{};
     };
 
     explicit ProjectMenu(const Parts& parts, QObject* parent = nullptr);

@@ -92,7 +92,7 @@ QString outsideMapText(const PlaceName& place)
 QString noNamesText(const Body* body)
 {
     const QString how =
-        QCoreApplication::translate("PlaceName", "Open a file of names with File › Open Names….");
+        QCoreApplication::translate("PlaceName", "Open a file of names with File › Open Names…");
     const QString why =
         body == nullptr ? QCoreApplication::translate("PlaceName", "No names on an unknown body.")
                         //: %1 is a body: "Venus", "the Earth"

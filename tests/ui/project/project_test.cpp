@@ -108,6 +108,27 @@ protected:
 
 } // namespace
 
+TEST_F(ProjectWindowTest, IsOfferedNextToTheMapButNotAmongBundledOnes)
+{
+    const QString map = maps_.mars();
+    const QString folder = QFileInfo(map).absolutePath();
+    const auto offered = [&](const fs::path& bundled) {
+        WindowOptions options = testWindowOptions();
+        options.bundled_maps = bundled;
+        makeWindow(kSmall, options);
+        EXPECT_TRUE(openAndWait(*window_, map));
+        window_->commands().project_menu.saveProjectAs()->trigger();
+        auto* dialog = window_->findChild<QFileDialog*>(QStringLiteral("saveProjectDialog"));
+        EXPECT_NE(dialog, nullptr);
+        const QString of_dialog =
+            dialog != nullptr ? dialog->directory().absolutePath() : QString();
+        dialog->reject();
+        return of_dialog;
+    };
+    EXPECT_EQ(offered({}), folder);
+    EXPECT_EQ(offered(folder.toStdString()), QDir::homePath());
+}
+
 TEST_F(ProjectWindowTest, OpensWhatWasSavedWithCameraAndLooks)
 {
     makeChangedWindow();
