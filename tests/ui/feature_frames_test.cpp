@@ -99,12 +99,11 @@ protected:
         ASSERT_TRUE(openAndWait(*window_,
                                 map.isEmpty() ? QString::fromStdString(test::bundledMars()) : map));
     }
+    static bool isBenchmark() { return qEnvironmentVariableIsSet("MARSVIEW_FRAME_FEATURES"); }
     // In a benchmark, so large that the view is.
-    static QSize windowSize()
-    {
-        return qEnvironmentVariableIsSet("MARSVIEW_FRAME_FEATURES") ? QSize(1600, 1000)
-                                                                    : kWithPanels;
-    }
+    static QSize windowSize() { return isBenchmark() ? QSize(1600, 1000) : kSmall; }
+    // A few in a test.
+    static int frames(int of_benchmark) { return isBenchmark() ? of_benchmark : 5; }
     // A few thousand in a test, as many as the environment says in a benchmark.
     static int count()
     {
@@ -135,11 +134,11 @@ protected:
     {
         waitForRest();
         const OrbitCamera home = view().camera();
-        constexpr int kFrames = 60;
-        constexpr int kWarmUp = 10; // the governor learns what a frame costs
+        const int frame_count = frames(60);
+        const int warm_up = frames(10); // the governor learns what a frame costs
         FrameClock clock;
-        for (int i = 0; i < kWarmUp + kFrames; ++i) {
-            if (i == kWarmUp) {
+        for (int i = 0; i < warm_up + frame_count; ++i) {
+            if (i == warm_up) {
                 clock.start();
             }
             OrbitCamera camera = home;
@@ -149,7 +148,7 @@ protected:
             view().setCamera(camera);
             waitForFrame(swapped);
         }
-        const FrameCostMs cost = clock.perFrame(kFrames);
+        const FrameCostMs cost = clock.perFrame(frame_count);
         view().setCamera(home);
         return cost;
     }
@@ -157,10 +156,10 @@ protected:
     FrameCostMs resting()
     {
         waitForRest();
-        constexpr int kFrames = 20;
+        const int frame_count = frames(20);
         constexpr int kWarmUp = 3;
         FrameClock clock;
-        for (int i = 0; i < kWarmUp + kFrames; ++i) {
+        for (int i = 0; i < kWarmUp + frame_count; ++i) {
             if (i == kWarmUp) {
                 clock.start();
             }
@@ -171,7 +170,7 @@ protected:
             view().update();
             waitForFrame(swapped);
         }
-        return clock.perFrame(kFrames);
+        return clock.perFrame(frame_count);
     }
     static double median(std::vector<double> values)
     {

@@ -21,8 +21,8 @@ namespace marsview {
 /// Base of tests that work in a window with a map.
 class MapWindowTest : public testing::Test {
 protected:
-    static constexpr QSize kSmall{1000, 700};
-    static constexpr QSize kWithPanels{1280, 800};
+    static constexpr QSize kSmall{820, 600};
+    static constexpr QSize kWithPanels{1100, 700};
 
     void makeWindow(const QSize& size, const WindowOptions& options = testWindowOptions())
     {

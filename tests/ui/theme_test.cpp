@@ -1,11 +1,14 @@
 #include "tests/ui/color_contrast.h"
 #include "tests/ui/test_map.h"
 #include "ui/controllers/preferences.h"
+#include "ui/dialogs/preferences_dialog.h"
 #include "ui/window/theme.h"
 
 #include <QAbstractButton>
 #include <QApplication>
+#include <QComboBox>
 #include <QDialogButtonBox>
+#include <QLabel>
 #include <QSettings>
 #include <QTemporaryDir>
 
@@ -101,6 +104,21 @@ TEST(Preferences, AreTheDefaultsIfTheFileIsInvalid)
     settings.setValue(QStringLiteral("preferences/framesPerSecond"), -3);
     settings.setValue(QStringLiteral("preferences/contactModel"), QStringLiteral("telepathy"));
     EXPECT_EQ(preferencesFrom(settings), Preferences{});
+}
+
+TEST(Preferences, SayThatAnotherLanguageComesWithTheNextStart)
+{
+    PreferencesDialog dialog({}, {}, nullptr);
+    dialog.show();
+    auto* language = dialog.findChild<QComboBox*>(QStringLiteral("language"));
+    const auto* note = dialog.findChild<QLabel*>(QStringLiteral("restartNote"));
+    ASSERT_TRUE(language != nullptr && note != nullptr);
+    EXPECT_FALSE(note->isVisible());
+    const int first = language->currentIndex();
+    language->setCurrentIndex(first + 1);
+    EXPECT_TRUE(note->isVisible());
+    language->setCurrentIndex(first);
+    EXPECT_FALSE(note->isVisible());
 }
 
 } // namespace

@@ -24,6 +24,7 @@ PreferencesDialog::PreferencesDialog(const Preferences& preferences,
     : QDialog(parent)
     , before_(preferences)
     , language_(new QComboBox(this))
+    , restart_note_(new QLabel(tr("Takes effect when MarsView is started again"), this))
     , theme_(new QComboBox(this))
     , height_unit_(new QComboBox(this))
     , frame_rate_(new QComboBox(this))
@@ -40,7 +41,8 @@ PreferencesDialog::PreferencesDialog(const Preferences& preferences,
     }
     language_->setAccessibleName(tr("Language"));
     language_->setObjectName(QStringLiteral("language"));
-    language_->setToolTip(tr("Takes effect when MarsView is started again"));
+    language_->setToolTip(restart_note_->text());
+    restart_note_->setObjectName(QStringLiteral("restartNote"));
     //: A theme: as light or dark as the desktop
     theme_->addItem(tr("Follow system"), static_cast<int>(Theme::System));
     theme_->addItem(tr("Light"), static_cast<int>(Theme::Light));
@@ -71,6 +73,7 @@ PreferencesDialog::PreferencesDialog(const Preferences& preferences,
     //: A group of the preferences
     QFormLayout* appearance = add_group(tr("Appearance"));
     appearance->addRow(tr("&Language"), language_);
+    appearance->addRow(QString(), restart_note_);
     appearance->addRow(tr("&Theme"), theme_);
     appearance->addRow(tr("&Elevation unit"), height_unit_);
     //: A group of the preferences: the picture of the terrain
@@ -108,6 +111,11 @@ PreferencesDialog::PreferencesDialog(const Preferences& preferences,
     layout->addWidget(pages_);
     layout->addWidget(buttons);
     fill(preferences);
+    restart_note_->hide();
+    connect(language_, &QComboBox::currentIndexChanged, this,
+            [this, first = language_->currentIndex()](int chosen) {
+                restart_note_->setVisible(chosen != first);
+            });
 
     const auto notify = [this] { Q_EMIT preferencesChanged(this->preferences()); };
     for (QComboBox* box : {language_, theme_, height_unit_, frame_rate_}) {

@@ -9,6 +9,7 @@
 
 class QCheckBox;
 class QComboBox;
+class QLabel;
 class QTabWidget;
 
 namespace marsview {
@@ -37,6 +38,7 @@ private:
 
     Preferences before_;
     QComboBox* language_ = nullptr;
+    QLabel* restart_note_ = nullptr; // once another language is chosen
     QComboBox* theme_ = nullptr;
     QComboBox* height_unit_ = nullptr;
     QComboBox* frame_rate_ = nullptr;
