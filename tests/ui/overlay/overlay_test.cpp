@@ -683,6 +683,7 @@ TEST_F(OverlayLayoutTest, FollowsTheSizeThatTheHostGetsWhileAPartIsShown)
     panel->setFixedHeight(300);
     layout->addWidget(&host_, 1);
     layout->addWidget(panel);
+    new QVBoxLayout(&host_); // Qt finishes layouts up to the first widget without one
     window.resize(1000, 800);
     window.show();
     QCoreApplication::processEvents();
