@@ -354,8 +354,8 @@ void ServoCore::record(const StepResult& result, double tick_s) noexcept
 // Together with motions of ticks without an update.
 void ServoCore::noteMotion(const SceneMotion& motion) noexcept
 {
-    // A motion of the scene before is of no use in another one.
-    if (has_motion_ && motion_.body_turn_rad.has_value() == motion.body_turn_rad.has_value()) {
+    if (has_motion_) {
+        // In the scene of the later motion, to which an earlier one of another scene adds nothing.
         WorkspaceFrame begin;
         if (motion.body_turn_rad) {
             begin.body_axes = Rotation{};

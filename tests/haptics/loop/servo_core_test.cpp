@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <utility>
+#include <vector>
 
 namespace marsview::test {
 namespace {
@@ -47,15 +48,16 @@ private:
 struct TurnedCore {
     std::shared_ptr<Script> script = std::make_shared<Script>();
     ServoCore core;
+    LoopSettings settings{};
 
     explicit TurnedCore(const ServoCoreOptions& options)
         : core(std::make_unique<ScriptedDevice>(script), options)
     {
         core.begin();
-        LoopSettings& settings = core.settings().back();
         settings.map = servoMap(201, 201, [](std::size_t, std::size_t) { return 0.0; });
         settings.frame = {.scene_per_meter = 1000.0};
         settings.frame_number = 1;
+        core.settings().back() = settings;
         core.settings().publish();
     }
     LoopOutcome turn() { return core.turn(steady_clock::now(), false); }
@@ -107,6 +109,54 @@ TEST(ServoCore, CountsWhatItPublishes)
     EXPECT_EQ(counts.samples_missed, 0U);
     EXPECT_EQ(counts.ticks_with_misses, 0U);
     EXPECT_EQ(counts.not_recorded, 0U);
+}
+
+// Section 4.2 of the paper: to grab empty space and ratchet up or down moves the surface towards or
+// away from the camera. While the surface is covered, nothing updates the contact, and the next
+// record has all of the motion: x in the scene becomes to + (x - from) * scale.
+TEST(ServoCore, MotionsBetweenTwoUpdatesAreRecordedAsOne)
+{
+    ServoCoreOptions options;
+    TurnedCore rig(options);
+    rig.core.keepRecords(true);
+    LoopSettings settings = rig.settings;
+    const auto turn = [&](bool is_covered, bool is_grabbing) {
+        settings.is_covered = is_covered;
+        settings.is_grabbing = is_grabbing;
+        rig.core.settings().back() = settings;
+        rig.core.settings().publish();
+        rig.turn();
+        std::vector<TickRecord> records;
+        for (TickRecord record; rig.core.records().take(record);) {
+            records.push_back(record);
+        }
+        return records;
+    };
+    turn(false, false);
+    for (const double stroke_m : {2e-4, -3e-4}) {
+        turn(false, false);
+        ASSERT_EQ(turn(false, false).size(), 1U);
+        const WorkspaceFrame before = rig.core.state().seen_frame;
+        int motions = 0;
+        for (int i = 0; i < 20; ++i) {
+            const WorkspaceFrame last = rig.core.state().seen_frame;
+            rig.script->hand.z += stroke_m;
+            EXPECT_TRUE(turn(true, i > 0).empty());
+            motions += rig.core.state().seen_frame == last ? 0 : 1;
+        }
+        EXPECT_GT(motions, 10);
+        const std::vector<TickRecord> records = turn(false, false);
+        ASSERT_FALSE(records.empty());
+        ASSERT_TRUE(records.front().has_motion);
+        const SceneMotion& motion = records.front().motion;
+        const WorkspaceFrame& after = rig.core.state().seen_frame;
+        for (const WorkspacePoint& at : {WorkspacePoint{}, WorkspacePoint{0.05, -0.03, 0.02}}) {
+            const ScenePoint moved = motion.to + (before.toScene(at) - motion.from) * motion.scale;
+            EXPECT_NEAR(length(moved - after.toScene(at)), 0.0, 1e-9);
+        }
+        EXPECT_EQ(motion.scale > 1.0, stroke_m < 0.0) << "lifted, the surface comes nearer";
+        EXPECT_FALSE(turn(false, false).front().has_motion);
+    }
 }
 
 } // namespace
