@@ -156,6 +156,15 @@ WorkspaceFrame WorkspaceFrame::after(const SceneMotion& motion) const noexcept
             .turn = turn + by};
 }
 
+SceneMotion combined(const SceneMotion& first, const SceneMotion& last) noexcept
+{
+    WorkspaceFrame begin;
+    if (last.body_turn_rad) {
+        begin.body_axes = Rotation{};
+    }
+    return begin.after(first).after(last).motionFrom(begin);
+}
+
 bool WorkspaceFrame::isSound() const noexcept
 {
     const double sum = anchor.x + anchor.y + anchor.z + place.x + place.y + place.z +

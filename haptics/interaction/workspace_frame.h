@@ -51,6 +51,9 @@ struct WorkspaceFrame {
     bool isSound() const noexcept;
 };
 
+/// Both motions of a scene as one; `last` alone if they are of different scenes.
+SceneMotion combined(const SceneMotion& first, const SceneMotion& last) noexcept;
+
 /// The frame in which `reach` covers all of the map that the camera sees, from the lowest to the
 /// highest point of `box`: the view's heading is away from the user, and the center of the visible
 /// part is the center of the reach. If the camera sees nothing of the map, the frame covers the

@@ -331,8 +331,9 @@ void ServoCore::record(const StepResult& result, double tick_s) noexcept
     if (!has_room && result.goals.count == 0) {
         ++counts_.not_recorded;
     }
-    if (result.motion) {
-        noteMotion(*result.motion);
+    if (result.motion) { // together with those of ticks without an update
+        motion_ = has_motion_ ? combined(motion_, *result.motion) : *result.motion;
+        has_motion_ = true;
     }
     for (std::size_t i = 0; i < result.goals.count; ++i) {
         record.has_motion = has_motion_;
@@ -349,22 +350,6 @@ void ServoCore::record(const StepResult& result, double tick_s) noexcept
         }
     }
     flight_.add(record);
-}
-
-// Together with motions of ticks without an update.
-void ServoCore::noteMotion(const SceneMotion& motion) noexcept
-{
-    if (has_motion_) {
-        // In the scene of the later motion, to which an earlier one of another scene adds nothing.
-        WorkspaceFrame begin;
-        if (motion.body_turn_rad) {
-            begin.body_axes = Rotation{};
-        }
-        motion_ = begin.after(motion_).after(motion).motionFrom(begin);
-    } else {
-        motion_ = motion;
-    }
-    has_motion_ = true;
 }
 
 // Whether updates are recorded. A new recording gets all terrain records.

@@ -107,7 +107,6 @@ private:
     DeviceStatus writeForce(const Vec3& force_n) noexcept;
     void publish(const StepResult& result, double tick_s) noexcept;
     void record(const StepResult& result, double tick_s) noexcept;
-    void noteMotion(const SceneMotion& motion) noexcept;
     bool takeRecording() noexcept;
     bool recordGround(bool was_told) noexcept;
 

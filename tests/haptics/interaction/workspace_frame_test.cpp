@@ -170,6 +170,46 @@ TEST(WorkspaceFrame, AMotionMovesEveryPlaceOfItsScene)
     expectMoved(frame.after(motion));
 }
 
+// A point p of the scene moves to `to` + R (p - `from`) s, with R about the axis: first by one
+// motion, then by the other.
+TEST(WorkspaceFrame, TwoMotionsCombinedMoveAsOneAfterTheOther)
+{
+    Random random;
+    const auto moved = [](const SceneMotion& motion, const ScenePoint& point) {
+        const Vec3 along = point - motion.from;
+        const Vec3 turn = motion.body_turn_rad.value_or(Vec3{0.0, 0.0, motion.turn_rad});
+        const double angle = length(turn);
+        const Vec3 axis = turn * (1.0 / angle);
+        const Vec3 turned = along * std::cos(angle) + cross(axis, along) * std::sin(angle) +
+                            axis * (dot(axis, along) * (1.0 - std::cos(angle)));
+        return motion.to + turned * motion.scale;
+    };
+    const auto any = [&random] {
+        return Vec3{random.uniform(-2.0, 2.0), random.uniform(-2.0, 2.0),
+                    random.uniform(-2.0, 2.0)};
+    };
+    const auto motionOn = [&](bool is_body) {
+        SceneMotion motion{.from = any(), .to = any(), .scale = random.uniform(0.5, 2.0)};
+        if (is_body) {
+            motion.body_turn_rad = any();
+        } else {
+            motion.turn_rad = random.uniform(0.1, 2.0);
+        }
+        return motion;
+    };
+    for (int i = 0; i < 100; ++i) {
+        for (const bool is_body : {false, true}) {
+            const SceneMotion first = motionOn(is_body);
+            const SceneMotion last = motionOn(is_body);
+            const SceneMotion other = motionOn(!is_body);
+            const ScenePoint at = any();
+            EXPECT_NEAR(length(moved(combined(first, last), at) - moved(last, moved(first, at))),
+                        0.0, 1e-12);
+            EXPECT_NEAR(length(moved(combined(other, last), at) - moved(last, at)), 0.0, 1e-12);
+        }
+    }
+}
+
 TEST(WorkspaceFrame, OnlyFiniteFramesWithAScaleAreSound)
 {
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
