@@ -558,6 +558,27 @@ TEST(MeshSurface, FacetsKnowTheirNeighbors)
 
 // Between two goals nanometers apart, a million meters from the origin: the position is the nearest
 // number, and the rest is what it lacks, exact to a few units in the last place of the way.
+// A goal on one of an edge's faces, or in the plane of both, is on the surface: the segment to it
+// lies in a face. z = bend |x - 1| is flat, a valley, a ridge.
+TEST(MeshSurface, NoWayLeadsOutOfAnEdgeToAGoalOnItsFaces)
+{
+    for (const double bend : {0.0, 1.0, -1.0}) {
+        const MeshSurface surface(
+            test::meshOf(test::sheet(3, 3, [bend](int c, int) { return bend * std::abs(c - 1); })));
+        SurfaceContact<MeshSurface> contact;
+        contact.feature = ContactFeature::Edge;
+        contact.edge = surface.edgeBetween({1}, {4}); // from (1, 0) to (1, -1)
+        contact.along = 0.5;
+        for (const double x : {0.25, 0.5, 1.5, 1.75}) {
+            const double z = bend * std::abs(x - 1.0);
+            const auto goal = [&](double height) { return *surface.goal({x, -0.5, z + height}); };
+            EXPECT_FALSE(surface.wayOut(contact, goal(0.0))) << bend << " " << x;
+            EXPECT_FALSE(surface.wayOut(contact, goal(-0.125))) << bend << " " << x;
+            EXPECT_TRUE(surface.wayOut(contact, goal(0.125))) << bend << " " << x;
+        }
+    }
+}
+
 TEST(MeshSurface, GoalsOnAPathOfNanometersKeepTheirRests)
 {
     const MeshSurface surface(test::meshOf(test::star()));
