@@ -2,6 +2,7 @@
 #include "core/terrain/ray_cast.h"
 #include "tests/core/contact/contact_terrain.h"
 #include "tests/support/fractal_terrain.h"
+#include "tests/support/make_terrain.h"
 #include "tests/support/nan.h"
 
 #include <gtest/gtest.h>
@@ -9,11 +10,43 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
 namespace marsview {
 namespace {
+
+// Samples read as they are stored: their elevation times the exaggeration, and in voids that of the
+// filled terrain.
+TEST(HeightfieldSurface, PlainHeightsAreExaggeratedInVoidsToo)
+{
+    constexpr std::size_t kSide = 20;
+    constexpr double kExaggeration = 3.0;
+    const auto height = [](std::size_t column, std::size_t row) {
+        const bool is_void = column % 7 == 3 && row % 5 > 2;
+        return is_void ? kNan : 8.0 * static_cast<double>(column) - 0.5 * static_cast<double>(row);
+    };
+    const auto expectHeights = [&](const auto& heights, const FilledHeightfield& terrain) {
+        int voids = 0;
+        for (std::size_t row = 0; row < kSide; ++row) {
+            for (std::size_t column = 0; column < kSide; ++column) {
+                const bool is_void = std::isnan(height(column, row));
+                voids += is_void ? 1 : 0;
+                EXPECT_EQ(
+                    heights.at(static_cast<std::int32_t>(column), static_cast<std::int32_t>(row)),
+                    kExaggeration * (is_void ? terrain.sample(column, row) : height(column, row)));
+            }
+        }
+        EXPECT_GT(voids, 20);
+    };
+    const auto whole = test::filledTerrain(test::int16Terrain(kSide, kSide, {0.5, 100.0}, height));
+    expectHeights(PlainHeights<std::int16_t>(*whole, kExaggeration), *whole);
+    expectHeights(FilledHeights(*whole, kExaggeration), *whole);
+    const auto floats = test::filledTerrain(test::floatTerrain(kSide, kSide, height));
+    expectHeights(PlainHeights<float>(*floats, kExaggeration), *floats);
+    expectHeights(FilledHeights(*floats, kExaggeration), *floats);
+}
 
 TEST(HeightfieldSurface, CastsMatchRays)
 {
