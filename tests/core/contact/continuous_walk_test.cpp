@@ -111,5 +111,43 @@ TEST(ContinuousWalk, IsTheLimitOfEverShorterUpdates)
     }
 }
 
+// The same where every edge is a ridge or a valley: where on its ridge a fall begins can decide
+// between two basins.
+TEST(ContinuousWalk, FallsFromRidgesOfNoiseAsItsLimitDoes)
+{
+    for (const double relief_m : {0.3, 1.0}) {
+        test::Random random;
+        std::vector<float> heights(60 * 60);
+        for (float& height : heights) {
+            height = static_cast<float>(random.uniform(-relief_m, relief_m));
+        }
+        const HeightfieldSurface surface = surfaceOver(test::filledTerrain(60, heights));
+        Model model(surface);
+        SurfaceWalk<HeightfieldSurface> walk(surface);
+        ScenePoint goal{0.0, 0.0, 0.0};
+        constexpr int kUpdates = 20000;
+        int differ = 0;
+        for (int i = 0; i < kUpdates; ++i) {
+            const ScenePoint from = goal;
+            goal.x = std::clamp(from.x + random.uniform(-1.0, 1.0), -25.0, 25.0);
+            goal.y = std::clamp(from.y + random.uniform(-1.0, 1.0), -25.0, 25.0);
+            goal.z =
+                surface.height(surface.frame().toGrid(goal)) + relief_m * random.uniform(-3.0, 0.1);
+            constexpr int kPieces = 100;
+            for (int piece = 1; piece < kPieces; ++piece) {
+                walk.update(from + (goal - from) * (static_cast<double>(piece) / kPieces));
+            }
+            const ScenePoint limit = walk.update(goal).proxy;
+            if (distance(model.update(goal).proxy, limit) > 1e-6) {
+                ++differ;
+                model.place(goal);
+                walk.place(goal);
+            }
+        }
+        std::printf("relief %g m: %d of %d updates differ\n", relief_m, differ, kUpdates);
+        EXPECT_LE(differ, kUpdates / 5000);
+    }
+}
+
 } // namespace
 } // namespace marsview
