@@ -17,6 +17,61 @@
 namespace marsview {
 namespace {
 
+// On z = x + 2 y, in numbers without rounding: a path that ends on the surface touches it there, in
+// the middle of either face, on edges and at samples; one that ends above does not.
+TEST(HeightfieldSurface, APathThatEndsOnTheSurfaceTouchesItThere)
+{
+    constexpr std::size_t kSide = 9; // around the origin
+    const auto terrain = test::filledTerrain(
+        test::floatTerrain(kSide, kSide, [](std::size_t column, std::size_t row) {
+            return static_cast<double>(column) - 2.0 * static_cast<double>(row);
+        }));
+    const HeightfieldSurface surface = test::surfaceOver(terrain);
+    for (const GridPoint end : {GridPoint{2.25, 3.5}, GridPoint{2.5, 3.25}, GridPoint{2.5, 3.5},
+                                GridPoint{2.0, 3.5}, GridPoint{2.5, 3.0}, GridPoint{2.0, 3.0}}) {
+        for (const GridPoint begin : {end, GridPoint{6.5, 1.75}, GridPoint{0.0, 0.0}}) {
+            const auto goal = [&](const GridPoint& at, double above_m) {
+                return *surface.goal(
+                    surface.frame().toScene(at, at.column - 2.0 * at.row + above_m));
+            };
+            const auto cast = surface.castFree(goal(begin, 1.0), goal(end, 0.0));
+            ASSERT_TRUE(cast.contact);
+            EXPECT_EQ(surface.gridPoint(*cast.contact), end);
+            EXPECT_FALSE(surface.castFree(goal(begin, 1.0), goal(end, 0x1p-20)).contact);
+        }
+    }
+}
+
+TEST(HeightfieldSurface, EdgesOfTheBorderHaveOneFace)
+{
+    constexpr std::int32_t kSide = 4;
+    const auto terrain = test::filledTerrain(kSide, std::vector<float>(kSide * kSide, 0.0F));
+    for (const double east : {1.0, -1.0}) { // mirrored
+        SceneFrame frame = test::unitFrame(*terrain);
+        frame.east_per_column = east;
+        const HeightfieldSurface surface(terrain, frame, 1.0);
+        for (std::int32_t row = 0; row < kSide; ++row) {
+            for (std::int32_t column = 0; column < kSide; ++column) {
+                const auto has_two = [&](std::int32_t columns, std::int32_t rows) {
+                    return surface
+                        .edgeFacets(
+                            surface.edgeBetween({column, row}, {column + columns, row + rows}))
+                        .has_right;
+                };
+                if (column + 1 < kSide) {
+                    EXPECT_EQ(has_two(1, 0), row > 0 && row + 1 < kSide);
+                }
+                if (row + 1 < kSide) {
+                    EXPECT_EQ(has_two(0, 1), column > 0 && column + 1 < kSide);
+                }
+                if (column + 1 < kSide && row + 1 < kSide) {
+                    EXPECT_TRUE(has_two(1, 1));
+                }
+            }
+        }
+    }
+}
+
 // Samples read as they are stored: their elevation times the exaggeration, and in voids that of the
 // filled terrain.
 TEST(HeightfieldSurface, PlainHeightsAreExaggeratedInVoidsToo)
