@@ -579,6 +579,20 @@ TEST(MeshSurface, NoWayLeadsOutOfAnEdgeToAGoalOnItsFaces)
     }
 }
 
+TEST(MeshSurface, RefusesGoalsWithAnyCoordinateTooFarAway)
+{
+    const MeshSurface surface(test::meshOf(test::cube()));
+    EXPECT_TRUE(surface.goal({2.0, -3.0, 4.0}));
+    for (double ScenePoint::*axis : {&ScenePoint::x, &ScenePoint::y, &ScenePoint::z}) {
+        for (const double value :
+             {1e300, -1e300, std::numeric_limits<double>::infinity(), std::nan("")}) {
+            ScenePoint point{2.0, -3.0, 4.0};
+            point.*axis = value;
+            EXPECT_FALSE(surface.goal(point)) << value;
+        }
+    }
+}
+
 TEST(MeshSurface, GoalsOnAPathOfNanometersKeepTheirRests)
 {
     const MeshSurface surface(test::meshOf(test::star()));
