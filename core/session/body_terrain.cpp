@@ -53,10 +53,14 @@ std::optional<std::pair<double, double>> within(const Ray& ray, double equatoria
 
 } // namespace
 
-BodyTerrain::BodyTerrain(std::shared_ptr<const Map> map, std::shared_ptr<const BodyGrid> grid)
+BodyTerrain::BodyTerrain(std::shared_ptr<const Map> map,
+                         std::shared_ptr<const BodyGrid> grid,
+                         std::shared_ptr<const Map> shown)
     : map_(std::move(map))
+    , shown_(shown ? std::move(shown) : map_)
     , grid_(std::move(grid))
-    , surface_(map_->georeference(), map_->heightfield())
+    , data_(map_->georeference(), map_->heightfield())
+    , surface_(shown_ == map_ ? data_ : ClosedSurface(map_->georeference(), shown_->heightfield()))
 {
     const Georeference& georeference = map_->georeference();
     const GeoTransform::Terms& t = georeference.transform().terms();
@@ -69,7 +73,7 @@ BodyTerrain::BodyTerrain(std::shared_ptr<const Map> map, std::shared_ptr<const B
 // The position, in the columns of the surface, or nothing where the map ends.
 std::optional<GridPoint> BodyTerrain::onSurface(GridPoint grid) const
 {
-    const Heightfield& heightfield = map_->heightfield();
+    const Heightfield& heightfield = shown_->heightfield();
     const double last_column = static_cast<double>(heightfield.columns() - 1);
     const double last_row = static_cast<double>(heightfield.rows() - 1);
     if (grid.row < 0.0 && grid_->isPole(0)) {
@@ -123,10 +127,10 @@ GridPoint BodyTerrain::nearTo(GridPoint grid, const GridPoint& other) const
 // Whether the terrain under a piece may reach up to it.
 bool BodyTerrain::canMeet(const Piece& piece, double sag_m) const
 {
-    const MinMaxPyramid& bounds = map_->analysis()->bounds;
+    const MinMaxPyramid& bounds = shown_->analysis()->bounds;
     const std::size_t top = bounds.levelCount() - 1;
     const double lowest_m = std::min(piece.from.height_m, piece.to.height_m) - sag_m;
-    const Heightfield& heightfield = map_->heightfield();
+    const Heightfield& heightfield = shown_->heightfield();
     const auto last = [](std::size_t count) { return static_cast<double>(count - 1); };
     const double left = std::min(piece.from.grid.column, piece.to.grid.column) - 1.0;
     const double right = std::max(piece.from.grid.column, piece.to.grid.column) + 1.0;
@@ -198,7 +202,7 @@ BodyTerrain::refined(double t, const Piece& piece, const Ray& ray, double exagge
 std::optional<BodyHit>
 BodyTerrain::castPiece(const Piece& piece, const Ray& ray, double exaggeration) const
 {
-    const Heightfield& heightfield = map_->heightfield();
+    const Heightfield& heightfield = shown_->heightfield();
     const double last_column = static_cast<double>(heightfield.columns() - 1);
     const double last_row = static_cast<double>(heightfield.rows() - 1);
     const GridPoint& from = piece.from.grid;
@@ -209,7 +213,7 @@ BodyTerrain::castPiece(const Piece& piece, const Ray& ray, double exaggeration) 
             std::min(from.column, to.column) + shift > last_column) {
             return;
         }
-        const auto hit = castRay(heightfield, map_->analysis()->bounds,
+        const auto hit = castRay(heightfield, shown_->analysis()->bounds,
                                  {.origin = {from.column + shift, from.row},
                                   .origin_height_m = piece.from.height_m,
                                   .columns_per_t = to.column - from.column,
@@ -249,7 +253,7 @@ BodyTerrain::castPiece(const Piece& piece, const Ray& ray, double exaggeration) 
 std::optional<BodyHit> BodyTerrain::cast(const Ray& ray, double exaggeration) const
 {
     const Ellipsoid& ellipsoid = grid_->ellipsoid();
-    const HeightRange range = map_->heightfield().range().value_or(HeightRange{});
+    const HeightRange range = shown_->heightfield().range().value_or(HeightRange{});
     const double highest_m = exaggeration * range.maximum_m;
     const double lowest_m = exaggeration * range.minimum_m;
     // Surfaces at a height over an ellipsoid are not quite ellipsoids.
@@ -368,9 +372,9 @@ std::optional<BodyScenePoint> BodyScene::cast(const Ray& ray, double exaggeratio
 
 HeightRange BodyScene::range() const
 {
-    HeightRange all = maps_.front().map()->heightfield().range().value_or(HeightRange{});
+    HeightRange all = maps_.front().shown()->heightfield().range().value_or(HeightRange{});
     for (const BodyTerrain& map : maps_) {
-        const HeightRange range = map.map()->heightfield().range().value_or(all);
+        const HeightRange range = map.shown()->heightfield().range().value_or(all);
         all = {std::min(all.minimum_m, range.minimum_m), std::max(all.maximum_m, range.maximum_m)};
     }
     return all;

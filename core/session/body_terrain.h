@@ -16,7 +16,7 @@ namespace marsview {
 /// A point of the terrain that a ray meets.
 struct BodyHit {
     GridPoint grid; // of the map; also between its last column and one more, or a row and a pole
-    double height_m = 0.0;   // of the surface, not exaggerated
+    double height_m = 0.0;   // of the terrain, not exaggerated
     double distance_m = 0.0; // along the ray
 };
 
@@ -25,24 +25,36 @@ struct BodyHit {
 /// outermost row and a pole (ClosedSurface). Immutable; copies share; any thread.
 class BodyTerrain {
 public:
-    BodyTerrain(std::shared_ptr<const Map> map, std::shared_ptr<const BodyGrid> grid);
+    /// `shown` is the map with its edges blended into the maps below it (core/feather), if they
+    /// are: the terrain is its surface. It has the same grid.
+    BodyTerrain(std::shared_ptr<const Map> map,
+                std::shared_ptr<const BodyGrid> grid,
+                std::shared_ptr<const Map> shown = nullptr);
 
+    /// As it was opened.
     const std::shared_ptr<const Map>& map() const noexcept { return map_; }
+    /// Whose surface is drawn and touched: map(), unless its edges are blended.
+    const std::shared_ptr<const Map>& shown() const noexcept { return shown_; }
     const std::shared_ptr<const BodyGrid>& grid() const noexcept { return grid_; }
 
     /// Where a place is on the map's grid; nothing where the map has no surface, voids apart. Next
     /// to a pole, rows may lie beyond the outermost ones.
     std::optional<GridPoint> gridAt(const GeographicPoint& place) const;
     using Tiles = ClosedSurface::Tiles;
-    /// The elevation in meters; NaN where the map has no surface.
+    /// The height of the terrain in meters; NaN where the map has no surface.
     double height(const GeographicPoint& place, Tiles tiles = Tiles::Now) const;
     /// The same at a position that gridAt() found.
     double heightOnGrid(const GridPoint& grid, Tiles tiles = Tiles::Now) const
     {
         return surface_.height(grid, tiles);
     }
-    /// Whether that is of full resolution.
-    bool isExact(const GridPoint& grid) const { return surface_.isExact(grid); }
+    /// The elevation there in the data, without blending.
+    double elevationOnGrid(const GridPoint& grid, Tiles tiles = Tiles::Now) const
+    {
+        return data_.height(grid, tiles);
+    }
+    /// Whether elevationOnGrid() is of full resolution.
+    bool isExact(const GridPoint& grid) const { return data_.isExact(grid); }
 
     /// The first point of the terrain along a ray of the body-fixed frame that begins above it, at
     /// full resolution; for a tiled map, at the finest resident level. To a thousandth of a cell.
@@ -71,8 +83,10 @@ private:
     std::optional<GridPoint> onSurface(GridPoint grid) const;
 
     std::shared_ptr<const Map> map_;
+    std::shared_ptr<const Map> shown_;
     std::shared_ptr<const BodyGrid> grid_;
-    ClosedSurface surface_;
+    ClosedSurface data_;            // of map_
+    ClosedSurface surface_;         // of shown_
     double columns_per_turn_ = 0.0; // 0 where longitude is not periodic along the columns
 };
 

@@ -2,6 +2,7 @@
 // camera together.
 #include "core/base/plain_number.h"
 #include "core/contact/layered_surface.h"
+#include "core/feather/feathered_map.h"
 #include "haptics/drivers/simulated/simulated_hand.h"
 #include "haptics/interaction/body_frame.h"
 #include "haptics/loop/camera_link.h"
@@ -426,6 +427,55 @@ TEST(LayeredTickOnMars, AStrokeOntoAFinerMapAndBackChangesTheForceNoFasterThanIt
     EXPECT_EQ(stroke.mapChanges(), 1);
     EXPECT_LE(stroke.stepMaxN(), stroke.rateNPerS() * kTickS + 1e-9);
     EXPECT_EQ(stroke.allocations(), 0U);
+}
+
+// Level maps of 1 and 3 km cells; a millimeter is 300 m. A hand that follows the terrain strokes
+// over the edge and back: there the limiter bounds the change of force, and with a feather it has
+// nothing to do.
+TEST(LayeredTickOverAFeather, AStrokeOverTheEdgeFeelsASlopeInPlaceOfTheStep)
+{
+    MapMaker maker;
+    const auto level = [](double height_m) {
+        return [height_m](std::size_t, std::size_t) { return height_m; };
+    };
+    const auto upper =
+        maker.make({41, 33, {-20500, 1000, 0, 16500, 0, -1000}, kTransverse}, level(kStepM));
+    const auto lower =
+        maker.make({81, 81, {224, 0.05, 0, 20, 0, -0.05}, "+proj=longlat +R=3396190"}, level(0.0));
+    JobMonitor monitor;
+    const auto terrain = [&monitor](const std::shared_ptr<const Map>& map) {
+        return BodyTerrain(map, BodyGrid::make(map->georeference(), monitor).value());
+    };
+    const auto blended =
+        featheredMap(terrain(upper), std::vector{terrain(lower)}, 15, monitor).value();
+    std::vector<double> step_max_n;
+    for (const auto& map : {upper, blended}) {
+        const JoinedMaps maps({map, lower}, 2.0);
+        Stroke stroke(maps, maps.placeOn(0, {40.0, 16.0}), 3e5);
+        stroke.to({0.04, 0.0, 0.01});
+        stroke.to({0.04, 0.0, -0.005});
+        stroke.rest();
+        double over_edge_n = 0.0;
+        Vec3 last_n = stroke.last().force_n;
+        bool is_over_lower = false;
+        bool is_over_upper = false;
+        stroke.each_tick = [&](const Stroke& now) {
+            over_edge_n = std::max(over_edge_n, length(now.last().force_n - last_n));
+            last_n = now.last().force_n;
+            is_over_lower = is_over_lower || now.last().proxy.z < 0.05 * kStepM;
+            is_over_upper = is_over_upper || now.last().proxy.z > 0.95 * kStepM;
+        };
+        for (const double x : {-0.06, 0.04}) {
+            stroke.across(x, 0.005);
+        }
+        EXPECT_TRUE(is_over_lower);
+        EXPECT_TRUE(is_over_upper);
+        step_max_n.push_back(over_edge_n);
+    }
+    std::printf("largest change of force in a tick: %.4f N, with a feather %.4f N\n", step_max_n[0],
+                step_max_n[1]);
+    EXPECT_GT(step_max_n[0], 0.2);
+    EXPECT_LT(step_max_n[1], 0.1 * step_max_n[0]);
 }
 
 // The upper map is about 200 m above the lower one; a millimeter is 100 m. One of them or both are
