@@ -136,16 +136,14 @@ FollowedMap followedMap(const LoopMap& map, double exaggeration)
 // The same of a map on its body.
 BodyLimits bodyLimitsOf(const LoopMap& map, double exaggeration)
 {
-    const HeightRange range = map.opened->heightfield().range().value_or(HeightRange{});
+    const HeightRange range = map.on_body.range();
     return bodyLimits(*map.grid, range.minimum_m * exaggeration, range.maximum_m * exaggeration);
 }
 
 BodyGround bodyGround(const LoopMap& map, double exaggeration)
 {
-    return [opened = map.opened, exaggeration](const GeographicPoint& place) {
-        const auto grid = opened->georeference().toGrid(place);
-        return grid ? exaggeration * opened->heightfield().heightNow(*grid)
-                    : std::numeric_limits<double>::quiet_NaN();
+    return [terrain = map.on_body, exaggeration](const GeographicPoint& place) {
+        return exaggeration * terrain.height(place);
     };
 }
 
@@ -231,7 +229,7 @@ LoopWatch::Clock::time_point watchedUntil(double seconds)
 Status runLoop(const LoopOptions& options)
 {
     FilesInUse files{
-        .maps = {options.map.path},
+        .maps = options.loop.pile.withPath(options.map.path),
         .read = {},
         .written = {options.record, options.flight, options.plot, recordedFile(options.device)}};
     if (isReplay(options.device)) {
@@ -402,6 +400,7 @@ void addLoopCommand(CLI::App& app, CommandAction& run)
     addSceneOption(*command, options->loop.scene,
                    ", which is touched as a ball; recordings are then in longitude, latitude and "
                    "elevation");
+    options->loop.pile.addTo(*command);
     command->add_option("--model", options->model, "contact model")
         ->capture_default_str()
         ->check(oneOf(names));
@@ -446,6 +445,7 @@ void addLoopCommand(CLI::App& app, CommandAction& run)
         ->transform(fileName());
     command->add_flag("--json", options->is_json, "print JSON");
     command->callback([options, &run] {
+        options->loop.pile.check(options->loop.scene);
         options->loop.kind = contactModelKind(options->model).value_or(kContactModelDefault);
         run = [options] { return runLoop(*options); };
     });

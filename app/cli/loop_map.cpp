@@ -1,5 +1,6 @@
 #include "app/cli/loop_map.h"
 
+#include "app/cli/pile_mesh.h"
 #include "core/base/check.h"
 #include "core/session/open_map.h"
 
@@ -8,6 +9,26 @@
 
 namespace marsview {
 namespace {
+
+// The map and those below it as one surface.
+Status touchPile(const LoopMapOptions& options, JobMonitor& monitor, LoopMap& result)
+{
+    auto pile = joinedPile(result.on_body.maps(), options.exaggeration, monitor);
+    if (!pile) {
+        return std::move(pile).error();
+    }
+    result.mesh = pile->mesh->map(0);
+    const double radius_m = options.radius_m.value_or(pile->radius_m);
+    if (pile->in_tiles.empty()) {
+        result.map = makeServoMap(pile->georeferences, pile->mesh,
+                                  {.kind = options.kind, .contact = {.radius_m = radius_m}});
+        return Done{};
+    }
+    result.touch = std::make_unique<TouchMap>(pile->in_tiles);
+    result.map =
+        result.touch->make(options.kind, pile->tiled, *pile->mesh, pile->georeferences, radius_m);
+    return Done{};
+}
 
 Status putOnBody(const MapOptions& map,
                  const LoopMapOptions& options,
@@ -18,12 +39,17 @@ Status putOnBody(const MapOptions& map,
         return Error{error.code, fmt::format("{}: {}", map.path, error.message)};
     };
     const Georeference& georeference = result.opened->georeference();
-    auto grid = BodyGrid::make(georeference, monitor);
-    if (!grid) {
-        return failed(grid.error());
+    auto maps = pileOnBody(result.opened, options.pile, monitor);
+    if (!maps) {
+        return std::move(maps).error();
     }
-    result.grid = std::move(grid).value();
+    result.grid = maps->front().grid();
+    result.on_body = BodyScene(std::move(maps).value());
     result.cell_m = 0.5 * (georeference.pixelWidthMeters() + georeference.pixelHeightMeters());
+    if (!options.pile.below.empty()) {
+        Status joined = touchPile(options, monitor, result);
+        return joined ? joined : Status(failed(joined.error()));
+    }
     const double radius_m = options.radius_m.value_or(0.5 * result.cell_m);
     if (result.opened->filled()) {
         auto mesh =

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/console/map_options.h"
+#include "app/console/map_pile.h"
 #include "app/console/scene_option.h"
 #include "core/body/body_grid.h"
 #include "core/body/body_mesh.h"
@@ -20,14 +21,16 @@ struct LoopMapOptions {
     double exaggeration = 1.0;
     std::optional<double> radius_m; // of virtual-proxy; default half a cell
     SceneKind scene = SceneKind::Flat;
+    PileOptions pile; // of the body scene
 };
 
 /// Loads tiles during its lifetime. Until the loop has ended only the servo thread may use the map.
 struct LoopMap {
     std::shared_ptr<const Map> opened;
     std::unique_ptr<TouchMap> touch;      // null for a map in memory on the body
-    std::shared_ptr<const BodyMesh> mesh; // these two: on the body
+    std::shared_ptr<const BodyMesh> mesh; // these three: on the body
     std::shared_ptr<const BodyGrid> grid;
+    BodyScene on_body; // the map and those below it
     std::shared_ptr<ServoMap> map;
     SceneBox box;        // of the whole map, in the plane
     double cell_m = 1.0; // scene meters, the mean of both sides

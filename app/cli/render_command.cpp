@@ -39,6 +39,7 @@ struct RenderOptions {
     std::vector<double> sun_at; // longitude and latitude
     bool has_contours = false;
     SceneKind scene = SceneKind::Flat;
+    PileOptions pile;
 };
 
 // The latitude is of the map's kind, as in other positions.
@@ -71,8 +72,8 @@ void checkSun(const RenderOptions& options)
 
 Status runRender(const RenderOptions& options)
 {
-    const Result<OpenFiles> inputs =
-        checkOutputs({.maps = {options.map.path}, .read = {}, .written = {options.output}});
+    const Result<OpenFiles> inputs = checkOutputs(
+        {.maps = options.pile.withPath(options.map.path), .read = {}, .written = {options.output}});
     if (!inputs) {
         return inputs.error();
     }
@@ -81,7 +82,7 @@ Status runRender(const RenderOptions& options)
         return viewport.error();
     }
     const ColorRamp* ramp = options.ramp.empty() ? nullptr : colorRampNamed(options.ramp);
-    Result<Scene> scene = openScene(options.map, ramp, {}, options.scene);
+    Result<Scene> scene = openScene(options.map, ramp, {}, options.scene, options.pile);
     if (!scene) {
         return std::move(scene).error();
     }
@@ -190,8 +191,10 @@ void addRenderCommand(CLI::App& app, CommandAction& run)
         ->excludes(light);
     command->add_flag("--contours", options->has_contours, "draw contour lines");
     addSceneOption(*command, options->scene);
+    options->pile.addTo(*command);
     command->callback([options, &run] {
         checkSun(*options);
+        options->pile.check(options->scene);
         run = [options] { return runRender(*options); };
     });
 }

@@ -38,6 +38,7 @@ struct TraceOptions {
     std::optional<double> radius_m;
     std::optional<double> exaggeration;
     SceneKind scene = SceneKind::Flat;
+    PileOptions pile;
     bool has_timing = false;
     std::string summary;
     std::string output;
@@ -291,7 +292,7 @@ openBody(const TraceOptions& options, const GoalRecording& recording, JobMonitor
             }
         }
     }
-    return bodySubject(options.map, recording, exaggeration, monitor);
+    return bodySubject(options.map, options.pile, recording, exaggeration, monitor);
 }
 
 Result<TraceSubject>
@@ -307,7 +308,7 @@ openSubject(const TraceOptions& options, const GoalRecording& recording, JobMoni
 Status runTrace(const TraceOptions& options)
 {
     const Result<OpenFiles> inputs =
-        checkOutputs({.maps = {options.map.path},
+        checkOutputs({.maps = options.pile.withPath(options.map.path),
                       .read = {options.goals == "-" ? "" : options.goals},
                       .written = {options.output, options.summary}});
     if (!inputs) {
@@ -342,8 +343,10 @@ Status runTrace(const TraceOptions& options)
         return Error{updates.error().code,
                      fmt::format("{}: {}", options.map.path, updates.error().message)};
     }
-    if (subject->waiting && subject->waiting->error()) {
-        return *subject->waiting->error();
+    for (const auto& waiting : subject->waiting) {
+        if (waiting->error()) {
+            return *waiting->error();
+        }
     }
     const std::string csv =
         asCsv(*updates, columns, options.has_timing ? TraceTiming::Yes : TraceTiming::No);
@@ -410,6 +413,7 @@ void addTraceCommand(CLI::App& app, CommandAction& run)
     addSceneOption(*command, options->scene,
                    ", and goals have the header lon,lat,z: degrees east, planetocentric degrees "
                    "north and meters along the normal");
+    options->pile.addTo(*command);
     command->add_flag("--timing", options->has_timing, "add a column ns, the time of each update");
     command->add_option("--summary", options->summary, "JSON file for totals, means and times")
         ->type_name("FILE")
@@ -418,6 +422,7 @@ void addTraceCommand(CLI::App& app, CommandAction& run)
         ->type_name("FILE")
         ->transform(fileName());
     command->callback([options, &run] {
+        options->pile.check(options->scene);
         const auto needs_radius = contactModelName(ContactModelKind::VirtualProxy);
         if (options->radius_m && options->model.value_or("") != needs_radius) {
             throw CLI::ValidationError("--radius",

@@ -1,8 +1,10 @@
 #include "app/cli/trace_subject.h"
 
+#include "app/cli/pile_mesh.h"
 #include "core/body/tiled_body_mesh.h"
 #include "core/contact/body_goal_frame.h"
 #include "core/contact/body_surface.h"
+#include "core/contact/layered_surface.h"
 #include "core/contact/resident_heights.h"
 #include "core/mesh/mesh_file.h"
 #include "core/session/open_map.h"
@@ -70,8 +72,8 @@ tiledTerrain(const Map& map, const GoalRecording& recording, TraceSubject& subje
     const TiledRaster& raster = heightfield.tiles()->raster();
     const auto heights = std::make_shared<const TileHeights>(map.levels(), heightfield.scale());
     if (!subject.is_recorded_on || recording.ground.empty()) {
-        subject.waiting = std::make_shared<const WaitingTerrain>(raster, heights);
-        return std::shared_ptr<const TiledTerrain>(subject.waiting);
+        subject.waiting.push_back(std::make_shared<const WaitingTerrain>(raster, heights));
+        return std::shared_ptr<const TiledTerrain>(subject.waiting.back());
     }
     auto recorded = RecordedGround::make(raster, heights);
     if (!recorded) {
@@ -107,6 +109,32 @@ Result<std::shared_ptr<const BodyMesh>> bodyMesh(const Map& map,
         return tiled.error();
     }
     return (*tiled)->over(std::move(terrain).value());
+}
+
+// The subject's map and those below it.
+Status touchPile(const PileOptions& options,
+                 double exaggeration,
+                 JobMonitor& monitor,
+                 TraceSubject& subject)
+{
+    const auto maps = pileOnBody(subject.map, options, monitor);
+    if (!maps) {
+        return maps.error();
+    }
+    auto pile = joinedPile(*maps, exaggeration, monitor);
+    if (!pile) {
+        return Error{pile.error().code,
+                     fmt::format("{}: {}", subject.map->spec().path, pile.error().message)};
+    }
+    const BodyGoalFrame frame =
+        bodyGoalFrame(subject.map->georeference(), pile->mesh->ellipsoid(), exaggeration);
+    subject.radius_m = pile->radius_m;
+    subject.waiting = pile->waiting;
+    subject.make = [surface = LayeredSurface(pile->mesh), frame](const TraceTouch& touch) {
+        return Toucher{.model = makeContactModel(touch.kind, surface, {.radius_m = touch.radius_m}),
+                       .frame = bodyFrame(frame)};
+    };
+    return Done{};
 }
 
 bool isRecordedOn(const GoalRecording& recording, const Georeference& map)
@@ -145,6 +173,7 @@ meshSubject(const MapOptions& options, double exaggeration, JobMonitor& monitor)
 }
 
 Result<TraceSubject> bodySubject(const MapOptions& options,
+                                 const PileOptions& pile,
                                  const GoalRecording& recording,
                                  double exaggeration,
                                  JobMonitor& monitor)
@@ -157,6 +186,14 @@ Result<TraceSubject> bodySubject(const MapOptions& options,
     const std::shared_ptr<const Map>& map = *opened;
     const Georeference& georeference = map->georeference();
     TraceSubject subject;
+    subject.map = map;
+    subject.is_on_body = true;
+    if (!pile.below.empty()) {
+        if (Status joined = touchPile(pile, exaggeration, monitor, subject); !joined) {
+            return std::move(joined).error();
+        }
+        return subject;
+    }
     subject.is_recorded_on = isRecordedOn(recording, georeference);
     const auto mesh = bodyMesh(*map, recording, exaggeration, monitor, subject);
     if (!mesh) {
@@ -164,8 +201,6 @@ Result<TraceSubject> bodySubject(const MapOptions& options,
     }
     const BodyGoalFrame frame =
         bodyGoalFrame(georeference, (*mesh)->positions().ellipsoid(), exaggeration);
-    subject.map = map;
-    subject.is_on_body = true;
     subject.radius_m = (georeference.pixelWidthMeters() + georeference.pixelHeightMeters()) / 4.0;
     subject.make = [surface = BodySurface(*mesh), frame](const TraceTouch& touch) {
         return Toucher{.model = makeContactModel(touch.kind, surface, {.radius_m = touch.radius_m}),

@@ -3,6 +3,7 @@
 
 #include "app/cli/contact_trace.h"
 #include "app/console/map_options.h"
+#include "app/console/map_pile.h"
 #include "core/base/job_monitor.h"
 #include "core/base/result.h"
 #include "core/contact/contact_model.h"
@@ -18,6 +19,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace marsview {
 
@@ -38,12 +40,13 @@ struct Toucher {
 
 struct TraceSubject {
     std::function<Toucher(const TraceTouch&)> make;
-    double radius_m = 1.0;                         // unless given
-    std::shared_ptr<const Map> map;                // null for a mesh
-    bool is_on_body = false;                       // in the body scene
-    std::shared_ptr<const WaitingTerrain> waiting; // of a map in tiles, or else:
-    std::shared_ptr<RecordedGround> recorded; // the same, as it was when the recording was made
-    bool is_recorded_on = false;              // the recording's description of its map matches
+    double radius_m = 1.0;          // unless given
+    std::shared_ptr<const Map> map; // null for a mesh
+    bool is_on_body = false;        // in the body scene
+    /// Of maps in tiles, or else, as it was when the recording was made:
+    std::vector<std::shared_ptr<const WaitingTerrain>> waiting;
+    std::shared_ptr<RecordedGround> recorded;
+    bool is_recorded_on = false; // the recording's description of its map matches
 };
 
 /// Whether a path has the extension of a mesh.
@@ -53,10 +56,12 @@ bool isMesh(const std::string& path);
 Result<TraceSubject>
 meshSubject(const MapOptions& options, double exaggeration, JobMonitor& monitor);
 
-/// The map on its body; the errors of BodyMesh are added to those of opening. `exaggeration`
-/// applies to all models over the subject. A tiled map has the tiles of the recording, if that was
-/// made on such a map.
+/// The map on its body, on top of others if `pile` has them; the errors of BodyMesh and
+/// pileOnBody() are added to those of opening. `exaggeration` applies to all models over the
+/// subject. A tiled map without others has the tiles of the recording, if that was made on such a
+/// map.
 Result<TraceSubject> bodySubject(const MapOptions& options,
+                                 const PileOptions& pile,
                                  const GoalRecording& recording,
                                  double exaggeration,
                                  JobMonitor& monitor);

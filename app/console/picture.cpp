@@ -69,12 +69,18 @@ Result<GeographicPoint> placeOnBody(const BodyTerrain& terrain, const MapPoint& 
 Result<CameraPose>
 bodyPoseFrom(const PictureOptions& options, const Scene& scene, double exaggeration)
 {
-    const HeightRange range = scene.map->heightfield().range().value_or(HeightRange{});
+    const HeightRange range = scene.on_body.range();
     const BodyLimits limits = bodyLimits(*scene.body_grid, range.minimum_m * exaggeration,
                                          range.maximum_m * exaggeration);
-    const BodyTerrain terrain(scene.map, scene.body_grid);
+    const BodyTerrain& terrain = scene.on_body.maps().front();
     const auto height = [&](const GeographicPoint& place) {
-        return exaggeration * terrain.height(place, BodyTerrain::Tiles::Waiting);
+        double height_m = std::numeric_limits<double>::quiet_NaN();
+        for (const BodyTerrain& map : scene.on_body.maps()) {
+            if (std::isnan(height_m)) {
+                height_m = exaggeration * map.height(place, BodyTerrain::Tiles::Waiting);
+            }
+        }
+        return height_m;
     };
     BodyCamera camera = homeCamera(limits, options.viewport);
     if (options.tilt_deg) {

@@ -77,21 +77,35 @@ void showIn(Scene& scene, std::shared_ptr<const Map> map, const ColorRamp* ramp)
     scene.exaggeration = suitableExaggeration(*scene.map);
 }
 
-Status showOnBody(Scene& scene, std::shared_ptr<const Map> map, const ColorRamp* ramp)
+Status showOnBody(Scene& scene,
+                  std::shared_ptr<const Map> map,
+                  const ColorRamp* ramp,
+                  const PileOptions& pile)
 {
     LongJob job("placing");
-    Result<std::shared_ptr<const BodyGrid>> body =
-        BodyGrid::make(map->georeference(), job.monitor());
-    if (!body) {
-        return Error{body.error().code,
-                     fmt::format("{} {}", map->spec().path, body.error().message)};
+    Result<std::vector<BodyTerrain>> maps = pileOnBody(map, pile, job.monitor());
+    if (!maps) {
+        return std::move(maps).error();
     }
     scene.map = std::move(map);
-    scene.body_grid = std::move(body).value();
-    TerrainLayer layer = terrainLayer(scene.map, scene.map->georeference().sceneFrame(),
-                                      ramp != nullptr ? *ramp : scene.ramp());
-    layer.body = scene.body_grid;
-    scene.renderer->setLayers({std::move(layer)});
+    scene.body_grid = maps->front().grid();
+    const ColorRamp& colors = ramp != nullptr ? *ramp : scene.ramp();
+    HeightRange range = scene.map->tintRange();
+    for (const BodyTerrain& terrain : *maps) {
+        const HeightRange& own = terrain.map()->tintRange();
+        range = {std::min(range.minimum_m, own.minimum_m),
+                 std::max(range.maximum_m, own.maximum_m)};
+    }
+    std::vector<TerrainLayer> layers;
+    for (const BodyTerrain& terrain : *maps) {
+        layers.push_back(
+            terrainLayer(terrain.shown(), terrain.map()->georeference().sceneFrame(), colors));
+        layers.back().body = terrain.grid();
+        layers.back().tint_range = tintedRange(colors, range);
+        layers.back().slope_range = scene.map->slopeRange();
+    }
+    scene.renderer->setLayers(std::move(layers));
+    scene.on_body = BodyScene(std::move(maps).value());
     scene.exaggeration = suitableExaggeration(*scene.map);
     return Done{};
 }
@@ -99,7 +113,8 @@ Status showOnBody(Scene& scene, std::shared_ptr<const Map> map, const ColorRamp*
 Result<Scene> openScene(const MapOptions& options,
                         const ColorRamp* ramp,
                         std::function<void()> notify,
-                        SceneKind kind)
+                        SceneKind kind,
+                        const PileOptions& pile)
 {
     Result<Scene> scene = emptyScene(std::move(notify));
     if (!scene) {
@@ -112,7 +127,7 @@ Result<Scene> openScene(const MapOptions& options,
         return std::move(map).error();
     }
     if (kind == SceneKind::Body) {
-        if (Status shown = showOnBody(*scene, std::move(map).value(), ramp); !shown) {
+        if (Status shown = showOnBody(*scene, std::move(map).value(), ramp, pile); !shown) {
             return std::move(shown).error();
         }
         return scene;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/console/map_options.h"
+#include "app/console/map_pile.h"
 #include "app/console/scene_option.h"
 #include "core/session/map.h"
 #include "core/view/navigation.h"
@@ -25,6 +26,7 @@ struct Scene {
     std::shared_ptr<const Map> map;
     double exaggeration = 1.0;                   // that suits the map
     std::shared_ptr<const BodyGrid> body_grid{}; // of the map, on its body; null in the flat scene
+    BodyScene on_body{};                         // of the map and those below it, if it is there
 
     /// The default ramp of the map's body.
     const ColorRamp& ramp() const;
@@ -48,15 +50,20 @@ struct Scene {
 Result<Scene> emptyScene(std::function<void()> notify = {});
 /// From now on the map is drawn. `ramp` is null for the one that suits the body.
 void showIn(Scene& scene, std::shared_ptr<const Map> map, const ColorRamp* ramp);
-/// The same, in the scene of the map's body. Errors: those of BodyPositions.
-Status showOnBody(Scene& scene, std::shared_ptr<const Map> map, const ColorRamp* ramp);
+/// The same, in the scene of the map's body, over the maps below it. All are colored by one range
+/// of elevations. Errors: those of pileOnBody().
+Status showOnBody(Scene& scene,
+                  std::shared_ptr<const Map> map,
+                  const ColorRamp* ramp,
+                  const PileOptions& pile = {});
 
 /// Reads and analyzes the map, showing progress. `ramp` is null for the body's default; `notify` is
 /// TerrainRenderer's.
 Result<Scene> openScene(const MapOptions& options,
                         const ColorRamp* ramp,
                         std::function<void()> notify = {},
-                        SceneKind kind = SceneKind::Flat);
+                        SceneKind kind = SceneKind::Flat,
+                        const PileOptions& pile = {});
 
 /// The size that the option --size says: "1280x800".
 Result<Viewport> viewportFrom(const std::string& text);

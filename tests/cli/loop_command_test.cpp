@@ -1,3 +1,4 @@
+#include "tests/cli/level_maps.h"
 #include "tests/cli/run_cli.h"
 #include "tests/support/run_program.h"
 #include "tests/support/shared_data.h"
@@ -493,6 +494,20 @@ TEST(LoopCommand, OnTheBodyTraceRepeatsTheRecording)
     EXPECT_EQ(again.at("differing_updates"), 0);
     EXPECT_EQ(runCli({"trace", bundledMars(), "--goals", recording}).exit_status, 1)
         << "its goals are not those of the plane";
+}
+
+TEST(LoopCommand, OnTheBodyItTouchesMapsOnTopOfEachOther)
+{
+    const TempFolder folder;
+    const std::string lower = writeLevelMars(folder, "lower", 60, {98.0, 3.0, 0.05}, 0.0F);
+    const std::string upper = writeLevelMars(folder, "upper", 61, {100.0, 1.0, 0.01}, 300.0F);
+    const std::string recording = folder.file("pile.csv");
+    const ProgramOutput output =
+        runCli({"loop", upper, "--scene", "body", "--below", lower, "--feather", "20", "--device",
+                "sim:swipe=5", "--seconds", "0.3", "--record", recording, "--json"});
+    ASSERT_EQ(output.exit_status, 0) << output.err;
+    EXPECT_GT(nlohmann::json::parse(output.out).at("in_contact"), 30);
+    EXPECT_THAT(readFile(recording), HasSubstr("below/")) << "of both maps";
 }
 
 TEST(LoopCommand, OnTheBodyItReplaysGoalsOfTheBody)

@@ -1,3 +1,4 @@
+#include "tests/cli/level_maps.h"
 #include "tests/cli/run_cli.h"
 #include "tests/support/damage.h"
 #include "tests/support/gdal_tools.h"
@@ -383,6 +384,41 @@ TEST_F(RenderCommand, TheSunLightsTheSideOfTheBodyThatItStandsOver)
     EXPECT_NEAR(brightness("300,20"), noon, 1) << "another turn";
     EXPECT_NEAR(brightness("120,-20"), 255 * 0.92 * 0.08, 3) << "midnight";
     EXPECT_LT(brightness("-60,80"), 0.75 * noon);
+}
+
+// One above the other, of one color: light shows the step of the edge as a line, and a feather as a
+// slope that is as wide.
+TEST_F(RenderCommand, DrawsMapsOnTopOfEachOtherWithBlendedEdges)
+{
+    const std::string lower = writeLevelMars(folder_, "lower", 80, {98.0, 4.0, 0.05}, 0.0F);
+    const std::string upper = writeLevelMars(folder_, "upper", 100, {99.5, 2.5, 0.01}, 1500.0F);
+    const auto shaded = [&](const std::string& cells) {
+        const std::string png = folder_.file("pile" + cells + ".png");
+        const ProgramOutput output =
+            render({upper,       "-o",     png,          "--scene",   "body",
+                    "--below",   lower,    "--feather",  cells,       "--shading",
+                    "hillshade", "--size", "300x300",    "--look-at", "100,2",
+                    "--tilt",    "0",      "--distance", "120000",    "--exaggeration",
+                    "1"});
+        EXPECT_EQ(output.exit_status, 0) << output.err;
+        // Across the middle: pixels that are not as bright as level ground.
+        const std::string all = pixels(png);
+        const auto at = [&](std::size_t column) {
+            return static_cast<int>(static_cast<unsigned char>(all[150 * 300 + column]));
+        };
+        std::size_t count = 0;
+        for (std::size_t column = 0; column < 300; ++column) {
+            count += std::abs(at(column) - at(150)) > 8 ? 1U : 0U;
+        }
+        return count;
+    };
+    const std::size_t plain = shaded("0");
+    const std::size_t blended = shaded("30");
+    EXPECT_LT(plain, 25U);
+    EXPECT_GT(blended, 2 * plain + 30U);
+    expectRefusal({upper, "-o", folder_.file("no.png"), "--scene", "body", "--below",
+                   folder_.file("missing.tif")},
+                  "missing.tif");
 }
 
 TEST_F(RenderCommand, RefusesToDrawADamagedPreparedMap)

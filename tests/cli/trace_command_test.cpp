@@ -1,4 +1,5 @@
 #include "core/contact/contact_model.h"
+#include "tests/cli/level_maps.h"
 #include "tests/cli/run_cli.h"
 #include "tests/support/make_raster.h"
 #include "tests/support/random.h"
@@ -677,6 +678,60 @@ TEST(TraceCommand, OnTheBodyGoalsNeedTheirOwnHeaderAndTheMapABody)
     EXPECT_THAT(no_body.err, testing::HasSubstr("has no CRS on a body"));
     EXPECT_EQ(runCli({"trace", "--scene", "globe", bundledMars(), "--goals", goals}).exit_status,
               2);
+}
+
+// 300 m above a level map, with cells of 0.01°: goals go straight into the upper one, 1 m below the
+// curve of 3 t² - 2 t³ from one to the other.
+TEST(TraceCommand, OnTheBodyTheEdgesOfAMapAreBlendedIntoTheMapBelow)
+{
+    const TempFolder folder;
+    const std::string lower = writeLevelMars(folder, "lower", 60, {98.0, 3.0, 0.05}, 0.0F);
+    const std::string upper = writeLevelMars(folder, "upper", 61, {100.0, 1.0, 0.01}, 300.0F);
+    const auto curve_m = [](int cell, double cells) {
+        const double t = std::clamp(cell / cells, 0.0, 1.0);
+        return 300.0 * (3.0 * t * t - 2.0 * t * t * t);
+    };
+    for (const double cells : {0.0, 20.0}) {
+        std::string goals = "lon,lat,z\n99.9,0.7,1000\n";
+        for (int cell = -5; cell <= 30; ++cell) {
+            goals += fmt::format("{},{},{}\n", 100.005 + 0.01 * cell, 0.695,
+                                 curve_m(cell, std::max(cells, 1e-9)) - 1.0);
+        }
+        const ProgramOutput output =
+            runCli({"trace", upper, "--scene", "body", "--below", lower, "--feather",
+                    fmt::format("{:.0f}", cells), "--goals", folder.write("edge.csv", goals)});
+        ASSERT_EQ(output.exit_status, 0) << output.err;
+        const std::vector<Row> rows = rowsOf(output.out);
+        ASSERT_EQ(rows.size(), 37U);
+        for (int cell = -5; cell <= 30; ++cell) {
+            const Row& row = rows[static_cast<std::size_t>(cell + 6)];
+            EXPECT_TRUE(row.is_in_contact) << cell;
+            if (cells > 0.0 || cell < -1) {
+                EXPECT_NEAR(row.z, curve_m(cell, std::max(cells, 1e-9)), 1.0) << cell;
+            } else if (cell > 1) {
+                EXPECT_LT(row.z, 299.0) << "held by the wall";
+            }
+        }
+    }
+    const std::string goals = folder.write("goals.csv", "lon,lat,z\n100,0.7,3\n");
+    const auto refusal = [&](const std::vector<std::string>& options) {
+        std::vector<std::string> all{"trace", upper, "--goals", goals};
+        all.insert(all.end(), options.begin(), options.end());
+        const ProgramOutput output = runCli(all);
+        EXPECT_EQ(output.exit_status, 2);
+        return output.err;
+    };
+    EXPECT_THAT(refusal({"--below", lower}), testing::HasSubstr("add --scene body"));
+    EXPECT_THAT(refusal({"--scene", "body", "--feather", "5"}), testing::HasSubstr("add --below"));
+    EXPECT_THAT(refusal({"--scene", "body", "--below", lower, "--feather", "201"}),
+                testing::HasSubstr("--feather"));
+    RasterRecipe moon = recipeFor(4, std::vector<float>(16, 0.0F));
+    moon.transform = {0.0, 10.0, 0.0, 20.0, 0.0, -10.0};
+    moon.srs = "IAU_2015:30100";
+    const ProgramOutput other = runCli({"trace", upper, "--scene", "body", "--below",
+                                        writeVrt(folder, "moon", moon), "--goals", goals});
+    EXPECT_EQ(other.exit_status, 1);
+    EXPECT_THAT(other.err, testing::HasSubstr("is a map of Moon"));
 }
 
 } // namespace marsview::test
