@@ -4,6 +4,7 @@
 #include "core/base/job_monitor.h"
 #include "core/base/result.h"
 #include "core/session/body_terrain.h"
+#include "core/session/session.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -13,9 +14,6 @@
 #include <vector>
 
 namespace marsview {
-
-/// Over so many cells at most.
-inline constexpr std::size_t kFeatherCellsMax = 200;
 
 /// A map ends at its border and at its voids: at samples that lie on the border of the grid or are
 /// corners of a triangle with a void. Less than n cells from the nearest of these, d cells away,

@@ -164,6 +164,9 @@ Json layerJson(const LayerRecord& layer, const ProjectFolders& folders)
         json["slope_range"] = {{"minimum_deg", degreesOf(layer.slope_range->minimum)},
                                {"maximum_deg", degreesOf(layer.slope_range->maximum)}};
     }
+    if (layer.feather_cells > 0) {
+        json["feather_cells"] = layer.feather_cells;
+    }
     if (!layer.spec.overrides.isEmpty()) {
         json["overrides"] = overridesJson(layer.spec.overrides);
     }
@@ -317,6 +320,14 @@ LayerRecord layerFrom(Members& members, const ProjectFolders& folders)
     members.object("stretch", [&](Members& stretch) { layer.stretch = stretchFrom(stretch); });
     members.object("slope_range",
                    [&](Members& range) { layer.slope_range = slopeRangeFrom(range); });
+    static_assert(kFeatherCellsMax == 200);
+    int feather_cells = 0;
+    members.count("feather_cells", feather_cells);
+    if (feather_cells > static_cast<int>(kFeatherCellsMax)) {
+        members.refuse("feather_cells", "a whole number up to 200");
+        feather_cells = 0;
+    }
+    layer.feather_cells = static_cast<std::size_t>(feather_cells);
     members.object("overrides",
                    [&](Members& overrides) { layer.spec.overrides = overridesFrom(overrides); });
     return layer;

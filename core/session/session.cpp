@@ -150,7 +150,8 @@ LayerRecord recordOf(const Layer& layer)
             .ramp = layer.ramp,
             .stretch = layer.stretch,
             .slope_range = layer.slope_range,
-            .exaggeration = layer.exaggeration};
+            .exaggeration = layer.exaggeration,
+            .feather_cells = layer.feather_cells};
 }
 
 Layer layerFrom(LayerRecord record, std::shared_ptr<const Map> map)
@@ -162,7 +163,8 @@ Layer layerFrom(LayerRecord record, std::shared_ptr<const Map> map)
                 .ramp = std::move(record.ramp),
                 .stretch = record.stretch,
                 .slope_range = record.slope_range,
-                .exaggeration = record.exaggeration};
+                .exaggeration = record.exaggeration,
+                .feather_cells = record.feather_cells};
     if (layer.name.empty()) {
         layer.name = pathToName(*layer.map).filename().string();
     }
@@ -262,6 +264,12 @@ Session withStretch(Session session, LayerId id, const ColorStretch& stretch)
 Session withSlopeRange(Session session, LayerId id, const std::optional<SlopeRange>& range)
 {
     return changed(std::move(session), id, [&](Layer& layer) { layer.slope_range = range; });
+}
+
+Session withFeather(Session session, LayerId id, std::size_t cells)
+{
+    MARSVIEW_CHECK(cells <= kFeatherCellsMax);
+    return changed(std::move(session), id, [&](Layer& layer) { layer.feather_cells = cells; });
 }
 
 Session withName(Session session, LayerId id, std::string name)

@@ -23,6 +23,9 @@ namespace marsview {
 /// Identifies a layer in a session and in all sessions derived from it. Never reused.
 enum class LayerId : std::uint32_t { None = 0 };
 
+/// Over so many cells the edges of a layer are blended at most.
+inline constexpr std::size_t kFeatherCellsMax = 200;
+
 struct Layer {
     LayerId id = LayerId::None;
     std::shared_ptr<const Map> map; // never null in a session
@@ -35,6 +38,9 @@ struct Layer {
     /// Vertical exaggeration of the scene while this layer is the topmost in it. Positive in a
     /// session; 0 in a layer that is added: suitableExaggeration().
     double exaggeration = 0.0;
+    /// In the scene of a body, over so many of its cells its edges are blended into the layers
+    /// below it (core/feather); at most kFeatherCellsMax, 0 for not at all.
+    std::size_t feather_cells = 0;
 
     bool operator==(const Layer&) const = default;
 };
@@ -48,6 +54,7 @@ struct LayerRecord {
     ColorStretch stretch{};
     std::optional<SlopeRange> slope_range{};
     double exaggeration = 0.0; // 0: what suits the map
+    std::size_t feather_cells = 0;
 
     bool operator==(const LayerRecord&) const = default;
 };
@@ -137,6 +144,8 @@ Session withRamp(Session session, LayerId id, std::string ramp);
 Session withStretch(Session session, LayerId id, const ColorStretch& stretch);
 /// Empty: the default range for the map.
 Session withSlopeRange(Session session, LayerId id, const std::optional<SlopeRange>& range);
+/// `cells` is at most kFeatherCellsMax.
+Session withFeather(Session session, LayerId id, std::size_t cells);
 Session withName(Session session, LayerId id, std::string name);
 /// A layer whose exaggeration suited the old map gets the one that suits the new map.
 Session withMap(Session session, LayerId id, std::shared_ptr<const Map> map);

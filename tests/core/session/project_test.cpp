@@ -108,6 +108,7 @@ LayerRecord randomLayer(Random& random)
         layer.stretch.high = random.uniform(1.0, 22000.0);
     }
     if (random.chance(0.4)) {
+        layer.feather_cells = 1 + random.below(kFeatherCellsMax);
         layer.slope_range = SlopeRange{.minimum = randomAngle(random, 0.0, 20.0),
                                        .maximum = randomAngle(random, 21.0, 90.0)};
     }
@@ -488,6 +489,8 @@ TEST(Project, FaultsAreNamed)
         {R"("version":1,"layers":[],"active":0)", "active is not the index of a layer"},
         {R"("version":1,"layers":[{"file":"a","band":0}])",
          "layers[0].band is not a whole number from 1 up"},
+        {R"("version":1,"layers":[{"file":"a","feather_cells":201}])",
+         "layers[0].feather_cells is not a whole number up to 200"},
         {R"("version":1,"layers":[],"camera":{"distance_m":0})",
          "camera.distance_m is not a length above 0"},
         {R"("version":1,"layers":[],"look":{"light":"lamp"})", "look.light is not a known choice"},

@@ -241,7 +241,11 @@ TEST(SessionStretch, IsSeparateForEachLayer)
     EXPECT_EQ(session.layers[0].stretch, ColorStretch{});
     session = withSlopeRange(session, id, SlopeRange{.maximum = Angle::degrees(5.0)});
     EXPECT_EQ(layerOf(session, id)->slope_range->maximum, Angle::degrees(5.0));
+    session = withFeather(session, id, 40);
+    EXPECT_EQ(layerOf(session, id)->feather_cells, 40U);
+    EXPECT_EQ(recordOf(*layerOf(session, id)).feather_cells, 40U);
     EXPECT_NE(session, before);
+    session = withFeather(session, id, 0);
     session = withSlopeRange(withStretch(session, id, {}), id, std::nullopt);
     EXPECT_EQ(session, before);
 }
