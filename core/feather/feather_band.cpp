@@ -436,12 +436,12 @@ private:
 
 } // namespace
 
-std::optional<float> FeatherBand::Square::at(std::size_t column, std::size_t row) const
+std::optional<std::size_t> FeatherBand::Square::find(std::size_t column, std::size_t row) const
 {
     const auto place = static_cast<std::uint16_t>(row * kSide + column);
     const auto found = std::lower_bound(places.begin(), places.end(), place);
     return found != places.end() && *found == place
-               ? std::optional(heights_m[static_cast<std::size_t>(found - places.begin())])
+               ? std::optional(static_cast<std::size_t>(found - places.begin()))
                : std::nullopt;
 }
 
@@ -468,6 +468,7 @@ Result<FeatherBand> FeatherBand::build(const BodyTerrain& map,
                 square.places.push_back(one.place);
                 square.heights_m.push_back(static_cast<float>(std::lerp(
                     static_cast<double>(one.below_m), static_cast<double>(one.own_m), share)));
+                square.raised_m.push_back(square.heights_m.back() - one.own_m);
             }
         }
         if (!square.places.empty()) {
@@ -484,10 +485,11 @@ const FeatherBand::Square* FeatherBand::square(std::size_t column, std::size_t r
     return found != squares_.end() ? &found->second : nullptr;
 }
 
-std::optional<float> FeatherBand::at(std::size_t column, std::size_t row) const
+std::optional<float> FeatherBand::raised(std::size_t column, std::size_t row) const
 {
     const Square* found = square(column / kSide, row / kSide);
-    return found != nullptr ? found->at(column % kSide, row % kSide) : std::nullopt;
+    const auto index = found != nullptr ? found->find(column % kSide, row % kSide) : std::nullopt;
+    return index ? std::optional(found->raised_m[*index]) : std::nullopt;
 }
 
 } // namespace marsview

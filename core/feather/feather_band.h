@@ -22,7 +22,7 @@ namespace marsview {
 /// Where no map lies below, samples keep their heights, and the blending fades out towards these
 /// places in the same way: w becomes 1 - (1 - w) v, with v for the distance to the nearest of them.
 ///
-/// Only the samples that change are stored, 6 bytes each, by squares of kSide × kSide samples.
+/// Only the samples that change are stored, 10 bytes each, by squares of kSide × kSide samples.
 /// Immutable; any thread.
 class FeatherBand {
 public:
@@ -33,9 +33,10 @@ public:
     struct Square {
         std::vector<std::uint16_t> places; // row · kSide + column, ascending
         std::vector<float> heights_m;      // rounded from double
+        std::vector<float> raised_m;       // by how much: heights_m less those of the map
 
-        /// Of a sample that changes.
-        std::optional<float> at(std::size_t column, std::size_t row) const;
+        /// The index of a sample in these, if it changes.
+        std::optional<std::size_t> find(std::size_t column, std::size_t row) const;
     };
 
     /// `below` are the maps below `map`, the uppermost first, as they are shown. `cells` is at most
@@ -50,8 +51,8 @@ public:
     std::size_t size() const noexcept { return size_; }
     /// Null where no sample of the square changes.
     const Square* square(std::size_t column, std::size_t row) const;
-    /// The height of a sample if it changes.
-    std::optional<float> at(std::size_t column, std::size_t row) const;
+    /// By how much the height of a sample changes; nothing if it does not belong to the band.
+    std::optional<float> raised(std::size_t column, std::size_t row) const;
     /// Calls `visit(column, row, square)` for all squares with samples, in no order.
     template <typename F>
     void eachSquare(F&& visit) const

@@ -1,6 +1,7 @@
 #include "core/feather/feathered_map.h"
 
 #include "core/base/parallel.h"
+#include "core/feather/feathered_tiles.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -13,21 +14,6 @@ namespace marsview {
 namespace {
 
 constexpr double kBandShare = 0.6; // of the time
-
-// A type that holds all values of another one, and values between them.
-SampleType floatTypeFor(SampleType type)
-{
-    switch (type) {
-    case SampleType::UInt8:
-    case SampleType::Int8:
-    case SampleType::UInt16:
-    case SampleType::Int16:
-    case SampleType::Float32:
-        return SampleType::Float32;
-    default:
-        return SampleType::Float64;
-    }
-}
 
 template <typename T>
 void fillRow(const Heightfield& heightfield,
@@ -56,7 +42,7 @@ void fillRow(const Heightfield& heightfield,
              ++place) {
             const auto height_m = static_cast<double>(
                 square->heights_m[static_cast<std::size_t>(place - square->places.begin())]);
-            put(i * side + *place % side, static_cast<T>((height_m - scale.offset_m) / scale.gain));
+            put(i * side + *place % side, static_cast<T>(rawOf(height_m, scale, samples.type())));
         }
     }
 }
@@ -99,6 +85,29 @@ inMemory(const Map& map, const FeatherBand& band, JobMonitor& monitor)
         monitor);
 }
 
+Result<std::shared_ptr<const Map>> inTiles(const Map& map, FeatherBand found, std::size_t cells)
+{
+    const Heightfield& heightfield = map.heightfield();
+    const TiledRaster& raster = heightfield.tiles()->raster();
+    const auto band = std::make_shared<const FeatherBand>(std::move(found));
+    auto levels = std::make_shared<const MapLevels>(
+        featheredLevels(*map.levels(), *band, cells, heightfield.scale()));
+    auto tiles =
+        TiledSamples::open(raster.with(featheredTiles(raster.source(), band, heightfield.scale())));
+    if (!tiles) {
+        return std::move(tiles).error();
+    }
+    const SampleStatistics statistics = levels->statistics;
+    return tiledMap(
+        {.spec = map.spec(),
+         .file_info = map.fileInfo(),
+         .info = map.info(),
+         .statistics = statistics,
+         .heightfield = Heightfield(std::move(tiles).value(), statistics, heightfield.scale()),
+         .kind = map.kind()},
+        std::move(levels));
+}
+
 } // namespace
 
 Result<std::shared_ptr<const Map>> featheredMap(const BodyTerrain& map,
@@ -109,11 +118,6 @@ Result<std::shared_ptr<const Map>> featheredMap(const BodyTerrain& map,
     const std::shared_ptr<const Map>& own = map.map();
     if (own->isPreview()) {
         return own;
-    }
-    if (own->heightfield().isTiled()) {
-        return Error{ErrorCode::Unsupported,
-                     fmt::format("{}: the edges of a map larger than memory cannot be blended",
-                                 own->spec().path)};
     }
     const auto named = [&own](const Error& error) {
         return Error{error.code, fmt::format("{}: {}", own->spec().path, error.message)};
@@ -129,7 +133,8 @@ Result<std::shared_ptr<const Map>> featheredMap(const BodyTerrain& map,
         return own;
     }
     const JobPart analyzing(monitor, kBandShare, 1.0);
-    auto blended = inMemory(*own, *band, monitor);
+    auto blended = own->heightfield().isTiled() ? inTiles(*own, std::move(*band), cells)
+                                                : inMemory(*own, *band, monitor);
     return blended ? blended : Result<std::shared_ptr<const Map>>(named(blended.error()));
 }
 

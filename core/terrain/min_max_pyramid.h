@@ -34,6 +34,9 @@ public:
     /// For a map whose blocks have these ranges; the same bits as build().
     static MinMaxPyramid from(RawRanges ranges, const ElevationScale& scale);
 
+    /// The raw values of level 0.
+    const RawRanges& blocks() const noexcept { return blocks_; }
+
     /// Level 0 has the blocks; the last level is a single node.
     std::size_t levelCount() const noexcept { return levels_.size(); }
     std::size_t columns(std::size_t level) const noexcept { return levels_[level].columns; }

@@ -403,8 +403,19 @@ void TileCache::clear()
 }
 
 TiledRaster::TiledRaster(const TileCache& cache, std::shared_ptr<const TileSource> source)
-    : cache_(cache.impl_)
-    , loaders_(cache.loaders_)
+    : TiledRaster(cache.impl_, cache.loaders_, std::move(source))
+{}
+
+TiledRaster TiledRaster::with(std::shared_ptr<const TileSource> source) const
+{
+    return {cache_, loaders_, std::move(source)};
+}
+
+TiledRaster::TiledRaster(std::shared_ptr<TileCache::Impl> cache,
+                         std::shared_ptr<TileCache::Loaders> loaders,
+                         std::shared_ptr<const TileSource> source)
+    : cache_(std::move(cache))
+    , loaders_(std::move(loaders))
     , source_(std::move(source))
 {
     MARSVIEW_CHECK(source_ != nullptr);

@@ -79,6 +79,10 @@ class TiledRaster {
 public:
     TiledRaster(const TileCache& cache, std::shared_ptr<const TileSource> source);
 
+    /// Another source read through the same cache.
+    TiledRaster with(std::shared_ptr<const TileSource> source) const;
+
+    const std::shared_ptr<const TileSource>& source() const noexcept { return source_; }
     const TileLayout& layout() const noexcept { return source_->layout(); }
     const std::string& name() const noexcept { return source_->name(); }
 
@@ -96,6 +100,10 @@ public:
 private:
     friend class TileCache;
     friend class TileRequests;
+    TiledRaster(std::shared_ptr<TileCache::Impl> cache,
+                std::shared_ptr<TileCache::Loaders> loaders,
+                std::shared_ptr<const TileSource> source);
+
     std::shared_ptr<TileCache::Impl> cache_;
     std::shared_ptr<TileCache::Loaders> loaders_;
     std::shared_ptr<const TileSource> source_;
