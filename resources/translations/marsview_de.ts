@@ -2978,6 +2978,10 @@ pol</translation>
         <translation>Der Layer wird auf seinen Himmelskörper gelegt …</translation>
     </message>
     <message>
+        <source>Blending the edges of layers…</source>
+        <translation>Die Kanten von Layern werden überblendet …</translation>
+    </message>
+    <message>
         <source>Preparing the terrain for touch…</source>
         <translation>Das Gelände wird zum Ertasten vorbereitet …</translation>
     </message>
@@ -3888,6 +3892,28 @@ Was fehlt, lässt sich im Hinweis über der Karte suchen oder entfernen.</transl
     <message>
         <source>Color &amp;ramp</source>
         <translation>Farb&amp;skala</translation>
+    </message>
+    <message>
+        <source>&amp;Blend edges over</source>
+        <translation>Kanten &amp;überblenden über</translation>
+    </message>
+    <message>
+        <source>Cells over which the edges of the active layer are blended</source>
+        <translation>Zellen, über die die Kanten des aktiven Layers überblendet werden</translation>
+    </message>
+    <message>
+        <source>Off</source>
+        <extracomment>Edges are not blended</extracomment>
+        <translation>Aus</translation>
+    </message>
+    <message>
+        <source> cells</source>
+        <extracomment>Follows a number of cells of a grid</extracomment>
+        <translation> Zellen</translation>
+    </message>
+    <message>
+        <source>Where this layer ends, it goes smoothly into the layers below it: in the picture and for touch. Elevations that are read stay those of the layer.</source>
+        <translation>Wo dieser Layer endet, geht er stufenlos in die Layer darunter über: im Bild und beim Ertasten. Abgelesene Höhen bleiben die des Layers.</translation>
     </message>
 </context>
 <context>
@@ -5695,6 +5721,11 @@ Bewegen Sie die Karte zu einer Ansicht, die Sie behalten wollen, und drücken Si
         <source>Slope Colors of %1</source>
         <extracomment>Continues &quot;Undo …&quot;; %1 is a layer</extracomment>
         <translation>Neigungsfarben von %1</translation>
+    </message>
+    <message>
+        <source>Blended Edges of %1</source>
+        <extracomment>Continues &quot;Undo …&quot;; %1 is a layer</extracomment>
+        <translation>Überblendete Kanten von %1</translation>
     </message>
     <message>
         <source>Stretch of %1 to Current View</source>

@@ -5,6 +5,7 @@
 #include "core/view/color_ramp.h"
 #include "ui/render/terrain_layer.h"
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 
@@ -16,6 +17,7 @@ struct ShownLayer {
     /// Over which elevations the ramp is spread; nothing for what suits the map.
     std::optional<HeightRange> color_range{};
     std::optional<SlopeRange> slope_range{}; // the same for slopes
+    std::size_t feather_cells = 0;           // as in Layer; on the globe only
 };
 
 /// The elevations at the ends of the layer's ramp.

@@ -91,6 +91,11 @@ void LayerCommands::connectPanels()
     connect(&layers, &LayersPanel::nameRequested, &session, &SessionController::rename);
     connect(&layers, &LayersPanel::moveRequested, &session, &SessionController::move);
     connect(&layers, &LayersPanel::rampRequested, &session, &SessionController::setRamp);
+    connect(&layers, &LayersPanel::featherRequested, &session, &SessionController::setFeather);
+    connect(&session, &SessionController::sceneChanged, this, [this] {
+        const Session& now = parts_.session.session();
+        parts_.layers.setSession(now, parts_.session.canFeather(now.active));
+    });
     connect(&parts_.georeferencing, &GeoreferencingPanel::overridesRequested, this,
             [&session](const RasterOverrides& overrides) {
                 session.overrideGeoreferencing(session.session().active, overrides);
@@ -107,7 +112,7 @@ void LayerCommands::showSession()
 {
     const Session& session = parts_.session.session();
     parts_.actions.showSession(session);
-    parts_.layers.setSession(session);
+    parts_.layers.setSession(session, parts_.session.canFeather(session.active));
     const std::vector<const Layer*> shown = shownLayers(session);
     parts_.tool_bar.setExaggerationEnabled(!shown.empty());
     if (!shown.empty()) {

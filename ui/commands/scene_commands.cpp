@@ -97,6 +97,8 @@ void SceneCommands::connectParts()
             parts_.messages.show(reason);
         },
         Qt::QueuedConnection);
+    connect(&parts_.globe, &GlobeView::blendingFailed, this,
+            [this](const QString& reason) { parts_.messages.show(reason); });
     connect(&parts_.globe, &GlobeView::placed, this, &SceneCommands::rememberHanded);
     connect(&parts_.globe, &GlobeView::failed, this, [this](const QString& reason) {
         choose(SceneChoice::Flat);
@@ -126,8 +128,11 @@ void SceneCommands::readOnGlobe()
                     readout->setMaps(map, map);
                     read_map_ = map;
                 }
+                // Without what blending edges changes.
+                const BodyTerrain& terrain = globe->scene().maps()[ground->index];
+                const double elevation_m = terrain.elevationOnGrid(ground->hit.grid);
                 readout->setPlace(ReadPlace{.hit = {.grid = ground->hit.grid,
-                                                    .height_m = ground->hit.height_m,
+                                                    .height_m = elevation_m,
                                                     .t = ground->hit.distance_m},
                                             .screen_pixel_m = globe->metersPerPoint(ground->hit)});
             });
@@ -270,7 +275,8 @@ std::vector<ShownLayer> SceneCommands::shownOnBody() const
         layers.push_back({.map = layer->map,
                           .ramp = &rampOf(*layer),
                           .color_range = parts_.session.stretchedRangeOf(*layer),
-                          .slope_range = layer->slope_range});
+                          .slope_range = layer->slope_range,
+                          .feather_cells = layer->feather_cells});
     }
     return layers;
 }

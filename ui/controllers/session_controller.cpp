@@ -633,6 +633,25 @@ void SessionController::setSlopeRange(LayerId id,
     }
 }
 
+void SessionController::setFeather(LayerId id, std::size_t cells)
+{
+    if (const Layer* layer = layerOf(session_, id)) {
+        //: Continues "Undo …"; %1 is a layer
+        change(tr("Blended Edges of %1").arg(nameOf(*layer)), withFeather(session_, id, cells));
+    }
+}
+
+bool SessionController::canFeather(LayerId id) const
+{
+    if (!other_scene_) {
+        return false;
+    }
+    const std::vector<const Layer*> layers = layersOnBody(session_);
+    return std::any_of(layers.begin(), layers.end(),
+                       [id](const Layer* layer) { return layer->id == id; }) &&
+           layers.back()->id != id;
+}
+
 SlopeRange SessionController::slopeRangeOf(const Layer& layer) const
 {
     return layer.slope_range.value_or(layer.map->slopeRange());

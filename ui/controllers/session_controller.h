@@ -143,6 +143,10 @@ public:
     void setSlopeRange(LayerId id,
                        const std::optional<SlopeRange>& range,
                        ChangeKind kind = ChangeKind::Single);
+    /// Over how many cells its edges are blended into the layers below it, on the globe.
+    void setFeather(LayerId id, std::size_t cells);
+    /// Whether the globe is shown and the layer has others below it there.
+    bool canFeather(LayerId id) const;
     /// Over which slopes it is spread now.
     SlopeRange slopeRangeOf(const Layer& layer) const;
     /// From the lowest to the highest elevation of the layer in the picture. Nothing where the

@@ -75,7 +75,7 @@ BodyLimits GlobeGround::limits() const
 
 std::vector<ScenePoint> GlobeGround::placesOf(const BodyTerrain& map) const
 {
-    const HeightRange range = map.map()->heightfield().range().value_or(HeightRange{});
+    const HeightRange range = map.shown()->heightfield().range().value_or(HeightRange{});
     return placesOver(*map.grid(), range.minimum_m * style.exaggeration,
                       range.maximum_m * style.exaggeration);
 }

@@ -1,5 +1,8 @@
 #include "ui/globe/globe_layers.h"
 
+#include "core/feather/feathered_map.h"
+#include "ui/globe/globe_meshes.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -9,6 +12,11 @@ namespace {
 bool isOfSameMap(const ShownLayer& a, const ShownLayer& b)
 {
     return a.map == b.map;
+}
+
+bool isBlendedAlike(const ShownLayer& a, const ShownLayer& b)
+{
+    return a.feather_cells == b.feather_cells;
 }
 
 bool isSameLook(const ShownLayer& a, const ShownLayer& b)
@@ -48,15 +56,18 @@ void GlobeLayers::set(const std::vector<ShownLayer>& top_first)
                           is_same);
     };
     if (are_same(isOfSameMap)) {
-        if (are_same(isSameLook)) {
-            return;
-        }
         for (ShownLayer& layer : shown_) {
             layer = *std::find_if(wanted_.begin(), wanted_.end(), [&](const ShownLayer& wanted) {
                 return isOfSameMap(wanted, layer);
             });
         }
-        Q_EMIT lookChanged();
+        if (!are_same(isSameLook)) {
+            Q_EMIT lookChanged();
+        }
+        if (!are_same(isBlendedAlike)) {
+            cancel();
+            placeNext();
+        }
         return;
     }
     cancel();
@@ -122,7 +133,7 @@ void GlobeLayers::placeNext()
         return placedOf(layer) == nullptr;
     });
     if (next == wanted_.end()) {
-        Q_EMIT placingFinished();
+        blendNext();
         return;
     }
     placing_ = std::make_shared<JobMonitor>();
@@ -147,18 +158,97 @@ void GlobeLayers::placeNext()
     });
 }
 
+GlobeLayers::Pile GlobeLayers::pile() const
+{
+    const auto are_same = [](const std::vector<BodyTerrain>& a, const std::vector<BodyTerrain>& b) {
+        return std::equal(a.begin(), a.end(), b.begin(), b.end(), isSameMap);
+    };
+    Pile pile;
+    for (auto layer = wanted_.rbegin(); layer != wanted_.rend(); ++layer) {
+        const Placed* placed = placedOf(*layer);
+        if (placed == nullptr || !placed->grid) {
+            continue;
+        }
+        Blended wanted{.terrain = BodyTerrain(layer->map, placed->grid),
+                       .cells = layer->feather_cells,
+                       .below = {pile.maps.rbegin(), pile.maps.rend()}};
+        if (wanted.cells == 0 || wanted.below.empty()) {
+            pile.maps.push_back(wanted.terrain);
+            continue;
+        }
+        const auto known =
+            std::find_if(blended_.begin(), blended_.end(), [&](const Blended& blended) {
+                return blended.cells == wanted.cells &&
+                       blended.terrain.map() == wanted.terrain.map() &&
+                       blended.terrain.grid() == wanted.terrain.grid() &&
+                       are_same(blended.below, wanted.below);
+            });
+        pile.maps.push_back(known != blended_.end() ? known->terrain : wanted.terrain);
+        if (known == blended_.end() && !pile.next) {
+            pile.next = std::move(wanted);
+        }
+    }
+    return pile;
+}
+
+// Reads each sample of a layer a few times.
+void GlobeLayers::blendNext()
+{
+    Pile now = pile();
+    if (!now.next) {
+        const auto is_shown = [&now](const BodyTerrain& terrain) {
+            return std::any_of(now.maps.begin(), now.maps.end(), [&](const BodyTerrain& shown) {
+                return shown.shown() == terrain.shown();
+            });
+        };
+        std::erase_if(blended_, [&](const Blended& known) { return !is_shown(known.terrain); });
+        const bool is_new = !std::equal(now.maps.rbegin(), now.maps.rend(), scene_.maps().begin(),
+                                        scene_.maps().end(), isSameMap);
+        if (is_new) {
+            showPile(now, false);
+        }
+        Q_EMIT placingFinished();
+        return;
+    }
+    placing_ = std::make_shared<JobMonitor>();
+    Q_EMIT blendingStarted();
+    jobs_.run([this, wanted = std::move(*now.next),
+               monitor = placing_](const std::shared_ptr<DetachedJobs::Outlet>& outlet) {
+        const BodyTerrain& own = wanted.terrain;
+        auto shown = featheredMap(own, wanted.below, wanted.cells, *monitor);
+        const QString problem = shown ? QString() : QString::fromStdString(shown.error().message);
+        Blended blended{.terrain = BodyTerrain(own.map(), own.grid(), shown ? *shown : nullptr),
+                        .cells = wanted.cells,
+                        .below = wanted.below};
+        outlet->post([this, monitor, problem, blended = std::move(blended)] {
+            if (monitor != placing_) {
+                return; // superseded
+            }
+            placing_.reset();
+            blended_.push_back(blended);
+            if (!problem.isEmpty()) {
+                Q_EMIT blendingFailed(problem);
+            }
+            blendNext();
+        });
+    });
+}
+
 void GlobeLayers::showPlaced(bool is_other_body)
 {
-    std::vector<BodyTerrain> maps;
+    showPile(pile(), is_other_body);
+}
+
+void GlobeLayers::showPile(const Pile& pile, bool is_other_body)
+{
     shown_.clear();
     for (const ShownLayer& layer : wanted_) {
         const Placed* placed = placedOf(layer);
         if (placed != nullptr && placed->grid) {
-            maps.emplace_back(layer.map, placed->grid);
             shown_.push_back(layer);
         }
     }
-    scene_ = BodyScene(std::move(maps));
+    scene_ = BodyScene({pile.maps.rbegin(), pile.maps.rend()});
     Q_EMIT shownChanged(is_other_body);
 }
 

@@ -17,7 +17,8 @@
 namespace marsview {
 
 /// Places layers on a worker thread, one after the other, on the ellipsoid of the lowest one. A
-/// layer is shown as soon as it is placed. GUI thread.
+/// layer is shown as soon as it is placed. Edges that are to be blended are blended there next,
+/// from the lowest layer up; until all of them are, the picture stays as it is. GUI thread.
 class GlobeLayers final : public QObject {
     Q_OBJECT
 
@@ -31,6 +32,7 @@ public:
     /// Those that are placed, and their terrain.
     const std::vector<ShownLayer>& shown() const noexcept { return shown_; }
     const BodyScene& scene() const noexcept { return scene_; }
+    /// Or blending.
     bool isPlacing() const noexcept { return placing_ != nullptr; }
     /// Of those that were tried.
     std::vector<UnplacedLayer> unplaced() const;
@@ -39,10 +41,13 @@ Q_SIGNALS:
     /// The look of a layer.
     void lookChanged();
     void placingStarted();
+    void blendingStarted();
+    /// Why the edges of a layer are not blended.
+    void blendingFailed(const QString& problem);
     /// shown(), by another list or when a layer was placed. On another body, or without layers,
     /// nothing stays of what was shown.
     void shownChanged(bool is_other_body);
-    /// Nothing is left to be placed.
+    /// Nothing is left to be placed or blended.
     void placingFinished();
 
 private:
@@ -53,7 +58,23 @@ private:
         QString problem;
     };
 
+    // A layer with blended edges. It depends on the layers below it as they are shown.
+    struct Blended {
+        BodyTerrain terrain;
+        std::size_t cells = 0;
+        std::vector<BodyTerrain> below;
+    };
+    // Those that are placed, the lowest first, with the edges that are blended so far, and the
+    // first one whose edges are still to be blended.
+    struct Pile {
+        std::vector<BodyTerrain> maps;
+        std::optional<Blended> next{};
+    };
+
     std::optional<Ellipsoid> ellipsoid() const;
+    Pile pile() const;
+    void blendNext();
+    void showPile(const Pile& pile, bool is_other_body);
     // What is shown stays wanted, and a part of it is being placed on another ellipsoid. Until all
     // of it is placed, the picture stays as it is.
     bool isReplacing() const;
@@ -64,9 +85,10 @@ private:
 
     std::vector<ShownLayer> wanted_; // top first
     std::vector<Placed> placed_;
-    std::vector<ShownLayer> shown_; // of those that are wanted
-    BodyScene scene_;               // of these
-    std::shared_ptr<JobMonitor> placing_;
+    std::vector<Blended> blended_;        // also where that failed: as they are
+    std::vector<ShownLayer> shown_;       // of those that are wanted
+    BodyScene scene_;                     // of these
+    std::shared_ptr<JobMonitor> placing_; // or blending
     DetachedJobs jobs_;
 };
 

@@ -38,7 +38,7 @@ Status layOnBody(const BodyTerrain& terrain,
                  JobMonitor& monitor,
                  BodyStylus::Surface& surface)
 {
-    const std::shared_ptr<const Map>& map = terrain.map();
+    const std::shared_ptr<const Map>& map = terrain.shown();
     if (map->filled()) {
         auto mesh =
             BodyMesh::build(map->filled(), map->georeference(), exaggeration, monitor, ellipsoid);
@@ -166,7 +166,7 @@ std::vector<std::size_t> GlobeMeshes::Ground::joinedWith(std::size_t index) cons
 
 bool isSameMap(const BodyTerrain& a, const BodyTerrain& b)
 {
-    return a.map() == b.map() && a.grid() == b.grid();
+    return a.map() == b.map() && a.shown() == b.shown() && a.grid() == b.grid();
 }
 
 bool areSameMaps(const BodyScene& a, const BodyScene& b)

@@ -82,7 +82,7 @@ private:
     DetachedJobs jobs_;
 };
 
-/// The same map at the same place.
+/// The same map at the same place, with the same edges.
 bool isSameMap(const BodyTerrain& a, const BodyTerrain& b);
 bool areSameMaps(const BodyScene& a, const BodyScene& b);
 

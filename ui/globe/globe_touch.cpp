@@ -97,7 +97,7 @@ std::uint64_t GlobeTouch::arrivals() const
     std::uint64_t count = 0;
     if (const auto& ground = meshes_.ground()) {
         for (const BodyTerrain& terrain : ground->scene.maps()) {
-            const Heightfield& heightfield = terrain.map()->heightfield();
+            const Heightfield& heightfield = terrain.shown()->heightfield();
             count += heightfield.isTiled() ? heightfield.tiles()->raster().generation() : 0;
         }
     }

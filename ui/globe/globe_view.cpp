@@ -72,6 +72,11 @@ void GlobeView::connectParts()
             wait_->show();
         }
     });
+    connect(&layers_, &GlobeLayers::blendingStarted, this, [this] {
+        wait_->setText(tr("Blending the edges of layers…"));
+        wait_->show();
+    });
+    connect(&layers_, &GlobeLayers::blendingFailed, this, &GlobeView::blendingFailed);
     connect(&layers_, &GlobeLayers::placingFinished, this, &GlobeView::finishPlacing);
     connect(&camera_, &GlobeCamera::cameraChanged, this, [this] {
         canvas_.redraw();
@@ -145,8 +150,9 @@ void GlobeView::showLayers(bool is_other_body)
 void GlobeView::finishPlacing()
 {
     Q_EMIT unplacedChanged();
+    wait_->setText(tr("Preparing the terrain for touch…"));
+    wait_->setVisible(meshes_.isPreparing());
     if (ground_.isEmpty()) {
-        wait_->hide();
         if (const auto unplaced = layers_.unplaced(); !unplaced.empty()) {
             Q_EMIT failed(unplaced.front().problem);
         }
@@ -386,7 +392,8 @@ void GlobeView::report()
     if (ground && !isMoving() && drag_ == MapAction::None) {
         const BodyTerrain& read = ground_.scene.maps()[ground->index];
         if (!read.isExact(ground->hit.grid)) {
-            static_cast<void>(read.heightOnGrid(ground->hit.grid, BodyTerrain::Tiles::Requested));
+            static_cast<void>(
+                read.elevationOnGrid(ground->hit.grid, BodyTerrain::Tiles::Requested));
             if (read.map()->heightfield().tiles()->isLoading()) {
                 sample_timer_.start(kSampleInterval);
             }
@@ -422,9 +429,14 @@ std::vector<TerrainLayer> GlobeView::terrainLayers() const
 {
     std::vector<TerrainLayer> drawn;
     for (std::size_t i = 0; i < layers().size(); ++i) {
-        const ShownLayer& layer = layers()[i];
+        // Colors are spread over the elevations of the data, whatever is blended.
+        const BodyTerrain& terrain = ground_.scene.maps()[i];
+        ShownLayer layer = layers()[i];
+        layer.color_range = layer.color_range.value_or(layer.map->tintRange());
+        layer.slope_range = slopeRangeOf(layer);
+        layer.map = terrain.shown();
         drawn.push_back(terrainLayer(layer, layer.map->georeference().sceneFrame()));
-        drawn.back().body = ground_.scene.maps()[i].grid();
+        drawn.back().body = terrain.grid();
     }
     return drawn;
 }

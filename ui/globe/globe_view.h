@@ -187,6 +187,8 @@ Q_SIGNALS:
     void toolChanged();
     /// Why the terrain cannot be touched.
     void touchFailed(const QString& reason);
+    /// Why the edges of a layer are not blended.
+    void blendingFailed(const QString& reason);
     /// A gesture of the mouse moved the camera or the stylus.
     void gestureMade(MapAction action);
     /// The context menu of what lies at a position in widget coordinates is asked for.

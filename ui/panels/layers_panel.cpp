@@ -13,9 +13,14 @@
 #include <QListView>
 #include <QLocale>
 #include <QScopedValueRollback>
+#include <QSignalBlocker>
+#include <QSpinBox>
 #include <QStackedLayout>
+#include <QTimer>
 #include <QToolButton>
 #include <QVBoxLayout>
+
+#include <chrono>
 
 namespace marsview {
 namespace {
@@ -29,6 +34,9 @@ QToolButton* makeButton(QAction* action, QWidget* parent)
     return button;
 }
 
+// After the last change of a number that is stepped or dragged.
+constexpr std::chrono::milliseconds kFeatherDelay{300};
+
 } // namespace
 
 LayersPanel::LayersPanel(const LayerActions& actions, QWidget* parent)
@@ -38,6 +46,9 @@ LayersPanel::LayersPanel(const LayerActions& actions, QWidget* parent)
     , vector_files_(new VectorFileList(this))
     , empty_(new QLabel(this))
     , ramps_(new QComboBox(this))
+    , feather_label_(new QLabel(tr("&Blend edges over"), this))
+    , feather_(new QSpinBox(this))
+    , feather_timer_(new QTimer(this))
     , pages_(new QStackedLayout)
 {
     list_->setAccessibleName(tr("Layers, topmost first"));
@@ -84,6 +95,26 @@ LayersPanel::LayersPanel(const LayerActions& actions, QWidget* parent)
     ramp_row->addWidget(ramp_label);
     ramp_row->addWidget(ramps_, 1);
 
+    feather_->setObjectName(QStringLiteral("feather"));
+    feather_->setAccessibleName(tr("Cells over which the edges of the active layer are blended"));
+    feather_->setRange(0, static_cast<int>(kFeatherCellsMax));
+    feather_->setSingleStep(5);
+    feather_->setKeyboardTracking(false);
+    //: Edges are not blended
+    feather_->setSpecialValueText(tr("Off"));
+    //: Follows a number of cells of a grid
+    feather_->setSuffix(tr(" cells"));
+    feather_->setToolTip(
+        tr("Where this layer ends, it goes smoothly into the layers below it: in the picture and "
+           "for touch. Elevations that are read stay those of the layer."));
+    feather_label_->setBuddy(feather_);
+    feather_timer_->setSingleShot(true);
+    feather_timer_->setInterval(kFeatherDelay);
+    auto* feather_row = new QHBoxLayout;
+    feather_row->setSpacing(8);
+    feather_row->addWidget(feather_label_);
+    feather_row->addWidget(feather_, 1);
+
     auto* buttons = new QHBoxLayout;
     buttons->setSpacing(2);
     buttons->addWidget(makeButton(actions.open, this));
@@ -99,6 +130,7 @@ LayersPanel::LayersPanel(const LayerActions& actions, QWidget* parent)
     auto* foot = new QVBoxLayout;
     foot->setContentsMargins(6, 4, 6, 4);
     foot->addLayout(ramp_row);
+    foot->addLayout(feather_row);
     foot->addLayout(buttons);
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
@@ -122,14 +154,32 @@ LayersPanel::LayersPanel(const LayerActions& actions, QWidget* parent)
     connect(ramps_, &QComboBox::activated, this, [this](int item) {
         Q_EMIT rampRequested(model_->session().active, ramps_->itemData(item).toString());
     });
+    connect(feather_, &QSpinBox::valueChanged, feather_timer_, qOverload<>(&QTimer::start));
+    connect(feather_, &QSpinBox::editingFinished, this, &LayersPanel::requestFeather);
+    connect(feather_timer_, &QTimer::timeout, this, &LayersPanel::requestFeather);
     showActive();
 }
 
-void LayersPanel::setSession(const Session& session)
+void LayersPanel::setSession(const Session& session, bool can_feather)
 {
     const QScopedValueRollback filling(is_filling_, true);
+    if (session.active != model_->session().active) {
+        feather_timer_->stop();
+    }
     model_->setSession(session);
+    feather_label_->setVisible(can_feather);
+    feather_->setVisible(can_feather);
     showActive();
+}
+
+void LayersPanel::requestFeather()
+{
+    feather_timer_->stop();
+    const Layer* layer = activeLayer(model_->session());
+    const auto cells = static_cast<std::size_t>(feather_->value());
+    if (layer != nullptr && layer->feather_cells != cells) {
+        Q_EMIT featherRequested(layer->id, cells);
+    }
 }
 
 void LayersPanel::setHeightUnit(HeightUnit unit)
@@ -176,6 +226,10 @@ void LayersPanel::showActive()
     const Layer* layer = activeLayer(model_->session());
     ramps_->setCurrentIndex(layer != nullptr ? ramps_->findData(QString::fromStdString(layer->ramp))
                                              : 0);
+    if (!feather_timer_->isActive()) { // otherwise it is being changed
+        const QSignalBlocker blocker(feather_);
+        feather_->setValue(layer != nullptr ? static_cast<int>(layer->feather_cells) : 0);
+    }
 }
 
 } // namespace marsview

@@ -10,7 +10,9 @@ class QAction;
 class QComboBox;
 class QLabel;
 class QListView;
+class QSpinBox;
 class QStackedLayout;
+class QTimer;
 
 namespace marsview {
 
@@ -37,7 +39,8 @@ class LayersPanel final : public QWidget {
 public:
     explicit LayersPanel(const LayerActions& actions, QWidget* parent = nullptr);
 
-    void setSession(const Session& session);
+    /// `can_feather`: the active layer's edges can be blended into layers below it.
+    void setSession(const Session& session, bool can_feather);
     void setHeightUnit(HeightUnit unit);
     /// Lets the user type a new name for the active layer.
     void editName();
@@ -53,9 +56,12 @@ Q_SIGNALS:
     void moveRequested(LayerId id, std::size_t index);
     /// Empty for the ramp that suits the body.
     void rampRequested(LayerId id, const QString& ramp);
+    /// Once a number of cells has been set for a moment.
+    void featherRequested(LayerId id, std::size_t cells);
 
 private:
     void showActive();
+    void requestFeather();
     QString emptyText() const;
 
     LayerModel* model_ = nullptr;
@@ -63,6 +69,9 @@ private:
     VectorFileList* vector_files_ = nullptr;
     QLabel* empty_ = nullptr;
     QComboBox* ramps_ = nullptr;
+    QLabel* feather_label_ = nullptr;
+    QSpinBox* feather_ = nullptr;
+    QTimer* feather_timer_ = nullptr; // runs while its number changes
     QStackedLayout* pages_ = nullptr;
     QString open_key_; // of the action
     bool is_filling_ = false;

@@ -17,6 +17,7 @@
 #include <QLineEdit>
 #include <QListView>
 #include <QMouseEvent>
+#include <QSpinBox>
 #include <QTest>
 #include <QToolButton>
 
@@ -65,6 +66,77 @@ TEST_F(GlobeLayersTest, LayersInOtherProjectionsLieTogetherTheUpperOneOnTop)
     EXPECT_EQ(layerAt(0.0, 80.0), 0U);
     EXPECT_EQ(layerAt(90.0, 80.0), 1U);
     EXPECT_EQ(layerAt(-120.0, 10.0), 1U);
+}
+
+// 20 km cells; the layer goes from -300 to 480 m from west to east.
+TEST_F(GlobeLayersTest, EdgesAreBlendedIntoTheLayerBelowUntilThatIsUndone)
+{
+    ASSERT_TRUE(openNested());
+    auto* cells = window_->datasetPanel()->findChild<QSpinBox*>(QStringLiteral("feather"));
+    ASSERT_NE(cells, nullptr);
+    EXPECT_TRUE(cells->isHidden()) << "the flat map has steps";
+    ASSERT_TRUE(showGlobe());
+    ASSERT_TRUE(waitFor([this] { return globe().scene().maps().size() == 2; }));
+    EXPECT_FALSE(cells->isHidden());
+    const LayerId top = window_->session().active;
+    const LayerId mars = window_->session().layers.back().id;
+    window_->controller().activate(mars);
+    EXPECT_TRUE(cells->isHidden()) << "nothing lies below";
+    window_->controller().activate(top);
+    const auto upper = [this]() -> const BodyTerrain& { return globe().scene().maps().front(); };
+    ASSERT_EQ(upper().shown(), upper().map());
+
+    cells->setValue(8);
+    ASSERT_TRUE(waitFor([&] { return upper().shown() != upper().map(); }));
+    ASSERT_TRUE(waitFor([this] { return globe().isPictureComplete(); }));
+    EXPECT_EQ(layerOf(window_->session(), top)->feather_cells, 8U);
+    const BodyTerrain& lower = globe().scene().maps().back();
+    for (const GridPoint border : {GridPoint{0.0, 12.0}, GridPoint{39.0, 7.0}}) {
+        const auto place = upper().map()->georeference().toGeographic(border);
+        ASSERT_TRUE(place);
+        EXPECT_NEAR(globe().scene().height(*place), lower.height(*place), 0.01);
+        EXPECT_EQ(upper().elevationOnGrid(border), border.column * 20.0 - 300.0);
+    }
+    EXPECT_EQ(upper().heightOnGrid({20.0, 15.0}), 100.0) << "to the bit";
+    // The status bar has the elevation of the data, at a border sample and where half is blended.
+    const auto read_m = [&](const GridPoint& grid) {
+        const auto place = upper().map()->georeference().toGeographic(grid);
+        globe().setCamera({.target = *place,
+                           .height_m = globe().scene().height(*place),
+                           .distance_m = 3e5,
+                           .azimuth = {},
+                           .tilt = {}});
+        move(globeMiddle());
+        const auto reading = globe().reading();
+        EXPECT_TRUE(reading && reading->index == 0);
+        return std::pair(window_->readout()->heightLabel(), reading->hit.grid.column);
+    };
+    const auto [label, column] = read_m({4.0, 15.0});
+    const double expected_m = column * 20.0 - 300.0;
+    const double shown_m = upper().heightOnGrid({column, 15.0});
+    EXPECT_GT(std::abs(shown_m - expected_m), 50.0) << "blended";
+    EXPECT_NE(label.indexOf(QString::number(static_cast<int>(std::abs(expected_m)))), -1)
+        << label.toStdString() << " for " << expected_m;
+    // What is touched is the same surface.
+    globe().setTool(Tool::Touch);
+    ASSERT_TRUE(waitFor([this] { return globe().meshes().isComplete(); }));
+    EXPECT_EQ(globe().meshes().ground()->scene.maps().front().shown(), upper().shown());
+
+    EXPECT_TRUE(window_->controller().undoStack().undoText().startsWith(
+        QStringLiteral("Blended Edges of")));
+    window_->controller().undoStack().undo();
+    ASSERT_TRUE(waitFor([&] { return upper().shown() == upper().map(); }));
+    EXPECT_EQ(cells->value(), 0);
+    window_->controller().undoStack().redo();
+    ASSERT_TRUE(waitFor([&] { return upper().shown() != upper().map(); }));
+    EXPECT_EQ(cells->value(), 8);
+    // With another order of layers nothing lies below it.
+    window_->controller().move(top, 1);
+    ASSERT_TRUE(waitFor([this] {
+        const auto& maps = globe().scene().maps();
+        return maps.size() == 2 && maps.back().shown() == maps.back().map() &&
+               globe().isPictureComplete();
+    }));
 }
 
 TEST_F(GlobeLayersTest, TheFinestLayerCoversTheOthersOnRequest)
