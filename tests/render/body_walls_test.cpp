@@ -151,6 +151,45 @@ TEST_F(BodyWalls, NoPixelIsSeenThroughTheStepAtAnEdge)
     }
 }
 
+// With several samples a pixel, and hardly a step, as edges are that are blended. Light alone gives
+// shades of gray.
+TEST_F(BodyWalls, NoSampleOfAPixelIsSeenThroughAnEdgeWithoutAStep)
+{
+    const StepMap lower = globe(level);
+    for (const double step_m : {0.0, 3.0, -3.0}) {
+        const StepMap upper("+proj=stere +lat_0=18.5 +lon_0=77.4 +R=3396190 +units=m", 201, 161,
+                            {-300000, 3000, 0, 240000, 0, -3000},
+                            [step_m](std::size_t, std::size_t) { return step_m; });
+        renderer_->setLayers({upper.layer(), lower.layer()});
+        DrawStyle style;
+        style.exaggeration = 1.0;
+        style.look.mode = ShadingMode::Hillshade;
+        style.sky_top = kSkyColor;
+        style.sky_bottom = kSkyColor;
+        for (const Position& from :
+             {Position{1.2e6, 20.0}, {1.1e6, 50.0}, {7e5, 60.0}, {9e5, 35.0}}) {
+            const BodyCamera camera = over(from);
+            DrawRequest request{.viewport = kViewport, .samples = 4};
+            request.body_pose = poseOf(camera, lower.layer().body->ellipsoid());
+            const OffscreenPicture picture =
+                drawOffscreen(*renderer_, request, style, DepthUse::No).value();
+            std::size_t seen_through = 0;
+            for (int y = 0; y < kViewport.height; ++y) {
+                for (int x = 0; x < kViewport.width; ++x) {
+                    const Ray ray = pickRay(*request.body_pose, kViewport, {x + 0.5, y + 0.5});
+                    const Vec3 nearest = ray.at(-dot(ray.origin, ray.direction));
+                    const auto* rgb = picture.colors.rgb.data() +
+                                      3 * static_cast<std::size_t>(y * kViewport.width + x);
+                    const bool is_tinted = std::min(rgb[0], rgb[2]) > rgb[1] + 16;
+                    seen_through += length(nearest) < 0.98 * kRadius && is_tinted ? 1U : 0U;
+                }
+            }
+            EXPECT_EQ(seen_through, 0U)
+                << step_m << " m from " << from.distance_m << " m, " << from.tilt_deg << "°";
+        }
+    }
+}
+
 // The map is smaller than a cell of the lower one, and near the eye its walls reach into pictures
 // in which none of their rims is.
 TEST_F(BodyWalls, NoPixelIsSeenThroughAroundAMapInACell)

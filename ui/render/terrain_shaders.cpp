@@ -467,6 +467,9 @@ uniform float u_cover_turn[COVERS];   // of the first; 0 where the cover does no
 // Texels of a relief's last level, in those of its first one.
 const float kReliefLargest = 8.0;
 
+// From the middle of a pixel to its samples, and a little more, in pixels.
+const float kPixelReach = 0.6;
+
 // Whether there is a surface at all corners of a square around the place. Ground that is seen at a
 // low angle has larger texels, and holes as much larger in the picture. Most cells know by
 // themselves; software drivers leave the loop once that is so for some neighboring pixels.
@@ -480,13 +483,19 @@ bool isUnder(usampler2D cover,
 {
     vec2 place = share.xy;
     place.x -= turn > 0.0 ? turn * floor(place.x / turn) : 0.0;
-    bool is_under = share.z > 0.999 && all(greaterThanEqual(place, range.xz)) &&
-                    all(lessThanEqual(place, range.yw));
+    // All samples of a pixel share its decision: the upper map has to cover them all.
+    vec2 across = dFdx(share.xy);
+    vec2 down = dFdy(share.xy);
+    vec2 reach = kPixelReach * (abs(across) + abs(down));
+    reach = max(overlap, mix(reach, vec2(0.0), greaterThan(reach, vec2(0.5)))); // another turn
+    bool is_under = share.z > 0.999 &&
+                    all(greaterThanEqual(place, range.xz + (reach - overlap))) &&
+                    all(lessThanEqual(place, range.yw - (reach - overlap)));
     vec2 middle = place * to_texture.xy + to_texture.zw;
-    vec2 to_corner = overlap * to_texture.xy;
+    vec2 to_corner = reach * to_texture.xy;
     float texel = level.x / gl_FragCoord.w;
     vec2 per_share = to_texture.xy * vec2(textureSize(cover, 0));
-    float seen = max(length(dFdx(share.xy) * per_share), length(dFdy(share.xy) * per_share));
+    float seen = max(length(across * per_share), length(down * per_share));
     int drawn_level = levelOf(clamp(seen, texel, kReliefLargest * texel), level.y);
     int looks = is_under ? 5 : 0;
     for (int i = int(level.w); i < looks; ++i) {
