@@ -122,6 +122,10 @@ LevelFileHeader headerFrom(const json& root, std::uint64_t file_bytes)
     const json& statistics = root.at("statistics");
     header.statistics.raw_minimum = numberFrom(statistics.at("raw_minimum"));
     header.statistics.raw_maximum = numberFrom(statistics.at("raw_maximum"));
+    if (statistics.contains("raw_next_minimum")) {
+        header.statistics.raw_next_minimum = numberFrom(statistics.at("raw_next_minimum"));
+        header.statistics.raw_next_maximum = numberFrom(statistics.at("raw_next_maximum"));
+    }
     header.statistics.sample_count = header.layout.columns * header.layout.rows;
     header.statistics.void_count =
         wholeNumberFrom(statistics.at("void_count"), header.statistics.sample_count);
@@ -309,6 +313,8 @@ std::string writtenHeader(const LevelFileHeader& header)
                     {"statistics",
                      {{"raw_minimum", numberJson(header.statistics.raw_minimum)},
                       {"raw_maximum", numberJson(header.statistics.raw_maximum)},
+                      {"raw_next_minimum", numberJson(header.statistics.raw_next_minimum)},
+                      {"raw_next_maximum", numberJson(header.statistics.raw_next_maximum)},
                       {"void_count", header.statistics.void_count}}},
                     {"scale",
                      {{"gain", numberJson(header.scale.gain)},

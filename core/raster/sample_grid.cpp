@@ -14,6 +14,39 @@
 namespace marsview {
 namespace {
 
+// The two lowest and the two highest distinct values, in the type of the samples: a comparison at
+// either end for nearly all of them.
+template <typename T>
+struct Extremes {
+    T low = std::numeric_limits<T>::max();
+    T next_low = low;
+    T high = std::numeric_limits<T>::lowest();
+    T next_high = high;
+
+    void include(T value) noexcept
+    {
+        if (value < next_low) {
+            next_low = value < low ? low : value > low ? value : next_low;
+            low = std::min(low, value);
+        }
+        if (value > next_high) {
+            next_high = value > high ? high : value < high ? value : next_high;
+            high = std::max(high, value);
+        }
+    }
+
+    void putInto(SampleStatistics& statistics) const noexcept
+    {
+        for (const T value : {low, high}) {
+            statistics.includeValue(static_cast<double>(value));
+        }
+        if (low < high) { // otherwise the next ones are not values
+            statistics.includeValue(static_cast<double>(next_low));
+            statistics.includeValue(static_cast<double>(next_high));
+        }
+    }
+};
+
 // The size limit of an array: the largest difference of two pointers.
 constexpr std::size_t kBytesMax =
     static_cast<std::size_t>(std::numeric_limits<std::ptrdiff_t>::max());
@@ -58,10 +91,32 @@ std::string_view sampleTypeName(SampleType type)
     MARSVIEW_CHECK(false);
 }
 
+void SampleStatistics::includeLow(double raw) noexcept
+{
+    if (raw < raw_minimum) {
+        raw_next_minimum = raw_minimum;
+        raw_minimum = raw;
+    } else if (raw > raw_minimum) {
+        raw_next_minimum = std::min(raw_next_minimum, raw);
+    }
+}
+
+void SampleStatistics::includeHigh(double raw) noexcept
+{
+    if (raw > raw_maximum) {
+        raw_next_maximum = raw_maximum;
+        raw_maximum = raw;
+    } else if (raw < raw_maximum) {
+        raw_next_maximum = std::max(raw_next_maximum, raw);
+    }
+}
+
 void SampleStatistics::merge(const SampleStatistics& other) noexcept
 {
-    raw_minimum = std::min(raw_minimum, other.raw_minimum);
-    raw_maximum = std::max(raw_maximum, other.raw_maximum);
+    includeLow(other.raw_minimum);
+    includeLow(other.raw_next_minimum);
+    includeHigh(other.raw_maximum);
+    includeHigh(other.raw_next_maximum);
     void_count += other.void_count;
     sample_count += other.sample_count;
 }
@@ -191,8 +246,7 @@ SampleStatistics SampleGrid::applyRule(const VoidRule& rule, std::size_t first, 
         const Nodata<T> nodata(rule.nodata);
         SampleStatistics statistics;
         statistics.sample_count = count * columns_;
-        T low = std::numeric_limits<T>::max();
-        T high = std::numeric_limits<T>::lowest();
+        Extremes<T> found;
         for (std::size_t r = first; r < first + count; ++r) {
             const T* row = reinterpret_cast<const T*>(samples_.data()) + r * columns_;
             for (std::size_t c = 0; c < columns_; ++c) {
@@ -203,13 +257,11 @@ SampleStatistics SampleGrid::applyRule(const VoidRule& rule, std::size_t first, 
                     ++statistics.void_count;
                     continue;
                 }
-                low = std::min(low, row[c]);
-                high = std::max(high, row[c]);
+                found.include(row[c]);
             }
         }
         if (statistics.hasSamples()) {
-            statistics.raw_minimum = static_cast<double>(low);
-            statistics.raw_maximum = static_cast<double>(high);
+            found.putInto(statistics);
         }
         return statistics;
     });

@@ -19,11 +19,25 @@ namespace marsview {
 struct SampleStatistics {
     double raw_minimum = std::numeric_limits<double>::infinity(); // over samples that are not void
     double raw_maximum = -std::numeric_limits<double>::infinity();
+    /// The known values nearest to the minimum and the maximum, other than these: a value that
+    /// marks nodata is far from the rest. Infinite if none is known.
+    double raw_next_minimum = std::numeric_limits<double>::infinity();
+    double raw_next_maximum = -std::numeric_limits<double>::infinity();
     std::uint64_t void_count = 0;
     std::uint64_t sample_count = 0;
 
     bool hasSamples() const noexcept { return void_count < sample_count; }
+    /// Adds a value to the extremes, but not to the counts.
+    void includeValue(double raw) noexcept
+    {
+        includeLow(raw);
+        includeHigh(raw);
+    }
     void merge(const SampleStatistics& other) noexcept;
+
+private:
+    void includeLow(double raw) noexcept;
+    void includeHigh(double raw) noexcept;
 };
 
 /// The raw values that mean nodata.

@@ -176,16 +176,14 @@ void RawRanges::clear(std::size_t first, std::size_t end)
 SampleStatistics RawRanges::extremes(std::size_t first, std::size_t end) const
 {
     return visit([&](auto blocks) {
-        std::remove_cvref_t<decltype(blocks(0, 0))> all{};
+        SampleStatistics statistics;
         for (std::size_t row = first; row < end; ++row) {
             for (const auto& range : blocks.row(row)) {
-                all.include(range);
+                if (!range.isEmpty()) {
+                    statistics.includeValue(static_cast<double>(range.minimum));
+                    statistics.includeValue(static_cast<double>(range.maximum));
+                }
             }
-        }
-        SampleStatistics statistics;
-        if (!all.isEmpty()) {
-            statistics.raw_minimum = static_cast<double>(all.minimum);
-            statistics.raw_maximum = static_cast<double>(all.maximum);
         }
         return statistics;
     });

@@ -95,7 +95,8 @@ public:
 
     /// Makes the blocks of rows [first, end) empty.
     void clear(std::size_t first, std::size_t end);
-    /// Over the blocks of rows [first, end); the counts stay 0.
+    /// Over the blocks of rows [first, end), the next values among those of the blocks; the counts
+    /// stay 0.
     SampleStatistics extremes(std::size_t first, std::size_t end) const;
     /// Over all blocks.
     SampleStatistics extremes() const { return extremes(0, rows_); }

@@ -100,6 +100,8 @@ bool saveBorder(CheckpointWriter& to,
     const SampleStatistics extremes = found.ranges.extremes(ranges.first, ranges.end);
     to.put(extremes.raw_minimum);
     to.put(extremes.raw_maximum);
+    to.put(extremes.raw_next_minimum);
+    to.put(extremes.raw_next_maximum);
     to.put(state.void_count.load());
     to.putArray(
         rowsIn(found.has_voids, firstTileRow(part), layout.tileColumns(TileKind::Samples, 0)));
@@ -128,6 +130,7 @@ Status mergeBorder(CheckpointReader& from,
     std::uint64_t void_count = 0;
     std::vector<std::uint8_t> has_voids;
     if (!from.get(extremes.raw_minimum) || !from.get(extremes.raw_maximum) ||
+        !from.get(extremes.raw_next_minimum) || !from.get(extremes.raw_next_maximum) ||
         !from.get(void_count) || !from.getAny(has_voids)) {
         return notOfThisPart();
     }

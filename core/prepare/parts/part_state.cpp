@@ -17,7 +17,7 @@ namespace marsview {
 namespace {
 
 // To be increased with every change of the files.
-constexpr int kVersion = 4;
+constexpr int kVersion = 5;
 
 } // namespace
 

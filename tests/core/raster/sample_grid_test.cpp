@@ -11,7 +11,9 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <iterator>
 #include <limits>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -170,6 +172,7 @@ TYPED_TEST(SampleGridOf, VoidsAreExactlyTheSamplesThatStandForNothing)
             std::uint64_t voids = 0;
             double low = std::numeric_limits<double>::infinity();
             double high = -low;
+            std::set<double> valid;
             for (std::size_t i = 0; i < samples.size(); ++i) {
                 const bool is_void = isVoidByMeaning(samples[i], nodata);
                 ASSERT_EQ(grid.isVoid(i % columns, i / columns), is_void) << +samples[i];
@@ -177,6 +180,7 @@ TYPED_TEST(SampleGridOf, VoidsAreExactlyTheSamplesThatStandForNothing)
                 if (!is_void) {
                     low = std::min(low, static_cast<double>(samples[i]));
                     high = std::max(high, static_cast<double>(samples[i]));
+                    valid.insert(static_cast<double>(samples[i]));
                     ASSERT_EQ(grid.raw(i % columns, i / columns), static_cast<double>(samples[i]));
                 }
             }
@@ -184,6 +188,12 @@ TYPED_TEST(SampleGridOf, VoidsAreExactlyTheSamplesThatStandForNothing)
             EXPECT_EQ(found.sample_count, samples.size());
             EXPECT_EQ(found.raw_minimum, low);
             EXPECT_EQ(found.raw_maximum, high);
+            EXPECT_EQ(found.raw_next_minimum, valid.size() < 2
+                                                  ? std::numeric_limits<double>::infinity()
+                                                  : *std::next(valid.begin()));
+            EXPECT_EQ(found.raw_next_maximum, valid.size() < 2
+                                                  ? -std::numeric_limits<double>::infinity()
+                                                  : *std::next(valid.rbegin()));
             EXPECT_EQ(found.hasSamples(), voids < samples.size());
             EXPECT_EQ(grid.hasVoids(), voids > 0);
         }
@@ -268,6 +278,8 @@ TYPED_TEST(SampleGridOf, BandsOfRowsAddUpToTheWhole)
         }
         EXPECT_EQ(merged.raw_minimum, expected.raw_minimum);
         EXPECT_EQ(merged.raw_maximum, expected.raw_maximum);
+        EXPECT_EQ(merged.raw_next_minimum, expected.raw_next_minimum);
+        EXPECT_EQ(merged.raw_next_maximum, expected.raw_next_maximum);
         EXPECT_EQ(merged.void_count, expected.void_count);
         EXPECT_EQ(merged.sample_count, expected.sample_count);
         for (std::size_t i = 0; i < samples.size(); ++i) {
