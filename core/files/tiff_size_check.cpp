@@ -157,6 +157,23 @@ valueOf(Reader& reader, const Directory& directory, std::uint16_t tag, std::uint
                                std::min<std::uint64_t>(8, bytesOfType(entry->second.type)));
 }
 
+// "512 B", "67.1 MB"
+std::string sizeText(std::uint64_t bytes)
+{
+    constexpr double kStep = 1e3;
+    constexpr std::uint64_t kPlainMax = 9999;
+    if (bytes <= kPlainMax) {
+        return fmt::format("{} B", bytes);
+    }
+    constexpr std::array kUnits{"kB", "MB", "GB", "TB", "PB", "EB"};
+    double size = static_cast<double>(bytes) / kStep;
+    std::size_t unit = 0;
+    for (; size >= kStep && unit + 1 < kUnits.size(); ++unit) {
+        size /= kStep;
+    }
+    return fmt::format("{:.1f} {}", size, kUnits[unit]);
+}
+
 std::uint64_t timesOrMost(std::uint64_t a, std::uint64_t b)
 {
     std::uint64_t product = 0;
@@ -331,8 +348,8 @@ std::optional<TiffSizes> tiffSizesOf(const std::string& path)
             if (isList(tag) && !reader.isWithin(entry.place, bytes)) {
                 promise.fits =
                     cutShort(fmt::format("it declares a list of {} blocks of samples that takes "
-                                         "{} bytes, but the whole file has {}",
-                                         entry.count, bytes, reader.bytes()));
+                                         "{}, but the whole file has {}",
+                                         entry.count, sizeText(bytes), sizeText(reader.bytes())));
                 return promise;
             }
             directory.try_emplace(tag, entry);
