@@ -234,6 +234,7 @@ std::vector<std::string> noticesWithOptions(const RasterInfo& info)
     };
     name_option(info.crs_suggestion);
     name_option(info.unit_suggestion);
+    name_option(info.elevation_misfit);
     return notices;
 }
 

@@ -164,6 +164,22 @@ bool canBeInArea(const Crs& crs, MapPoint position)
     return place && crs.areaOfUse()->contains(*place);
 }
 
+// With the digits that people need to recognize a grid.
+std::string coordinateText(double value)
+{
+    constexpr double kWholeMin = 1000.0;
+    return std::abs(value) >= kWholeMin ? fmt::format("{:.0f}", value)
+                                        : fmt::format("{:.6g}", value);
+}
+
+// "x 376314 to 380000 and y 3340000 to 3350820"
+std::string coverageOf(const MapExtent& extent)
+{
+    return fmt::format("x {} to {} and y {} to {}", coordinateText(extent.west),
+                       coordinateText(extent.east), coordinateText(extent.south),
+                       coordinateText(extent.north));
+}
+
 std::string misfitOfDegrees(const Crs& crs, const RasterInfo& degrees)
 {
     const MapExtent extent = extentOf(degrees);
@@ -171,6 +187,14 @@ std::string misfitOfDegrees(const Crs& crs, const RasterInfo& degrees)
         "\"{}\" (unit {}) cannot place a grid in degrees ({}, {}); choose a CRS of "
         "longitude and latitude, or set a geotransform in its unit",
         crs.name(), crs.unitName(), longitudeRange(extent), latitudeRange(extent));
+}
+
+std::string misfitOf(const CrsSuggestion& suggestion)
+{
+    return fmt::format(
+        "the CRS \"{}\" (unit {}) does not fit the grid, which looks like longitude "
+        "and latitude in degrees",
+        suggestion.unfit_crs, suggestion.unfit_unit);
 }
 
 constexpr const char* kUntilThen = "until then, map units are read as meters";
@@ -215,12 +239,34 @@ std::optional<CrsSuggestion> suggestCrs(const RasterInfo& info)
     return suggestion;
 }
 
+std::optional<CrsSuggestion> suggestDegreesInstead(const RasterInfo& info)
+{
+    if (!info.crs || info.crs->kind() != CrsKind::Projected) {
+        return std::nullopt;
+    }
+    RasterInfo bare = withoutCrs(info);
+    if (bare.axis_hints.body == nullptr) {
+        bare.axis_hints.body = info.body;
+    }
+    std::optional<CrsSuggestion> suggestion = suggestCrs(bare);
+    if (!suggestion || !suggestion->is_certain) {
+        return std::nullopt;
+    }
+    suggestion->unfit_crs = info.crs->name();
+    suggestion->unfit_unit = info.crs->unitName();
+    return suggestion;
+}
+
 std::string noticeOf(const CrsSuggestion& suggestion)
 {
     std::vector<std::string> choices;
     for (const CrsChoice& choice : suggestion.choices) {
         choices.push_back(isCode(choice) ? fmt::format("{} ({})", choice.crs, choice.body)
                                          : fmt::format("the body {}", choice.body));
+    }
+    if (!suggestion.unfit_crs.empty()) {
+        return fmt::format("{} ({}): set {}", misfitOf(suggestion), suggestion.reason,
+                           joined(choices));
     }
     return fmt::format(
         "no CRS, but it looks like longitude and latitude in degrees ({}): set {}; {}",
@@ -234,6 +280,10 @@ std::string optionNoticeOf(const CrsSuggestion& suggestion)
         choices.push_back(isCode(choice) ? fmt::format("--crs {} ({})", choice.crs, choice.body)
                                          : fmt::format("--body {}", choice.body));
     }
+    if (!suggestion.unfit_crs.empty()) {
+        return fmt::format("{} ({}); set the CRS with {}", misfitOf(suggestion), suggestion.reason,
+                           joined(choices));
+    }
     return fmt::format(
         "no CRS, but it looks like longitude and latitude in degrees ({}); set the "
         "CRS with {}; {}",
@@ -246,12 +296,21 @@ std::string angularMisfit(const RasterInfo& info)
         canBeAngles(info, *info.crs->turn())) {
         return {};
     }
-    const MapExtent extent = extentOf(info);
     return fmt::format(
-        "\"{}\" (unit {}) cannot place a grid that covers x {} to {} and y {} to {}; "
+        "\"{}\" (unit {}) cannot place a grid that covers {}; "
         "choose a projected CRS, or set a geotransform in degrees",
-        info.crs->name(), info.crs->unitName(), extent.west, extent.east, extent.south,
-        extent.north);
+        info.crs->name(), info.crs->unitName(), coverageOf(extentOf(info)));
+}
+
+std::string noticeOfUnusedCrs(const RasterInfo& info)
+{
+    return angularMisfit(info).empty()
+               ? std::string()
+               : fmt::format(
+                     "the CRS \"{}\" of the file is not used: it is in {}s, but the grid "
+                     "covers {}; set the CRS; {}",
+                     info.crs->name(), info.crs->unitName(), coverageOf(extentOf(info)),
+                     kUntilThen);
 }
 
 std::string projectedMisfit(const RasterInfo& info)
@@ -266,13 +325,11 @@ std::string projectedMisfit(const RasterInfo& info)
     if (!canBeAngles(info) || canBeInArea(*info.crs, extentOf(info).center())) {
         return {};
     }
-    const MapExtent extent = extentOf(info);
     return fmt::format(
-        "\"{}\" (unit {}) cannot place a grid that covers x {} to {} and y {} to {}: that is far "
+        "\"{}\" (unit {}) cannot place a grid that covers {}: that is far "
         "from the area that it is made for, and can be degrees; choose a CRS of longitude and "
         "latitude, or set a geotransform in its unit",
-        info.crs->name(), info.crs->unitName(), extent.west, extent.east, extent.south,
-        extent.north);
+        info.crs->name(), info.crs->unitName(), coverageOf(extentOf(info)));
 }
 
 std::string projectedMisfit(const RasterInfo& info, const RasterInfo& as_read)

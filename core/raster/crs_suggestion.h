@@ -26,7 +26,8 @@ struct CrsChoice {
     bool operator==(const CrsChoice&) const = default;
 };
 
-/// A raster without CRS whose numbers look like degrees of longitude and latitude.
+/// A raster without CRS, or with a projected one that does not fit, whose numbers look like degrees
+/// of longitude and latitude.
 struct CrsSuggestion {
     /// Why: "its extent is 0° – 360°, 90° S – 90° N".
     std::string reason;
@@ -35,11 +36,17 @@ struct CrsSuggestion {
     std::vector<CrsChoice> choices;
     /// False if only the numbers suggest degrees: they could be a few meters.
     bool is_certain = false;
+    /// The name and the unit of the CRS of the file that does not fit; empty without a CRS.
+    std::string unfit_crs;
+    std::string unfit_unit;
     bool operator==(const CrsSuggestion&) const = default;
 };
 
 /// Empty for a raster with a CRS or without georeferencing, or whose extent cannot be in degrees.
 std::optional<CrsSuggestion> suggestCrs(const RasterInfo& info);
+
+/// For a raster with a projected CRS whose grid must be in degrees: a whole body. Otherwise empty.
+std::optional<CrsSuggestion> suggestDegreesInstead(const RasterInfo& info);
 
 /// The corresponding sentence in RasterInfo::notices.
 std::string noticeOf(const CrsSuggestion& suggestion);
@@ -52,6 +59,10 @@ bool canBeAngles(const RasterInfo& info, double turn = 360.0);
 
 /// Why the geographic CRS of `info` does not fit its grid. Empty if it fits.
 std::string angularMisfit(const RasterInfo& info);
+
+/// The sentence about a CRS in degrees that is not used since it does not fit the grid. Empty if it
+/// fits.
+std::string noticeOfUnusedCrs(const RasterInfo& info);
 
 /// Why the projected CRS of `info` does not fit its grid: its numbers must be degrees, or they can
 /// be, and as lengths lie outside the CRS's area of use. Empty if it fits.

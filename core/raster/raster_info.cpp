@@ -1,5 +1,6 @@
 #include "core/raster/raster_info.h"
 
+#include "core/geo/known_elevations.h"
 #include "core/raster/sample_suggestions.h"
 
 #include <algorithm>
@@ -155,6 +156,21 @@ Status applyCrs(RasterInfo& info, const RasterOverrides& overrides)
     return Done{};
 }
 
+// Of degrees, a grid in meters would be a line; the meters are certain. The body still is that of
+// the CRS.
+Status dropUnusableCrs(RasterInfo& info, const RasterOverrides& overrides)
+{
+    if (overrides.crs || overrides.transform) {
+        return Done{}; // refused if they do not fit each other
+    }
+    info.unused_crs_notice = noticeOfUnusedCrs(info);
+    if (!info.unused_crs_notice.empty()) {
+        info.notices.push_back(info.unused_crs_notice);
+        info.crs.reset();
+    }
+    return Done{};
+}
+
 // Small bodies are irregular: their radii may differ this much from the body's.
 bool areRadiiOf(const Body& body, const Ellipsoid& ellipsoid)
 {
@@ -265,6 +281,13 @@ void dropSettledNotices(RasterInfo& info, const RasterOverrides& overrides)
     }
 }
 
+bool isPlausible(const RasterInfo& info, double elevation_m)
+{
+    constexpr double kHeightMaxM = 1e6; // if the body is unknown
+    return std::abs(elevation_m) <= bodyRadius(info).value_or(kHeightMaxM) &&
+           (info.body == nullptr || canBeOn(*info.body, elevation_m, info.reference_radius_m));
+}
+
 // A value that programs write where they have no elevation.
 std::optional<double> undeclaredNodata(const RasterInfo& info, const SampleStatistics& statistics)
 {
@@ -278,11 +301,21 @@ std::optional<double> undeclaredNodata(const RasterInfo& info, const SampleStati
     const auto is_one_of = [](const auto& marks, double raw) {
         return std::find(marks.begin(), marks.end(), raw) != marks.end();
     };
-    if (is_one_of(kLowMarks, statistics.raw_minimum)) {
+    // Larger elevations than the type holds may have been cut off at its end. They follow on the
+    // rest, and nodata does not; that it was smoothed into its surroundings is more likely where
+    // the other end of the range is that of elevations.
+    constexpr double kNearShare = 0.002;
+    const bool is_cut_off_low =
+        info.type == SampleType::Int16 && statistics.raw_minimum == -32768.0 &&
+        !isIsolated(statistics, SampleEnd::Lowest, kNearShare) &&
+        !isPlausible(info, info.elevationScale().height(statistics.raw_maximum));
+    if (is_one_of(kLowMarks, statistics.raw_minimum) && !is_cut_off_low) {
         return statistics.raw_minimum;
     }
-    const bool is_highest = (info.type == SampleType::Int16 && statistics.raw_maximum == 32767.0) ||
-                            (info.type == SampleType::UInt16 && statistics.raw_maximum == 65535.0);
+    const bool is_highest =
+        ((info.type == SampleType::Int16 && statistics.raw_maximum == 32767.0) ||
+         (info.type == SampleType::UInt16 && statistics.raw_maximum == 65535.0)) &&
+        isIsolated(statistics, SampleEnd::Highest, kNearShare);
     if (is_highest || is_one_of(kHighMarks, statistics.raw_maximum)) {
         return statistics.raw_maximum;
     }
@@ -376,15 +409,13 @@ void noteSuspiciousSamples(RasterInfo& info, const SampleStatistics& statistics)
     if (info.nodata_suggestion) {
         info.notices.push_back(noticeOfNodata(*info.nodata_suggestion));
     }
-    noteUnit(info, statistics);
-    constexpr double kHeightMaxM = 1e6; // if the body is unknown
-    const double height_max_m = bodyRadius(info).value_or(kHeightMaxM);
-    const bool is_of_earth = info.body != nullptr && info.body == bodyNamed("Earth");
+    noteElevations(info, statistics);
+    if (info.unit_suggestion || info.elevation_misfit) {
+        return;
+    }
     for (const double raw : {statistics.raw_minimum, statistics.raw_maximum}) {
         const double height_m = info.elevationScale().height(raw);
-        const bool is_plausible = is_of_earth ? isOnEarth(height_m) || info.unit_suggestion
-                                              : std::abs(height_m) <= height_max_m;
-        if (!is_plausible && raw != info.nodata_suggestion) {
+        if (!isPlausible(info, height_m) && raw != info.nodata_suggestion) {
             info.notices.push_back(
                 fmt::format("the sample {} makes an elevation of {} m, which is implausible; set "
                             "it as nodata, or set the unit or the scale",
@@ -404,11 +435,11 @@ std::string noticeOfNodata(double raw)
 
 void notePlacement(RasterInfo& info)
 {
-    info.crs_suggestion = suggestCrs(info);
+    info.crs_suggestion = info.crs ? suggestDegreesInstead(info) : suggestCrs(info);
     if (info.crs_suggestion) {
         info.notices.push_back(noticeOf(*info.crs_suggestion));
-    } else if (!info.transform) {
-        return; // reported when the file was opened
+    } else if (!info.transform || !info.unused_crs_notice.empty()) {
+        return; // reported already
     } else if (!info.crs) {
         info.notices.emplace_back(
             "no CRS: map units are read as meters; set its CRS or body to "
@@ -449,7 +480,7 @@ Result<RasterInfo> withOverrides(RasterInfo info, const RasterOverrides& overrid
         as_read = info;
         as_read->crs_suggestion = suggestCrs(info);
     }
-    for (const auto apply : {applyVertical, applyTransform, applyCrs, applyBody}) {
+    for (const auto apply : {applyVertical, applyTransform, applyCrs, dropUnusableCrs, applyBody}) {
         if (Status applied = apply(info, overrides); !applied) {
             return std::move(applied).error();
         }

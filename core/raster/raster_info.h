@@ -63,6 +63,15 @@ struct UnitSuggestion {
     bool operator==(const UnitSuggestion&) const = default;
 };
 
+/// Elevations that no place on the body has, although more than one value is so: they are not a
+/// mark of nodata. A scale or a unit is missing, or the map shows another body.
+struct ElevationMisfit {
+    double elevation_m = 0.0;
+    double limit_m = 0.0; // the elevation of the highest or the lowest place of the body
+    std::string body;     // as in knownBodies
+    bool operator==(const ElevationMisfit&) const = default;
+};
+
 /// The description of one band of a raster file.
 struct RasterInfo {
     std::string path; // the opened file; may differ from the requested one (a label for its data)
@@ -101,13 +110,18 @@ struct RasterInfo {
     std::optional<Crs> crs;
     const Body* body = nullptr; // of the CRS, or set by the user; null if unknown
     AxisHints axis_hints;       // axes and body from metadata other than a CRS
-    /// For a grid without a CRS that appears to be in degrees.
+    /// For a grid without a fitting CRS that appears to be in degrees.
     std::optional<CrsSuggestion> crs_suggestion;
     /// A raw value at an end of the samples' range that usually marks nodata, where the file
     /// declares none. Set by noteSuspiciousSamples().
     std::optional<double> nodata_suggestion;
     /// Set by noteSuspiciousSamples().
     std::optional<UnitSuggestion> unit_suggestion;
+    /// Set by noteSuspiciousSamples().
+    std::optional<ElevationMisfit> elevation_misfit;
+    /// The sentence about a CRS of the file that cannot be that of its grid, and is not used; it is
+    /// among the notices. Empty without one.
+    std::string unused_crs_notice;
 
     /// Observations, assumptions and corrections, as sentences for the user.
     std::vector<std::string> notices;
@@ -155,13 +169,15 @@ void notePlacement(RasterInfo& info);
 /// for other errors. A path before the sentence is skipped.
 std::optional<OverrideField> refusedField(const Error& error);
 
-/// `info` as the file describes it, with the overrides applied. Errors begin with the name of the
+/// `info` as the file describes it, with the overrides applied. A CRS of the file in degrees is not
+/// used for a grid that cannot be in degrees. Errors begin with the name of the
 /// option ("scale: …"; see refusedField) and say why it cannot be used. A CRS in degrees is refused
 /// for a grid that cannot be in degrees, and a map projection for a grid that must be.
 Result<RasterInfo> withOverrides(RasterInfo info, const RasterOverrides& overrides);
 
 /// Adds a notice if the file seems to have undeclared voids or an undeclared unit, has only voids,
-/// or has values that cannot be elevations. Sets the suggestions of nodata and unit.
+/// or has values that cannot be elevations. Sets the suggestions of nodata and unit, and the
+/// misfit.
 void noteSuspiciousSamples(RasterInfo& info, const SampleStatistics& statistics);
 
 /// The sentence in RasterInfo::notices that corresponds to a nodata suggestion.

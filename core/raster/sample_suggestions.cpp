@@ -1,14 +1,26 @@
 #include "core/raster/sample_suggestions.h"
 
+#include "core/geo/known_elevations.h"
+
 #include <cmath>
 #include <fmt/format.h>
 
 namespace marsview {
 namespace {
 
-// Mount Everest (2020 survey) and the Challenger Deep.
-constexpr double kEarthHighestM = 8849.0;
-constexpr double kEarthLowestM = -10935.0;
+KnownElevations ofEarth()
+{
+    return *knownElevations(*bodyNamed("Earth"));
+}
+
+std::string reasonOf(const ElevationMisfit& misfit)
+{
+    const bool is_high = misfit.elevation_m > misfit.limit_m;
+    const bool has_article = misfit.body == "Moon" || misfit.body == "Earth";
+    return fmt::format("the elevations reach {:.0f} m, but the {} place on {}{} is at {:.0f} m",
+                       misfit.elevation_m, is_high ? "highest" : "lowest",
+                       has_article ? "the " : "", misfit.body, misfit.limit_m);
+}
 
 bool isUnitOfCrs(const VerticalUnit& unit, const RasterInfo& info)
 {
@@ -25,7 +37,7 @@ std::string reasonOf(const UnitSuggestion& suggestion)
             "the elevations look like feet: read as meters they reach {:.0f} m, and the "
             "Earth's {} place is at {} m",
             *suggestion.implausible_m, is_high ? "highest" : "lowest",
-            is_high ? kEarthHighestM : kEarthLowestM);
+            is_high ? ofEarth().highest_m : ofEarth().lowest_m);
     }
     return fmt::format("the elevations may be in {}, the unit of the CRS", suggestion.unit.name);
 }
@@ -34,8 +46,8 @@ std::string reasonOf(const UnitSuggestion& suggestion)
 
 bool isOnEarth(double elevation_m)
 {
-    constexpr double kTolerance = 1.01; // for the datum and for noise of single samples
-    return elevation_m <= kEarthHighestM * kTolerance && elevation_m >= kEarthLowestM * kTolerance;
+    const KnownElevations known = ofEarth();
+    return elevation_m >= known.floor_m && elevation_m <= known.ceiling_m;
 }
 
 std::optional<double> certainNodata(const RasterInfo& info)
@@ -85,6 +97,74 @@ void noteUnit(RasterInfo& info, const SampleStatistics& statistics)
     if (info.unit_suggestion) {
         info.notices.push_back(noticeOf(*info.unit_suggestion));
     }
+}
+
+bool isIsolated(const SampleStatistics& statistics, SampleEnd end, double share_of_rest)
+{
+    const bool is_high = end == SampleEnd::Highest;
+    const double next = is_high ? statistics.raw_next_maximum : statistics.raw_next_minimum;
+    const double gap = is_high ? statistics.raw_maximum - next : next - statistics.raw_minimum;
+    const double rest = statistics.raw_next_maximum - statistics.raw_next_minimum;
+    return !std::isfinite(next) || gap > share_of_rest * rest;
+}
+
+std::optional<ElevationMisfit> findMisfit(const RasterInfo& info,
+                                          const SampleStatistics& statistics)
+{
+    const auto known = info.body != nullptr ? knownElevations(*info.body) : std::nullopt;
+    if (!known || info.unit_suggestion) {
+        return std::nullopt;
+    }
+    struct End {
+        SampleEnd end;
+        double raw;
+        double next;
+    };
+    for (const End& end :
+         {End{SampleEnd::Highest, statistics.raw_maximum, statistics.raw_next_maximum},
+          End{SampleEnd::Lowest, statistics.raw_minimum, statistics.raw_next_minimum}}) {
+        const double elevation_m = info.elevationScale().height(end.raw);
+        if (end.raw == info.nodata_suggestion ||
+            canBeOn(*info.body, elevation_m, info.reference_radius_m)) {
+            continue;
+        }
+        // A mark of nodata is one value far from the rest, which are elevations.
+        constexpr double kFarShare = 0.05;
+        const bool is_mark =
+            !std::isfinite(end.next) ||
+            (isIsolated(statistics, end.end, kFarShare) &&
+             canBeOn(*info.body, info.elevationScale().height(end.next), info.reference_radius_m));
+        if (!is_mark) {
+            return ElevationMisfit{.elevation_m = elevation_m,
+                                   .limit_m =
+                                       elevation_m > 0.0 ? known->highest_m : known->lowest_m,
+                                   .body = std::string(info.body->name)};
+        }
+    }
+    return std::nullopt;
+}
+
+void noteElevations(RasterInfo& info, const SampleStatistics& statistics)
+{
+    noteUnit(info, statistics);
+    info.elevation_misfit = findMisfit(info, statistics);
+    if (info.elevation_misfit) {
+        info.notices.push_back(noticeOf(*info.elevation_misfit));
+    }
+}
+
+std::string noticeOf(const ElevationMisfit& misfit)
+{
+    return reasonOf(misfit) +
+           "; a scale or a unit may be missing, or the map shows another body; "
+           "set the scale, the unit or the body";
+}
+
+std::string optionNoticeOf(const ElevationMisfit& misfit)
+{
+    return reasonOf(misfit) +
+           "; a scale or a unit may be missing, or the map shows another body; "
+           "set --scale, --unit or --body";
 }
 
 std::string noticeOf(const UnitSuggestion& suggestion)

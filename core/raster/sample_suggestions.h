@@ -25,6 +25,23 @@ std::optional<UnitSuggestion> suggestUnit(const RasterInfo& info,
 /// adds its notice.
 void noteUnit(RasterInfo& info, const SampleStatistics& statistics);
 
+/// Elevations that the body does not have (known_elevations.h), if they are not a single value far
+/// from the rest, as nodata is. The suggestions of `info` must be set.
+std::optional<ElevationMisfit> findMisfit(const RasterInfo& info,
+                                          const SampleStatistics& statistics);
+
+/// As noteUnit(), and notes elevations that the body does not have. Few samples suffice.
+void noteElevations(RasterInfo& info, const SampleStatistics& statistics);
+
+enum class SampleEnd { Lowest, Highest };
+/// Whether the lowest or the highest value is farther from the next one than this share of the
+/// range of the values between both ends. True if the next one is not known.
+bool isIsolated(const SampleStatistics& statistics, SampleEnd end, double share_of_rest);
+
+/// The corresponding sentence in RasterInfo::notices, and for the command line with its options.
+std::string noticeOf(const ElevationMisfit& misfit);
+std::string optionNoticeOf(const ElevationMisfit& misfit);
+
 /// The corresponding sentence in RasterInfo::notices.
 std::string noticeOf(const UnitSuggestion& suggestion);
 /// The same for the command line, which sets a unit with --unit.

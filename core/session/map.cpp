@@ -121,7 +121,7 @@ Result<std::shared_ptr<const Map>> analyzeMap(MapSource source, JobMonitor& moni
         noteSuspiciousSamples(source.info, source.statistics);
     } else {
         notePreview(source.info, source.heightfield);
-        noteUnit(source.info, source.statistics);
+        noteElevations(source.info, source.statistics);
     }
     std::shared_ptr<Map> map(new Map(std::move(source), std::move(*analysis)));
     map->filled_ = std::make_shared<const FilledHeightfield>(std::move(*filled));

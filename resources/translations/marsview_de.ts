@@ -344,6 +344,42 @@
         <translation>ist abgeschnitten oder beschädigt: %1; laden Sie die Datei erneut herunter</translation>
     </message>
     <message>
+        <source>block %1 of %2 ends at byte %3, the file at byte %4</source>
+        <translation>Block %1 von %2 endet bei Byte %3, die Datei bei Byte %4</translation>
+    </message>
+    <message>
+        <source>block %1 of %2 has %3 bytes, too few for its %4 of samples</source>
+        <translation>Block %1 von %2 hat %3 Bytes, zu wenige für seine %4 Bytes an Abtastwerten</translation>
+    </message>
+    <message>
+        <source>it declares %1 blocks of samples but lists %2</source>
+        <translation>sie nennt %1 Blöcke von Abtastwerten, führt aber %2 auf</translation>
+    </message>
+    <message>
+        <source>it declares a list of %1 blocks of samples that takes %2, but the whole file has %3</source>
+        <translation>sie nennt eine Liste von %1 Blöcken von Abtastwerten, die %2 braucht, aber die ganze Datei hat %3</translation>
+    </message>
+    <message>
+        <source>its directory is beyond the end of the file</source>
+        <translation>ihr Verzeichnis liegt hinter dem Ende der Datei</translation>
+    </message>
+    <message>
+        <source>its directories form a loop</source>
+        <translation>ihre Verzeichnisse bilden eine Schleife</translation>
+    </message>
+    <message>
+        <source>the archive is damaged: %1 in it cannot be unpacked; fetch it again</source>
+        <translation>das Archiv ist beschädigt: %1 darin lässt sich nicht entpacken; laden Sie es erneut herunter</translation>
+    </message>
+    <message>
+        <source>the file is cut short or damaged (%1); fetch it again</source>
+        <translation>die Datei ist abgeschnitten oder beschädigt (%1); laden Sie sie erneut herunter</translation>
+    </message>
+    <message>
+        <source>the file is cut short or damaged; fetch it again</source>
+        <translation>die Datei ist abgeschnitten oder beschädigt; laden Sie sie erneut herunter</translation>
+    </message>
+    <message>
         <source>reading rows %1 to %2 failed: it is cut short, %3 of the %4 bytes that its header promises are present; fetch it again</source>
         <translation>die Zeilen %1 bis %2 lassen sich nicht lesen: Die Datei ist abgeschnitten, von den %4 Bytes, die ihr Kopf nennt, sind %3 vorhanden; laden Sie sie erneut herunter</translation>
     </message>
@@ -388,6 +424,14 @@
         <translation>kein KBS, aber es sieht nach Länge und Breite in Grad aus (%1): Legen Sie %2 fest; bis dahin werden Karteneinheiten als Meter gelesen</translation>
     </message>
     <message>
+        <source>the CRS &quot;%1&quot; (unit %2) does not fit the grid, which looks like longitude and latitude in degrees (%3): set %4</source>
+        <translation>das KBS „%1“ (Einheit %2) passt nicht zum Gitter, das nach Länge und Breite in Grad aussieht (%3): Legen Sie %4 fest</translation>
+    </message>
+    <message>
+        <source>the CRS &quot;%1&quot; of the file is not used: it is in degrees, but the grid covers x %2 to %3 and y %4 to %5; set the CRS; until then, map units are read as meters</source>
+        <translation>das KBS „%1“ der Datei wird nicht verwendet: Es ist in Grad, aber das Gitter reicht von x %2 bis %3 und y %4 bis %5; legen Sie das KBS fest; bis dahin werden Karteneinheiten als Meter gelesen</translation>
+    </message>
+    <message>
         <source>no georeferencing in the file: each pixel is placed as one unit square; give a geotransform to place it</source>
         <translation>keine Georeferenzierung in der Datei: Jedes Pixel wird als Einheitsquadrat platziert; geben Sie eine Geotransformation an, um die Karte zu platzieren</translation>
     </message>
@@ -406,6 +450,30 @@
     <message>
         <source>samples of %1 at an end of the range often mark nodata, but the file declares no nodata value; if they do, set it as nodata</source>
         <translation>Abtastwerte von %1 am Ende des Bereichs stehen oft für Nodata, aber die Datei nennt keinen Nodata-Wert; wenn sie das tun, legen Sie ihn als Nodata fest</translation>
+    </message>
+    <message>
+        <source>the elevations reach %1 m, but the highest place %2 is at %3 m; a scale or a unit may be missing, or the map shows another body; set the scale, the unit or the body</source>
+        <translation>die Höhen reichen bis %1 m, aber der höchste Ort %2 liegt auf %3 m; vielleicht fehlt eine Skalierung oder eine Einheit, oder die Karte zeigt einen anderen Himmelskörper; legen Sie die Skalierung, die Einheit oder den Himmelskörper fest</translation>
+    </message>
+    <message>
+        <source>the elevations reach %1 m, but the lowest place %2 is at %3 m; a scale or a unit may be missing, or the map shows another body; set the scale, the unit or the body</source>
+        <translation>die Höhen reichen bis %1 m, aber der tiefste Ort %2 liegt auf %3 m; vielleicht fehlt eine Skalierung oder eine Einheit, oder die Karte zeigt einen anderen Himmelskörper; legen Sie die Skalierung, die Einheit oder den Himmelskörper fest</translation>
+    </message>
+    <message>
+        <source>on the Moon</source>
+        <translation>auf dem Mond</translation>
+    </message>
+    <message>
+        <source>on the Earth</source>
+        <translation>auf der Erde</translation>
+    </message>
+    <message>
+        <source>on Mars</source>
+        <translation>auf dem Mars</translation>
+    </message>
+    <message>
+        <source>on Mercury</source>
+        <translation>auf dem Merkur</translation>
     </message>
     <message>
         <source>the sample %1 makes an elevation of %2 m, which is implausible; set it as nodata, or set the unit or the scale</source>
@@ -7071,6 +7139,16 @@ A scene: the one that suits the layers</extracomment>
         <source>Looks like longitude and latitude, but the file has no CRS (%1)</source>
         <extracomment>%1 is a reason, such as &quot;its extent is 0° – 360°, 90° S – 90° N&quot;</extracomment>
         <translation>Sieht nach Länge und Breite aus, aber die Datei hat kein KBS (%1)</translation>
+    </message>
+    <message>
+        <source>Looks like longitude and latitude (%1), but the CRS of the file, %2, is a map projection</source>
+        <extracomment>%1 is a reason, such as &quot;its extent is 0° – 360°, 90° S – 90° N&quot;, %2 a CRS</extracomment>
+        <translation>Sieht nach Länge und Breite aus (%1), aber das KBS der Datei, %2, ist eine Kartenprojektion</translation>
+    </message>
+    <message>
+        <source>Set Body, CRS…</source>
+        <extracomment>On a button: set the body, the CRS, the elevation unit and more of a map</extracomment>
+        <translation>Raumbezug festlegen …</translation>
     </message>
     <message>
         <source>WGS 84 (Earth)</source>

@@ -33,17 +33,19 @@ namespace {
 
 NoticeCommands noticeCommandsOf(const WindowParts& parts)
 {
-    return {.show_fact =
-                [&docks = parts.docks, &panel = parts.georeferencing, &view = parts.view,
-                 &globe = parts.globe](const QString& notice) {
-                    // A click does not take the focus from the map, whose keys stay in effect.
-                    const bool is_on_map = view.hasFocus() || globe.hasFocus();
-                    docks.reveal(*docks.georeferencing());
-                    panel.showNotice(notice, is_on_map ? GeoreferencingPanel::NoticeFocus::Leave
-                                                       : GeoreferencingPanel::NoticeFocus::Take);
-                },
-            .show_haptics = [&docks = parts.docks] { docks.reveal(*docks.haptics()); },
-            .save_diagnostic_log = [&panel = parts.haptics_panel] { panel.chooseFlightRecord(); }};
+    return {
+        .show_fact =
+            [&docks = parts.docks, &panel = parts.georeferencing, &view = parts.view,
+             &globe = parts.globe](const QString& notice) {
+                // A click does not take the focus from the map, whose keys stay in effect.
+                const bool is_on_map = view.hasFocus() || globe.hasFocus();
+                docks.reveal(*docks.georeferencing());
+                panel.showNotice(notice, is_on_map ? GeoreferencingPanel::NoticeFocus::Leave
+                                                   : GeoreferencingPanel::NoticeFocus::Take);
+            },
+        .set_georeferencing = [&edit = *parts.actions.override_georeferencing] { edit.trigger(); },
+        .show_haptics = [&docks = parts.docks] { docks.reveal(*docks.haptics()); },
+        .save_diagnostic_log = [&panel = parts.haptics_panel] { panel.chooseFlightRecord(); }};
 }
 
 } // namespace

@@ -36,6 +36,18 @@ constexpr std::array kMessages{
     QT_TRANSLATE_NOOP("CoreMessage",
                       "names a data file that is missing; put it next to this file (%1)"),
     QT_TRANSLATE_NOOP("CoreMessage", "is cut short or damaged: %1; fetch it again"),
+    QT_TRANSLATE_NOOP("CoreMessage", "block %1 of %2 ends at byte %3, the file at byte %4"),
+    QT_TRANSLATE_NOOP("CoreMessage", "block %1 of %2 has %3 bytes, too few for its %4 of samples"),
+    QT_TRANSLATE_NOOP("CoreMessage", "it declares %1 blocks of samples but lists %2"),
+    QT_TRANSLATE_NOOP("CoreMessage",
+                      "it declares a list of %1 blocks of samples that takes %2, but the whole "
+                      "file has %3"),
+    QT_TRANSLATE_NOOP("CoreMessage", "its directory is beyond the end of the file"),
+    QT_TRANSLATE_NOOP("CoreMessage", "its directories form a loop"),
+    QT_TRANSLATE_NOOP("CoreMessage",
+                      "the archive is damaged: %1 in it cannot be unpacked; fetch it again"),
+    QT_TRANSLATE_NOOP("CoreMessage", "the file is cut short or damaged (%1); fetch it again"),
+    QT_TRANSLATE_NOOP("CoreMessage", "the file is cut short or damaged; fetch it again"),
     QT_TRANSLATE_NOOP("CoreMessage",
                       "reading rows %1 to %2 failed: it is cut short, %3 of the %4 bytes that its "
                       "header promises are present; fetch it again"),
@@ -109,6 +121,13 @@ constexpr std::array kMessages{
                       "no CRS, but it looks like longitude and latitude in degrees (%1): set %2; "
                       "until then, map units are read as meters"),
     QT_TRANSLATE_NOOP("CoreMessage",
+                      "the CRS \"%1\" (unit %2) does not fit the grid, which looks like longitude "
+                      "and latitude in degrees (%3): set %4"),
+    QT_TRANSLATE_NOOP("CoreMessage",
+                      "the CRS \"%1\" of the file is not used: it is in degrees, but the grid "
+                      "covers x %2 to %3 and y %4 to %5; set the CRS; until then, map units are "
+                      "read as meters"),
+    QT_TRANSLATE_NOOP("CoreMessage",
                       "no georeferencing in the file: each pixel is placed as one unit square; "
                       "give a geotransform to place it"),
     QT_TRANSLATE_NOOP("CoreMessage",
@@ -123,6 +142,19 @@ constexpr std::array kMessages{
     QT_TRANSLATE_NOOP("CoreMessage",
                       "samples of %1 at an end of the range often mark nodata, but the file "
                       "declares no nodata value; if they do, set it as nodata"),
+    QT_TRANSLATE_NOOP("CoreMessage",
+                      "the elevations reach %1 m, but the highest place %2 is at %3 m; a scale "
+                      "or a unit may be missing, or the map shows another body; set the scale, the "
+                      "unit or the body"),
+    QT_TRANSLATE_NOOP("CoreMessage",
+                      "the elevations reach %1 m, but the lowest place %2 is at %3 m; a scale "
+                      "or a unit may be missing, or the map shows another body; set the scale, the "
+                      "unit or the body"),
+    // %2 of these two.
+    QT_TRANSLATE_NOOP("CoreMessage", "on the Moon"),
+    QT_TRANSLATE_NOOP("CoreMessage", "on the Earth"),
+    QT_TRANSLATE_NOOP("CoreMessage", "on Mars"),
+    QT_TRANSLATE_NOOP("CoreMessage", "on Mercury"),
     QT_TRANSLATE_NOOP("CoreMessage",
                       "the sample %1 makes an elevation of %2 m, which is implausible; set it as "
                       "nodata, or set the unit or the scale"),
@@ -166,7 +198,8 @@ QRegularExpression patternOf(const char* message)
 // which is in quotes, stay.
 QString asShown(const QString& words, bool is_quoted)
 {
-    static const QRegularExpression kCount(QStringLiteral("^[1-9][0-9]{3,14}$"));
+    static const QRegularExpression kCount(QStringLiteral("^-?[1-9][0-9]{3,14}$"));
+    static const QRegularExpression kSize(QStringLiteral("^([0-9]+(?:[.][0-9])?) ([kMGTPE]?B)$"));
     static const QRegularExpression kDecimal(QStringLiteral("^-?[0-9]{1,9}[.][0-9]+$"));
     constexpr int kDigits = 9;
     constexpr double kLeast = 1e-4; // smaller ones would get an exponent
@@ -174,7 +207,11 @@ QString asShown(const QString& words, bool is_quoted)
         return words;
     }
     if (kCount.match(words).hasMatch()) {
-        return countText(words.toULongLong());
+        return numberText(words.toDouble(), 0);
+    }
+    if (const QRegularExpressionMatch size = kSize.match(words); size.hasMatch()) {
+        return shortNumberText(size.captured(1).toDouble(), kDigits) + QLatin1Char(' ') +
+               size.captured(2);
     }
     const bool is_decimal =
         kDecimal.match(words).hasMatch() && std::abs(words.toDouble()) >= kLeast;

@@ -205,6 +205,9 @@ void WindowNotices::addNotices(const Layer& layer,
     const std::string of_nodata = nodata ? noticeOfNodata(*nodata) : std::string();
     const auto& unit = map.info().unit_suggestion;
     const std::string of_unit = unit ? noticeOf(*unit) : std::string();
+    const auto& misfit = map.info().elevation_misfit;
+    const std::string of_misfit = misfit ? noticeOf(*misfit) : std::string();
+    const std::string& of_unused = map.info().unused_crs_notice;
     const std::string of_archive = archiveNotice(map.info().in_archive, map.info().path);
     const std::string of_replacement = map.info().replacementNotice();
     QList<Notice> last; // the least important
@@ -222,6 +225,10 @@ void WindowNotices::addNotices(const Layer& layer,
             corrections.prepend(notice);
         } else if (unit && texts[i] == of_unit) {
             addUnit(notice, *unit, layer);
+            corrections.append(notice);
+        } else if (!texts[i].empty() && (texts[i] == of_misfit || texts[i] == of_unused)) {
+            //: On a button: set the body, the CRS, the elevation unit and more of a map
+            notice.actions.append({tr("Set Body, CRS…"), commands_.set_georeferencing});
             corrections.append(notice);
         } else if (texts[i] == of_archive) {
             addRasters(notice, map.info());
@@ -342,9 +349,15 @@ void WindowNotices::addChoices(Notice& notice,
                                const CrsSuggestion& suggestion,
                                const Layer& layer) const
 {
-    //: %1 is a reason, such as "its extent is 0° – 360°, 90° S – 90° N"
-    notice.text = tr("Looks like longitude and latitude, but the file has no CRS (%1)")
-                      .arg(translatedMessage(QString::fromStdString(suggestion.reason)));
+    const QString reason = translatedMessage(QString::fromStdString(suggestion.reason));
+    notice.text =
+        suggestion.unfit_crs.empty()
+            //: %1 is a reason, such as "its extent is 0° – 360°, 90° S – 90° N"
+            ? tr("Looks like longitude and latitude, but the file has no CRS (%1)").arg(reason)
+            //: %1 is a reason, such as "its extent is 0° – 360°, 90° S – 90° N", %2 a CRS
+            : tr("Looks like longitude and latitude (%1), but the CRS of the file, %2, is a map "
+                 "projection")
+                  .arg(reason, shortName(suggestion.unfit_crs));
     SessionController& session = parts_.session;
     for (const CrsChoice& choice : suggestion.choices) {
         const QString name =

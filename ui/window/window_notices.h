@@ -29,6 +29,8 @@ struct UnitSuggestion;
 struct NoticeCommands {
     /// Shows a notice of the active layer among its facts.
     std::function<void(const QString& notice)> show_fact;
+    /// Edits body, CRS, unit and scale of the active layer.
+    std::function<void()> set_georeferencing;
     std::function<void()> show_haptics;
     std::function<void()> save_diagnostic_log;
 };

@@ -256,6 +256,55 @@ TEST(CrsNotice, OfAFileWithAProjectionAndAGridInDegrees)
     EXPECT_THAT(withOverrides(fine, {})->notices, testing::IsEmpty());
 }
 
+TEST(CrsNotice, OfAFileWithDegreesOnAGridInMetersThatIsReadWithoutACrs)
+{
+    RasterInfo grid = gridAt(376313.6554542635, 3350820, 30, 100, 200);
+    grid.crs = *Crs::fromText("IAU_2015:49900");
+    grid.body = grid.crs->body();
+    const auto info = withOverrides(grid, {});
+    ASSERT_TRUE(info) << info.error().message;
+    EXPECT_FALSE(info->crs);
+    EXPECT_EQ(info->body, bodyNamed("Mars"));
+    EXPECT_THAT(info->notices, testing::ElementsAre(info->unused_crs_notice));
+    EXPECT_EQ(info->unused_crs_notice,
+              "the CRS \"Mars (2015) - Sphere / Ocentric\" of the file is not used: it is in "
+              "degrees, but the grid covers x 376314 to 379314 and y 3344820 to 3350820; set the "
+              "CRS; until then, map units are read as meters");
+    RasterOverrides overrides;
+    overrides.body = "Moon"; // is not a placement
+    EXPECT_FALSE(withOverrides(grid, overrides)->crs);
+    EXPECT_EQ(withOverrides(grid, overrides)->body, bodyNamed("Moon"));
+    overrides.body.reset();
+    overrides.crs = "IAU_2015:49910";
+    const auto placed = withOverrides(grid, overrides);
+    ASSERT_TRUE(placed && placed->crs);
+    EXPECT_THAT(placed->notices, testing::IsEmpty());
+    overrides.crs.reset();
+    overrides.transform = GeoTransform::Terms{0, 0.1, 0, 10, 0, -0.1}; // that of its CRS
+    const auto in_degrees = withOverrides(grid, overrides);
+    ASSERT_TRUE(in_degrees && in_degrees->crs);
+    EXPECT_THAT(in_degrees->notices, testing::IsEmpty());
+}
+
+TEST(CrsNotice, OfAWholeBodyInDegreesWithAProjectionOffersDegrees)
+{
+    RasterInfo grid = gridAt(-180, 90, 0.25, 1440, 720);
+    grid.crs = *Crs::fromText("IAU_2015:49910");
+    grid.body = grid.crs->body();
+    const auto info = withOverrides(grid, {});
+    ASSERT_TRUE(info && info->crs_suggestion);
+    EXPECT_TRUE(info->crs) << "as the file says";
+    EXPECT_EQ(info->crs_suggestion->choices, (std::vector<CrsChoice>{{"Mars", "IAU_2015:49902"}}));
+    EXPECT_THAT(info->notices, testing::ElementsAre(noticeOf(*info->crs_suggestion)));
+    EXPECT_THAT(info->notices[0], HasSubstr("does not fit the grid, which looks like longitude"));
+    EXPECT_THAT(optionNoticeOf(*info->crs_suggestion), HasSubstr("with --crs IAU_2015:49902"));
+    RasterOverrides overrides;
+    overrides.crs = info->crs_suggestion->choices[0].crs;
+    const auto placed = withOverrides(grid, overrides);
+    ASSERT_TRUE(placed) << placed.error().message;
+    EXPECT_THAT(placed->notices, testing::IsEmpty());
+}
+
 TEST(CrsOverride, IsAcceptedWithAGeotransformOfItsUnit)
 {
     RasterInfo in_degrees = gridAt(0, 90, 0.25, 1440, 720);

@@ -1,3 +1,4 @@
+#include "core/geo/known_elevations.h"
 #include "core/raster/raster_info.h"
 #include "core/raster/sample_suggestions.h"
 #include "tests/support/nan.h"
@@ -404,17 +405,17 @@ std::string suggestedUnit(const RasterInfo& info, double low, double high)
     statistics.sample_count = 4;
     statistics.raw_minimum = low;
     statistics.raw_maximum = high;
-    RasterInfo noted = info;
-    noteSuspiciousSamples(noted, statistics);
-    const bool is_noted =
-        noted.unit_suggestion && std::count(noted.notices.begin(), noted.notices.end(),
-                                            noticeOf(*noted.unit_suggestion)) == 1;
-    EXPECT_EQ(is_noted, noted.unit_suggestion.has_value());
-    if (!noted.unit_suggestion) {
+    RasterInfo with_notices = info;
+    noteSuspiciousSamples(with_notices, statistics);
+    const bool is_noted = with_notices.unit_suggestion &&
+                          std::count(with_notices.notices.begin(), with_notices.notices.end(),
+                                     noticeOf(*with_notices.unit_suggestion)) == 1;
+    EXPECT_EQ(is_noted, with_notices.unit_suggestion.has_value());
+    if (!with_notices.unit_suggestion) {
         return "";
     }
-    const auto reason = noted.unit_suggestion->implausible_m;
-    return noted.unit_suggestion->unit.name + (reason ? fmt::format(" {}", *reason) : "");
+    const auto reason = with_notices.unit_suggestion->implausible_m;
+    return with_notices.unit_suggestion->unit.name + (reason ? fmt::format(" {}", *reason) : "");
 }
 
 // Culebra Peak, Colorado, is at 14,053 ft; Mount Everest at 8,849 m, which are 29,032 ft; the
@@ -453,6 +454,98 @@ TEST(NoteSuspiciousSamples, NamesElevationsThatTheEarthDoesNotHave)
     EXPECT_EQ(count(-10935.0, 8849.0), 0U);
     EXPECT_EQ(count(0.0, 12000.0), 1U);
     EXPECT_EQ(count(-12000.0, 0.0), 1U);
+}
+
+struct Ends {
+    double low, next_low, next_high, high;
+};
+
+RasterInfo noted(const char* body, const Ends& ends, SampleType type = SampleType::Int32)
+{
+    RasterInfo info;
+    info.body = bodyNamed(body);
+    info.type = type;
+    info.is_unit_declared = true;
+    SampleStatistics statistics{.raw_minimum = ends.low,
+                                .raw_maximum = ends.high,
+                                .raw_next_minimum = ends.next_low,
+                                .raw_next_maximum = ends.next_high,
+                                .void_count = 0,
+                                .sample_count = 1000};
+    noteSuspiciousSamples(info, statistics);
+    return info;
+}
+
+// LOLA and MOLA as published, twice and four times as high, and Mars as if it were the Earth.
+TEST(ElevationMisfit, NamesElevationsThatTheBodyDoesNotHave)
+{
+    const RasterInfo doubled = noted("Moon", {-17757.0, -17750.0, 21000.0, 21008.0});
+    EXPECT_EQ(doubled.notices,
+              std::vector<std::string>{
+                  "the elevations reach 21008 m, but the highest place on the Moon is at 10786 m; "
+                  "a scale or a unit may be missing, or the map shows another body; set the scale, "
+                  "the unit or the body"});
+    ASSERT_TRUE(doubled.elevation_misfit);
+    EXPECT_NE(optionNoticeOf(*doubled.elevation_misfit).find("set --scale, --unit or --body"),
+              std::string::npos);
+    EXPECT_TRUE(noted("Moon", {-17757.0, -17750.0, 9000.0, 9010.0}).elevation_misfit);
+    EXPECT_TRUE(noted("Mars", {-32272.0, -32268.0, 84500.0, 84536.0}).elevation_misfit);
+    EXPECT_TRUE(noted("Mercury", {-10764.0, -10760.0, 8990.0, 8994.0}).elevation_misfit);
+    const RasterInfo other_body = noted("Earth", {-8068.0, -8060.0, 21101.0, 21134.0});
+    EXPECT_TRUE(other_body.elevation_misfit);
+    EXPECT_EQ(other_body.nodata_suggestion, std::nullopt);
+    EXPECT_EQ(other_body.notices.size(), 1U);
+}
+
+TEST(ElevationMisfit, IsNotNotedForElevationsAboveAnyReferenceInUse)
+{
+    for (const auto& [body, ends] :
+         {std::pair{"Moon", Ends{-9129.0, -9128.0, 10785.0, 10786.0}},
+          {"Moon", {-9729.0, -9728.0, 10185.0, 10186.0}},    // above 1738 km
+          {"Mars", {-8528.0, -8527.0, 21228.0, 21229.0}},    // above the areoid
+          {"Mars", {-22800.0, -22700.0, 21228.0, 21229.0}},  // above 3396.19 km
+          {"Mars", {-16000.0, -15900.0, 27000.0, 27100.0}},  // above 3389.5 km
+          {"Mercury", {-5380.0, -5379.0, 4479.0, 4480.0}},   // above 2440 km
+          {"Earth", {-10935.0, -10934.0, 8848.0, 8849.0}},   // above the sea
+          {"Vesta", {-22300.0, -22200.0, 19000.0, 19100.0}}, // not known well enough
+          {"Titan", {-60000.0, -59000.0, 59000.0, 60000.0}}}) {
+        const RasterInfo info = noted(body, ends);
+        EXPECT_TRUE(info.notices.empty()) << body << " " << info.notices.front();
+    }
+    RasterInfo radii = earth(); // near a pole, above the sphere of the equator
+    radii.reference_radius_m = 6378137.0;
+    EXPECT_TRUE(canBeOn(*radii.body, -21384.0, radii.reference_radius_m));
+    EXPECT_FALSE(canBeOn(*radii.body, -21384.0));
+}
+
+TEST(ElevationMisfit, IsNotASingleValueFarFromTheRest)
+{
+    const RasterInfo fill = noted("Mars", {-8000.0, -7999.0, 21229.0, 32766.0});
+    EXPECT_FALSE(fill.elevation_misfit);
+    ASSERT_EQ(fill.notices.size(), 1U);
+    EXPECT_NE(fill.notices[0].find("set it as nodata"), std::string::npos) << fill.notices[0];
+    EXPECT_TRUE(noted("Mars", {-8000.0, -7999.0, 32700.0, 32766.0}).elevation_misfit);
+    EXPECT_TRUE(noted("Earth", {0.0, 1.0, 8930.0, 9000.0}).elevation_misfit);
+}
+
+// Four times the heights of Mars in 16 bits: the largest fit no more.
+TEST(UndeclaredNodata, IsNotTheEndOfTheTypeAtWhichElevationsAreCutOff)
+{
+    const RasterInfo high =
+        noted("Mars", {-32272.0, -32268.0, 32764.0, 32767.0}, SampleType::Int16);
+    EXPECT_EQ(high.nodata_suggestion, std::nullopt);
+    EXPECT_TRUE(high.elevation_misfit);
+    const RasterInfo both =
+        noted("Mars", {-32768.0, -32765.0, 32764.0, 32767.0}, SampleType::Int16);
+    EXPECT_EQ(both.nodata_suggestion, std::nullopt);
+    EXPECT_TRUE(both.elevation_misfit);
+    EXPECT_EQ(
+        noted("Mars", {-8000.0, -7999.0, 21229.0, 32767.0}, SampleType::Int16).nodata_suggestion,
+        32767.0);
+    EXPECT_EQ(
+        noted("Mars", {-32768.0, -32765.0, 21000.0, 21229.0}, SampleType::Int16).nodata_suggestion,
+        -32768.0)
+        << "smoothed into its surroundings";
 }
 
 TEST(UndeclaredUnit, MayBeThatOfTheCrs)

@@ -3,6 +3,7 @@
 #include "core/measure/attitude.h"
 #include "core/raster/open_raster.h"
 #include "core/raster/sample_suggestions.h"
+#include "tests/support/make_raster.h"
 #include "tests/support/temp_folder.h"
 #include "ui/text/language.h"
 #include "ui/text/sentence.h"
@@ -15,6 +16,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -121,6 +124,44 @@ TEST_F(GermanMessagesTest, DescribeAMap)
             noticeOf(UnitSuggestion{.unit = *verticalUnitFrom("ft"), .implausible_m = reason});
         EXPECT_NE(translatedMessage(QString::fromStdString(notice)).toStdString(), notice);
     }
+}
+
+TEST_F(GermanMessagesTest, DescribeElevationsAndCrssThatDoNotFit)
+{
+    for (const char* body : {"Moon", "Earth", "Mars", "Mercury"}) {
+        for (const double elevation_m : {-99999.0, 99999.0}) {
+            const std::string notice = noticeOf(
+                ElevationMisfit{.elevation_m = elevation_m, .limit_m = 9000.0, .body = body});
+            const QString text = translatedMessage(QString::fromStdString(notice));
+            EXPECT_TRUE(text.startsWith(QStringLiteral("die Höhen reichen bis"))) << notice;
+            EXPECT_TRUE(text.contains(QStringLiteral("Ort auf"))) << text.toStdString();
+        }
+    }
+    RasterInfo grid;
+    grid.columns = 100;
+    grid.rows = 100;
+    grid.transform = *GeoTransform::fromTerms({376313.65, 30, 0, 3350820, 0, -30});
+    grid.crs = *Crs::fromText("IAU_2015:49900");
+    const std::string unused = noticeOfUnusedCrs(grid);
+    EXPECT_NE(translatedMessage(QString::fromStdString(unused)).toStdString(), unused);
+    grid.transform = *GeoTransform::fromTerms({-180, 3.6, 0, 90, 0, -1.8});
+    grid.crs = *Crs::fromText("IAU_2015:49910");
+    const auto suggestion = suggestDegreesInstead(grid);
+    ASSERT_TRUE(suggestion);
+    const std::string notice = noticeOf(*suggestion);
+    EXPECT_NE(translatedMessage(QString::fromStdString(notice)).toStdString(), notice);
+}
+
+// A TIFF of 100 strips, the last of which is incomplete.
+TEST_F(GermanMessagesTest, SayWhereAGeotiffIsDamaged)
+{
+    const test::TempFolder folder;
+    const std::string path = test::writeRaster(
+        folder, "cut.tif", "GTiff", test::recipeFor(100, std::vector<std::int16_t>(10000, 7)),
+        {"-co", "BLOCKYSIZE=1"});
+    std::filesystem::resize_file(path, std::filesystem::file_size(path) - 50);
+    const std::string text = opening(path);
+    EXPECT_NE(text.find("Block 100 von 100 endet bei Byte"), std::string::npos) << text;
 }
 
 TEST(TranslatedMessage, LeavesWhatItDoesNotKnow)

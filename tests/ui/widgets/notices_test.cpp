@@ -398,6 +398,36 @@ TEST_F(NoticesTest, ElevationsInFeetAreReadAsSuchByOneClick)
     EXPECT_EQ(highest(), as_meters);
 }
 
+// Twice what the Moon has, and a grid in meters with a CRS in degrees.
+TEST_F(NoticesTest, WhatCannotBeOnTheBodyOpensItsFields)
+{
+    const QString grid = maps_.write(QStringLiteral("high.asc"), {}, [](int column, int row) {
+        return 20000.0 + 10.0 * row + column;
+    });
+    const QString high = maps_.path(QStringLiteral("high.tif"));
+    test::runTool({"gdal_translate", "-q", "-ot", "Int16", "-a_srs", "IAU_2015:30110",
+                   grid.toStdString(), high.toStdString()});
+    const QString line = maps_.path(QStringLiteral("line.tif"));
+    test::runTool({"gdal_translate", "-q", "-ot", "Byte", "-a_srs", "IAU_2015:49900", "-a_ullr",
+                   "376313.65", "3350820", "380000", "3340000", grid.toStdString(),
+                   line.toStdString()});
+    for (const auto& [file, beginning] :
+         {std::pair{high, QStringLiteral("The elevations reach 20,")},
+          {line, QStringLiteral("The CRS \"Mars (2015) - Sphere / Ocentric\" of the file is not "
+                                "used: it is in degrees, but the grid covers x 376,314 to 380,000 "
+                                "and y 3,340,000 to 3,350,820")}}) {
+        ASSERT_TRUE(openAndWait(*window_, file));
+        EXPECT_TRUE(shown().startsWith(beginning)) << shown().toStdString();
+        QToolButton* button = noticeButton(bar(), "noticeAction");
+        EXPECT_EQ(button->text(), QStringLiteral("Set Body, CRS…"));
+        QTest::mouseClick(button, Qt::LeftButton);
+        const auto* field =
+            window_->georeferencingPanel()->findChild<QWidget*>(QStringLiteral("crs"));
+        EXPECT_TRUE(field != nullptr && field->isVisible());
+    }
+    EXPECT_FALSE(activeLayer(window_->session())->map->info().crs);
+}
+
 class FailureNoticesTest : public NoticesTest {
 protected:
     void SetUp() override
