@@ -412,10 +412,10 @@ TEST_F(NoticesTest, WhatCannotBeOnTheBodyOpensItsFields)
                    "376313.65", "3350820", "380000", "3340000", grid.toStdString(),
                    line.toStdString()});
     for (const auto& [file, beginning] :
-         {std::pair{high, QStringLiteral("The elevations reach 20,")},
+         {std::pair{high, QStringLiteral("The elevations reach 20449 m, ")},
           {line, QStringLiteral("The CRS \"Mars (2015) - Sphere / Ocentric\" of the file is not "
-                                "used: it is in degrees, but the grid covers x 376,314 to 380,000 "
-                                "and y 3,340,000 to 3,350,820")}}) {
+                                "used: it is in degrees, but the grid covers x 376314 to 380000 "
+                                "and y 3340000 to 3350820")}}) {
         ASSERT_TRUE(openAndWait(*window_, file));
         EXPECT_TRUE(shown().startsWith(beginning)) << shown().toStdString();
         QToolButton* button = noticeButton(bar(), "noticeAction");
