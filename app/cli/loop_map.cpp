@@ -17,16 +17,16 @@ Status touchPile(const LoopMapOptions& options, JobMonitor& monitor, LoopMap& re
     if (!pile) {
         return std::move(pile).error();
     }
-    result.mesh = pile->mesh->map(0);
+    result.mesh = pile->joined.mesh->map(0);
     const double radius_m = options.radius_m.value_or(pile->radius_m);
     if (pile->in_tiles.empty()) {
-        result.map = makeServoMap(pile->georeferences, pile->mesh,
+        result.map = makeServoMap(pile->georeferences, pile->joined.mesh,
                                   {.kind = options.kind, .contact = {.radius_m = radius_m}});
         return Done{};
     }
     result.touch = std::make_unique<TouchMap>(pile->in_tiles);
-    result.map =
-        result.touch->make(options.kind, pile->tiled, *pile->mesh, pile->georeferences, radius_m);
+    result.map = result.touch->make(options.kind, pile->tiled, *pile->joined.mesh,
+                                    pile->georeferences, radius_m);
     return Done{};
 }
 
@@ -51,29 +51,20 @@ Status putOnBody(const MapOptions& map,
         return joined ? joined : Status(failed(joined.error()));
     }
     const double radius_m = options.radius_m.value_or(0.5 * result.cell_m);
-    if (result.opened->filled()) {
-        auto mesh =
-            BodyMesh::build(result.opened->filled(), georeference, options.exaggeration, monitor);
-        if (!mesh) {
-            return failed(mesh.error());
-        }
-        result.mesh = std::move(mesh).value();
+    auto layer = layOnBody(result.on_body.maps().front(), options.exaggeration, monitor);
+    if (!layer) {
+        return failed(layer.error());
+    }
+    if (layer->mesh) {
+        result.mesh = std::move(layer->mesh);
         result.map = makeServoMap({result.opened, &georeference}, result.mesh,
                                   {.kind = options.kind, .contact = {.radius_m = radius_m}});
         return Done{};
     }
-    const Heightfield& heightfield = result.opened->heightfield();
-    const auto tiled = TiledBodyMesh::build(
-        result.grid,
-        std::make_shared<const TileHeights>(result.opened->levels(), heightfield.scale()),
-        options.exaggeration, monitor);
-    if (!tiled) {
-        return failed(tiled.error());
-    }
     result.touch = std::make_unique<TouchMap>(
         SceneMap{.map = result.opened, .frame = georeference.sceneFrame()}, MapEnds::Meet);
-    result.map = result.touch->make(options.kind, *tiled, radius_m);
-    result.mesh = (*tiled)->over(result.map->tiles.front().terrain->terrain());
+    result.map = result.touch->make(options.kind, layer->tiled, radius_m);
+    result.mesh = layer->tiled->over(result.map->tiles.front().terrain->terrain());
     return Done{};
 }
 

@@ -70,7 +70,7 @@ tiledTerrain(const Map& map, const GoalRecording& recording, TraceSubject& subje
 {
     const Heightfield& heightfield = map.heightfield();
     const TiledRaster& raster = heightfield.tiles()->raster();
-    const auto heights = std::make_shared<const TileHeights>(map.levels(), heightfield.scale());
+    const auto heights = tileHeightsOf(map);
     if (!subject.is_recorded_on || recording.ground.empty()) {
         subject.waiting.push_back(std::make_shared<const WaitingTerrain>(raster, heights));
         return std::shared_ptr<const TiledTerrain>(subject.waiting.back());
@@ -101,10 +101,8 @@ Result<std::shared_ptr<const BodyMesh>> bodyMesh(const Map& map,
     if (!terrain) {
         return std::move(terrain).error();
     }
-    const auto tiled = TiledBodyMesh::build(
-        std::move(grid).value(),
-        std::make_shared<const TileHeights>(map.levels(), map.heightfield().scale()), exaggeration,
-        monitor);
+    const auto tiled =
+        TiledBodyMesh::build(std::move(grid).value(), tileHeightsOf(map), exaggeration, monitor);
     if (!tiled) {
         return tiled.error();
     }
@@ -127,10 +125,10 @@ Status touchPile(const PileOptions& options,
                      fmt::format("{}: {}", subject.map->spec().path, pile.error().message)};
     }
     const BodyGoalFrame frame =
-        bodyGoalFrame(subject.map->georeference(), pile->mesh->ellipsoid(), exaggeration);
+        bodyGoalFrame(subject.map->georeference(), pile->joined.mesh->ellipsoid(), exaggeration);
     subject.radius_m = pile->radius_m;
-    subject.waiting = pile->waiting;
-    subject.make = [surface = LayeredSurface(pile->mesh), frame](const TraceTouch& touch) {
+    subject.waiting = pile->joined.waiting;
+    subject.make = [surface = LayeredSurface(pile->joined.mesh), frame](const TraceTouch& touch) {
         return Toucher{.model = makeContactModel(touch.kind, surface, {.radius_m = touch.radius_m}),
                        .frame = bodyFrame(frame)};
     };

@@ -44,12 +44,6 @@ std::string reasonOf(const UnitSuggestion& suggestion)
 
 } // namespace
 
-bool isOnEarth(double elevation_m)
-{
-    const KnownElevations known = ofEarth();
-    return elevation_m >= known.floor_m && elevation_m <= known.ceiling_m;
-}
-
 std::optional<double> certainNodata(const RasterInfo& info)
 {
     // The highest place known is Olympus Mons, 21.2 km. Deep-sea trenches reach to -10.9 km, but a
@@ -80,10 +74,10 @@ std::optional<UnitSuggestion> suggestUnit(const RasterInfo& info,
         if (raw == info.nodata_suggestion) {
             continue;
         }
-        if (!isOnEarth(value * suggestion.unit.meters)) {
+        if (!canBeOn(*info.body, value * suggestion.unit.meters)) {
             return std::nullopt; // not feet either
         }
-        if (!suggestion.implausible_m && !isOnEarth(value * info.unit.meters)) {
+        if (!suggestion.implausible_m && !canBeOn(*info.body, value * info.unit.meters)) {
             suggestion.implausible_m = value * info.unit.meters;
         }
     }

@@ -12,9 +12,6 @@ namespace marsview {
 /// user decides. Empty if there is no suggestion, or if it may be an elevation.
 std::optional<double> certainNodata(const RasterInfo& info);
 
-/// Whether some place on the Earth, the sea floor included, may have this elevation.
-bool isOnEarth(double elevation_m);
-
 /// Feet for a map of the Earth without a declared unit, if in meters it would be higher or lower
 /// than any place on the Earth but not in feet, or if the unit of its CRS is the foot. Samples of
 /// the nodata suggestion are ignored.

@@ -132,7 +132,7 @@ void PlaceDialog::showAt(QPoint place)
     card.moveTop(std::max(card.top(), screen.top()));
     move(card.topLeft());
     if (!testAttribute(Qt::WA_ShowWithoutActivating)) {
-        activateWindow(); // without a window manager nobody else does
+        activateWindow(); // not every window manager does it for new windows
     }
 }
 

@@ -1,8 +1,7 @@
 #include "ui/globe/globe_meshes.h"
 
-#include "core/body/layered_mesh.h"
-#include "core/levels/waiting_terrain.h"
 #include "core/session/joined_maps.h"
+#include "haptics/terrain/body_layers.h"
 
 #include <algorithm>
 #include <utility>
@@ -24,37 +23,6 @@ const BodyStylus::Surface* keptSurface(const std::optional<GlobeMeshes::Ground>&
     });
     return found != maps.end() ? &earlier->surfaces[static_cast<std::size_t>(found - maps.begin())]
                                : nullptr;
-}
-
-std::shared_ptr<const TileHeights> tileHeightsOf(const Map& map)
-{
-    return std::make_shared<const TileHeights>(map.levels(), map.heightfield().scale());
-}
-
-// The triangles of a map by itself.
-Status layOnBody(const BodyTerrain& terrain,
-                 double exaggeration,
-                 const Ellipsoid& ellipsoid,
-                 JobMonitor& monitor,
-                 BodyStylus::Surface& surface)
-{
-    const std::shared_ptr<const Map>& map = terrain.shown();
-    if (map->filled()) {
-        auto mesh =
-            BodyMesh::build(map->filled(), map->georeference(), exaggeration, monitor, ellipsoid);
-        if (!mesh) {
-            return std::move(mesh).error();
-        }
-        surface.mesh = std::move(mesh).value();
-        return Done{};
-    }
-    auto tiled = TiledBodyMesh::build(terrain.grid(), tileHeightsOf(*map), exaggeration, monitor);
-    if (!tiled) {
-        return std::move(tiled).error();
-    }
-    surface.tiled = std::move(tiled).value();
-    surface.map = map;
-    return Done{};
 }
 
 struct Piles {
@@ -95,30 +63,16 @@ Piles pilesIn(const GlobeMeshes::Ground& ground)
     return piles;
 }
 
-// To touch maps in tiles, each user puts them over terrains of its own.
-Result<std::shared_ptr<const LayeredMesh>> joinedOf(const std::vector<std::size_t>& pile,
-                                                    const GlobeMeshes::Ground& ground,
-                                                    JobMonitor& monitor)
+Result<JoinedLayers> joinedOf(const std::vector<std::size_t>& pile,
+                              const GlobeMeshes::Ground& ground,
+                              JobMonitor& monitor)
 {
-    std::vector<std::shared_ptr<const BodyMesh>> meshes;
-    std::vector<std::shared_ptr<const WaitingTerrain>> terrains;
+    std::vector<BodyLayer> layers;
     for (const std::size_t i : pile) {
         const BodyStylus::Surface& surface = ground.surfaces[i];
-        if (!surface.tiled) {
-            meshes.push_back(surface.mesh);
-            continue;
-        }
-        terrains.push_back(std::make_shared<const WaitingTerrain>(
-            surface.map->heightfield().tiles()->raster(), tileHeightsOf(*surface.map)));
-        meshes.push_back(surface.tiled->over(terrains.back()));
+        layers.push_back({.mesh = surface.mesh, .tiled = surface.tiled, .map = surface.map});
     }
-    auto joined = LayeredMesh::build(meshes, monitor);
-    for (const auto& terrain : terrains) {
-        if (terrain->error()) {
-            return *terrain->error();
-        }
-    }
-    return joined;
+    return joinLayers(layers, monitor);
 }
 
 // Each pile that can be joined becomes one surface.
@@ -144,7 +98,7 @@ void join(GlobeMeshes::Ground& ground, Piles piles, JobMonitor& monitor)
             radius_m = std::min(radius_m, ground.surfaces[i].radius_m);
         }
         for (const std::size_t i : pile) {
-            ground.surfaces[i].joined = *joined;
+            ground.surfaces[i].joined = joined->mesh;
             ground.surfaces[i].radius_m = radius_m; // of the finest map
         }
     }
@@ -254,9 +208,11 @@ void GlobeMeshes::prepare()
             if (const auto* kept = keptSurface(earlier, terrain, exaggeration)) {
                 surface = *kept;
                 surface.joined = nullptr;
-            } else if (const Status laid =
-                           layOnBody(terrain, exaggeration, scene.ellipsoid(), *monitor, surface);
-                       !laid) {
+            } else if (auto laid = layOnBody(terrain, exaggeration, *monitor)) {
+                surface.mesh = std::move(laid->mesh);
+                surface.tiled = std::move(laid->tiled);
+                surface.map = std::move(laid->map);
+            } else {
                 problem = QString::fromStdString(laid.error().message);
             }
             surface.radius_m =

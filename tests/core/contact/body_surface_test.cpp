@@ -181,8 +181,8 @@ TEST(BodyGoalFrame, GoalsAndTheirPositionsConvertToEachOther)
     EXPECT_TRUE(isFinite(of_sphere.toScene({0.0, -90.0, 0.0})));
 }
 
-// In the turn of the map, whose middle is 180° here, 360° there, and 90° beside the pole, where the
-// middle of the last row is at 45°.
+// In the turn of the map, whose middle is 180° here, 360° there, and 90° next to the pole, where
+// the middle of the last row is at 45°.
 TEST(BodyGoalFrame, LongitudesAreThoseOfTheMap)
 {
     const Ellipsoid body{3396190.0, 3376200.0};
@@ -190,15 +190,15 @@ TEST(BodyGoalFrame, LongitudesAreThoseOfTheMap)
     test::BodyMap across = around;
     across.columns = 4;
     across.terms = {340, 10, 0, 90, 0, -10};
-    const test::BodyMap beside{"BesideThePole",
-                               "+proj=stere +lat_0=90 +lon_0=0 +a=3396190 +b=3376200 +units=m",
-                               3,
-                               3,
-                               {850'000, 100'000, 0, 1'500'000, 0, -1'000'000},
-                               0.0};
+    const test::BodyMap near_pole{"NearThePole",
+                                  "+proj=stere +lat_0=90 +lon_0=0 +a=3396190 +b=3376200 +units=m",
+                                  3,
+                                  3,
+                                  {850'000, 100'000, 0, 1'500'000, 0, -1'000'000},
+                                  0.0};
     for (const auto& [map, longitudes] : {std::pair(around, std::array{5.0, 175.0, 355.0}),
                                           std::pair(across, std::array{341.0, 360.0, 379.0}),
-                                          std::pair(beside, std::array{-80.0, 90.0, 260.0})}) {
+                                          std::pair(near_pole, std::array{-80.0, 90.0, 260.0})}) {
         const BodyGoalFrame frame = bodyGoalFrame(test::georeferenceOf(map), body, 1.0);
         for (const double longitude : longitudes) {
             EXPECT_NEAR(frame.fromScene(frame.toScene({longitude, 20.0, 0.0})).x, longitude, 1e-9);

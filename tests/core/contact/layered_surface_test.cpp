@@ -1,8 +1,6 @@
 #include "core/contact/contact_model.h"
 #include "core/contact/layered_surface.h"
 #include "tests/core/contact/nested_maps.h"
-#include "tests/core/mesh/mesh_shapes.h"
-#include "tests/support/random.h"
 
 #include <gtest/gtest.h>
 
@@ -30,38 +28,7 @@ TEST_P(LayeredContact, ItsProxiesAreThoseOnAListOfTheSameTriangles)
     const auto& [kind, nested] = GetParam();
     const auto maps = test::meshesOf(nested);
     const auto mesh = layered(maps);
-    JobMonitor monitor;
-    const auto listed = TriangleMesh::build(test::listOf(*mesh), monitor);
-    ASSERT_TRUE(listed) << listed.error().message;
-    const auto model = makeContactModel(kind, LayeredSurface(mesh));
-    const auto other = makeContactModel(kind, MeshSurface(*listed));
-    test::Random random(3);
-    const double cell_m = test::cellOf(*maps.front());
-    const ScenePoint begin = mesh->highAbove(test::placeNear(*maps.front(), random));
-    model->update(begin);
-    other->update(begin);
-    int contacts = 0;
-    ScenePoint goal = begin;
-    const std::size_t cut_faces = mesh->faceCount() - mesh->firstCutFace();
-    for (int i = 0; i < 300; ++i) {
-        // Over walls and cut faces, from one part of the border to another.
-        const auto face =
-            mesh->firstCutFace() + static_cast<std::uint32_t>(random.below(cut_faces));
-        const auto [a, b, c] = mesh->points(face);
-        const ScenePoint middle = a + ((b - a) + (c - a)) * (1.0 / 3.0);
-        const Vec3 up = verticalAt(mesh->ellipsoid(), middle).up;
-        goal = goal + (middle - goal) * (i % 10 == 0 ? 1.0 : random.uniform(0.0, 0.2)) +
-               up * (0.1 * cell_m * random.uniform(-1.0, 0.2));
-        const ContactState here = model->update(goal);
-        const ContactState there = other->update(goal);
-        ASSERT_LE(length(here.proxy - there.proxy), 1e-6 * cell_m) << i;
-        EXPECT_EQ(here.counters.cut_short, 0U);
-        contacts += here.is_in_contact ? 1 : 0;
-        if (here.is_in_contact && i % 50 == 0) {
-            EXPECT_LE(test::bruteDistance(**listed, here.proxy), 1e-6);
-        }
-    }
-    EXPECT_GT(contacts, 60);
+    EXPECT_GT(test::contactsAsOnList(mesh, *maps.front(), kind), 60);
 }
 
 INSTANTIATE_TEST_SUITE_P(

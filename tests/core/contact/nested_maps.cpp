@@ -1,7 +1,9 @@
 #include "tests/core/contact/nested_maps.h"
 
 #include "app/bench/reference/fractal_heights.h"
+#include "core/contact/layered_surface.h"
 #include "tests/core/contact/contact_terrain.h"
+#include "tests/core/mesh/mesh_shapes.h"
 
 #include <gtest/gtest.h>
 
@@ -171,6 +173,45 @@ TriangleSoup listOf(const LayeredMesh& mesh)
         }
     }
     return soup;
+}
+
+int contactsAsOnList(const std::shared_ptr<const LayeredMesh>& mesh,
+                     const BodyMesh& upper,
+                     ContactModelKind kind)
+{
+    JobMonitor monitor;
+    const auto listed = TriangleMesh::build(listOf(*mesh), monitor);
+    EXPECT_TRUE(listed);
+    if (!listed) {
+        return 0;
+    }
+    const auto model = makeContactModel(kind, LayeredSurface(mesh));
+    const auto other = makeContactModel(kind, MeshSurface(*listed));
+    Random random(3);
+    const double cell_m = cellOf(upper);
+    ScenePoint goal = mesh->highAbove(placeNear(upper, random));
+    model->update(goal);
+    other->update(goal);
+    int contacts = 0;
+    const std::size_t cut_faces = mesh->faceCount() - mesh->firstCutFace();
+    for (int i = 0; i < 300; ++i) {
+        const auto face =
+            mesh->firstCutFace() + static_cast<std::uint32_t>(random.below(cut_faces));
+        const auto [a, b, c] = mesh->points(face);
+        const ScenePoint middle = a + ((b - a) + (c - a)) * (1.0 / 3.0);
+        const Vec3 up = verticalAt(mesh->ellipsoid(), middle).up;
+        goal = goal + (middle - goal) * (i % 10 == 0 ? 1.0 : random.uniform(0.0, 0.2)) +
+               up * (0.1 * cell_m * random.uniform(-1.0, 0.2));
+        const ContactState here = model->update(goal);
+        const ContactState there = other->update(goal);
+        EXPECT_LE(length(here.proxy - there.proxy), 1e-6 * cell_m) << i;
+        EXPECT_EQ(here.counters.cut_short, 0U) << i;
+        contacts += here.is_in_contact ? 1 : 0;
+        if (here.is_in_contact && i % 50 == 0 && kind != ContactModelKind::GodObject) {
+            EXPECT_LE(bruteDistance(**listed, here.proxy), 1e-6) << i;
+        }
+    }
+    return contacts;
 }
 
 double cellOf(const BodyMesh& mesh)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/body/layered_mesh.h"
+#include "core/contact/contact_model.h"
 #include "tests/core/contact/body_maps.h"
 #include "tests/support/random.h"
 
@@ -45,6 +46,14 @@ std::vector<std::shared_ptr<const BodyMesh>> meshesOf(const NestedMaps& maps,
 
 /// The faces that are not gone.
 TriangleSoup listOf(const LayeredMesh& mesh);
+
+/// Expects a model over joined maps to have the proxies that it has on a list of the same
+/// triangles, along a path over walls and cut faces, from one part of the border of the upper map
+/// to another. Returns the number of updates in contact. A god-object may float; other proxies are
+/// on a face.
+int contactsAsOnList(const std::shared_ptr<const LayeredMesh>& mesh,
+                     const BodyMesh& upper,
+                     ContactModelKind kind);
 
 /// The mean length of a map's edges in its middle.
 double cellOf(const BodyMesh& mesh);

@@ -306,7 +306,7 @@ TEST(FeatheredMap, TheUppermostMapBelowCountsAsItIsShown)
                                .latitude = Angle::degrees(latitude_deg)};
     };
     for (const std::size_t row : {0U, 7U, 20U}) {
-        // At the western border, beside the middle map; at the eastern one, over it.
+        // At the western border, outside the middle map; at the eastern one, over it.
         EXPECT_NEAR(result->heightfield().sample(0, row), -300.0, 1e-3);
         const GeographicPoint at = place(34.75, 9.75 - 0.5 * static_cast<double>(row));
         EXPECT_NEAR(result->heightfield().sample(39, row), shown.height(at), 1e-3);

@@ -1,11 +1,8 @@
 // Maps with blended edges, joined with the maps below them to the surface that is touched.
 #include "core/contact/contact_model.h"
-#include "core/contact/layered_surface.h"
 #include "core/feather/feathered_map.h"
 #include "tests/core/contact/nested_maps.h"
-#include "tests/core/mesh/mesh_shapes.h"
 #include "tests/support/map_maker.h"
-#include "tests/support/random.h"
 
 #include <gtest/gtest.h>
 
@@ -162,38 +159,11 @@ TEST_F(FeatheredEdge, WallsAreAsHighAsTheMapBelowIsBentBetweenSamples)
 TEST_F(FeatheredEdge, ProxiesAreThoseOnAListOfTheSameTriangles)
 {
     const auto mesh = joined(6);
-    JobMonitor monitor;
-    const auto listed = TriangleMesh::build(test::listOf(*mesh), monitor);
-    ASSERT_TRUE(listed) << listed.error().message;
     for (const ContactModelKind kind :
          {ContactModelKind::ProxyGraph, ContactModelKind::SurfaceWalk,
           ContactModelKind::ContinuousWalk, ContactModelKind::GodObject}) {
-        const auto model = makeContactModel(kind, LayeredSurface(mesh));
-        const auto other = makeContactModel(kind, MeshSurface(*listed));
-        test::Random random(3);
-        ScenePoint goal = mesh->highAbove(test::placeNear(*meshes_.front(), random));
-        model->update(goal);
-        other->update(goal);
-        const std::size_t cut_faces = mesh->faceCount() - mesh->firstCutFace();
-        int contacts = 0;
-        for (int i = 0; i < 200; ++i) {
-            const auto face =
-                mesh->firstCutFace() + static_cast<std::uint32_t>(random.below(cut_faces));
-            const auto [a, b, c] = mesh->points(face);
-            const ScenePoint middle = a + ((b - a) + (c - a)) * (1.0 / 3.0);
-            const Vec3 up = verticalAt(mesh->ellipsoid(), middle).up;
-            goal = goal + (middle - goal) * (i % 10 == 0 ? 1.0 : random.uniform(0.0, 0.2)) +
-                   up * (0.1 * kCellM * random.uniform(-1.0, 0.2));
-            const ContactState here = model->update(goal);
-            const ContactState there = other->update(goal);
-            ASSERT_LE(length(here.proxy - there.proxy), 1e-6 * kCellM)
-                << contactModelName(kind) << ' ' << i;
-            contacts += here.is_in_contact ? 1 : 0;
-            if (here.is_in_contact && i % 20 == 0 && kind != ContactModelKind::GodObject) {
-                EXPECT_LE(test::bruteDistance(**listed, here.proxy), 1e-6);
-            }
-        }
-        EXPECT_GT(contacts, 20) << contactModelName(kind);
+        EXPECT_GT(test::contactsAsOnList(mesh, *meshes_.front(), kind), 20)
+            << contactModelName(kind);
     }
 }
 
