@@ -3963,7 +3963,7 @@ Was fehlt, lässt sich im Hinweis über der Karte suchen oder entfernen.</transl
     </message>
     <message>
         <source>&amp;Blend edges over</source>
-        <translation>Kanten &amp;überblenden über</translation>
+        <translation>&amp;Weicher Rand</translation>
     </message>
     <message>
         <source>Cells over which the edges of the active layer are blended</source>
