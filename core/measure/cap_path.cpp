@@ -88,13 +88,18 @@ private:
             follow(middle_m, end_m, middle, end, depth + 1);
             return;
         }
+        CapPlane::Point from = begin;
         face_ = cap_.plane.walk(face_, begin, end, [&](std::uint32_t face, double share) {
+            const CapPlane::Point to = begin + (end - begin) * share;
+            visitor_.visitCap(cap_, face, from, to);
+            from = to;
             const double distance_m = begin_m + share * (end_m - begin_m);
             if (distance_m - cut_m_ > kSameShare * cap_.radius_m) {
                 flatten(face, at(face, cut_m_), at(face, distance_m), 0);
                 cut_m_ = distance_m;
             }
         });
+        visitor_.visitCap(cap_, face_, from, end);
     }
 
     // Halved where the line is bent so much that the elevation is not linear along it.

@@ -56,19 +56,24 @@ struct LinearOnCell {
     double operator()(const UvPoint& p) const { return at_corner + p.u * per_u + p.v * per_v; }
 };
 
-/// Calls `visit` with the triangles of a part, each with its area. `cell_m2` is the area of a cell
-/// as the ground around a point has it. It changes across a cell, by a quarter next to a pole of a
-/// map in degrees.
+/// Calls `visit` with the triangles of a part, each with its share of the cell.
 template <typename Visit>
-void forEachTriangle(const CellPart& part, const LinearOnCell& cell_m2, const Visit& visit)
+void forEachTriangle(const CellPart& part, const Visit& visit)
 {
     for (std::size_t i = 1; i + 1 < part.count; ++i) {
         const UvPoint& o = part.points[0];
         const UvPoint& a = part.points[i];
         const UvPoint& b = part.points[i + 1];
-        const double cells = 0.5 * std::abs((a.u - o.u) * (b.v - o.v) - (b.u - o.u) * (a.v - o.v));
-        visit(o, a, b, cells * cell_m2({(o.u + a.u + b.u) / 3.0, (o.v + a.v + b.v) / 3.0}));
+        visit(o, a, b, 0.5 * std::abs((a.u - o.u) * (b.v - o.v) - (b.u - o.u) * (a.v - o.v)));
     }
+}
+
+/// The mean of the product of two linear functions over a triangle, from their values at its
+/// corners.
+inline double meanProduct(const std::array<double, 3>& f, const std::array<double, 3>& g)
+{
+    return ((f[0] + f[1] + f[2]) * (g[0] + g[1] + g[2]) + f[0] * g[0] + f[1] * g[1] + f[2] * g[2]) /
+           12.0;
 }
 
 struct PartSum {
@@ -76,16 +81,17 @@ struct PartSum {
     double first = 0.0; // integral of a linear function over that area
 };
 
-/// Over the part; exact for a linear `value`. For `cell_m2` see forEachTriangle().
+/// Over the part; exact for a linear `value`. `cell_m2` is the area of a cell as the ground around
+/// a point has it: it changes across a cell, threefold next to a pole of a map in degrees.
 template <typename Value>
 PartSum sumOver(const CellPart& part, const LinearOnCell& cell_m2, const Value& value)
 {
     PartSum sum;
-    forEachTriangle(part, cell_m2,
-                    [&](const UvPoint& o, const UvPoint& a, const UvPoint& b, double area_m2) {
-                        sum.area_m2 += area_m2;
-                        sum.first += area_m2 * (value(o) + value(a) + value(b)) / 3.0;
-                    });
+    forEachTriangle(part, [&](const UvPoint& o, const UvPoint& a, const UvPoint& b, double cells) {
+        const std::array m2{cell_m2(o), cell_m2(a), cell_m2(b)};
+        sum.area_m2 += cells * (m2[0] + m2[1] + m2[2]) / 3.0;
+        sum.first += cells * meanProduct(m2, {value(o), value(a), value(b)});
+    });
     return sum;
 }
 

@@ -23,11 +23,13 @@ public:
 
     /// Halves the distance of nodes until the values between them are within `tolerance` of the
     /// largest magnitude of all functions, which have one unit. Empty where `function` is, anywhere
-    /// in the rectangle, and if 256 cells between nodes along a side do not suffice.
+    /// in the rectangle, and if kCellsMax cells between nodes along a side do not suffice.
     static std::optional<GridField>
     of(GridPoint low, GridPoint high, double tolerance, const Function& function)
     {
-        for (std::size_t count = 4; count <= 256; count *= 2) {
+        // A whole turn of longitude needs 512 for 1e-8.
+        constexpr std::size_t kCellsMax = 512;
+        for (std::size_t count = 4; count <= kCellsMax; count *= 2) {
             std::optional<GridField> field = tabulated(low, high, count, function);
             if (!field) {
                 return std::nullopt;

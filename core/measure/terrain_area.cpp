@@ -4,10 +4,12 @@
 // zero. It works on a cylinder too, that is on a map around the whole body, where a polygon around
 // a pole covers all below its edges, or all above them. In a cell with edges, the region is a
 // signed sum of trapezoids, each of which is clipped by both triangles and by the base of volumes,
-// so that all integrals are exact for the triangulated surface.
+// so that all integrals are exact for the triangulated surface. Where the map closes at a pole,
+// what is covered at its outermost row continues in the cap there (cap_area.h).
 
 #include "core/measure/terrain_area.h"
 
+#include "core/measure/cap_area.h"
 #include "core/measure/cell_part.h"
 #include "core/measure/column_coverage.h"
 #include "core/measure/constants.h"
@@ -33,16 +35,43 @@ namespace {
 
 constexpr double kBorderShare = 0.1; // of the time
 
+struct EdgeInCap {
+    const CapTerrain* cap = nullptr;
+    CapEdge part;
+};
+
+// What is needed of the polygon's edges.
+class Border final : public PathVisitor {
+public:
+    Border(const Ground& ground, const LocalFrame& frame)
+        : plane(ground, frame)
+    {}
+
+    void visit(const PathPiece& piece) override { plane.visit(piece); }
+    void visitCap(const CapTerrain& cap,
+                  std::uint32_t face,
+                  const CapPlane::Point& from,
+                  const CapPlane::Point& to) override
+    {
+        in_caps.push_back({&cap, {face, from, to}});
+    }
+
+    BorderPlane plane;
+    std::vector<EdgeInCap> in_caps;
+};
+
 class AreaSummer {
 public:
     AreaSummer(MeasuredTerrain& terrain,
                MetricField& metric,
                const VolumeSurface& base,
+               const LocalFrame& frame,
                std::optional<double> hypsometry_step_m)
         : hypsometry(hypsometry_step_m)
         , terrain_(terrain)
         , metric_(metric)
         , base_(base)
+        , frame_(frame)
     {}
 
     // `outside` and `sign` turn a count of the edges above into a share of the polygon.
@@ -82,6 +111,31 @@ public:
         return Done{};
     }
 
+    /// After run(): of the polygon's edges in the caps.
+    Status addCaps(const std::vector<EdgeInCap>& edges)
+    {
+        for (const EdgeInCap& edge : edges) {
+            const std::size_t which = edge.cap->row == 0 ? kFirst : kLast;
+            // Going down the rows, an edge begins what is away from the pole before the first row,
+            // and what is next to it after the last one.
+            capArea(which)->addEdge(edge.part, which == kFirst ? -sign_ : sign_);
+        }
+        for (const std::optional<CapArea>& cap : caps_) {
+            if (!cap) {
+                continue;
+            }
+            covered_m2 += cap->covered_m2;
+            surface_m2 += cap->surface_m2;
+            height_m3 += cap->height_m3;
+            above_m3 += cap->above_m3;
+            below_m3 += cap->below_m3;
+            if (cap->hasPole()) {
+                addHeight(cap->poleM());
+            }
+        }
+        return terrain_.failure() ? Status(*terrain_.failure()) : Done{};
+    }
+
     double covered_m2 = 0.0;
     double surface_m2 = 0.0;
     double height_m3 = 0.0; // ∫ elevation
@@ -110,6 +164,7 @@ private:
         for (ColumnCoverage& column : coverage) {
             column.normalize();
         }
+        addCircle(kFirst, first, coverage);
         upper_row_ = kNoRow;
         lower_row_ = kNoRow;
         std::size_t row = 0;
@@ -149,7 +204,36 @@ private:
             ++row;
             monitor.report(static_cast<double>(row) / static_cast<double>(rows));
         }
+        addCircle(kLast, first, coverage);
         return Done{};
+    }
+
+    // What is covered at the outermost row, in columns from `first` on.
+    void addCircle(std::size_t which, std::size_t first, std::span<const ColumnCoverage> coverage)
+    {
+        for (std::size_t i = 0; i < coverage.size(); ++i) {
+            CapArea* const cap = coverage[i].isEmpty() ? nullptr : capArea(which);
+            if (cap != nullptr) {
+                coverage[i].forEach([&](double from, double to, double weight) {
+                    cap->addCircle(first + i, from, to, weight);
+                });
+            }
+        }
+    }
+
+    // Null where the map does not close.
+    CapArea* capArea(std::size_t which)
+    {
+        if (!caps_[which]) {
+            constexpr double kBeyond = 0.5;
+            const CapTerrain* const cap = terrain_.capBeyond(
+                which == kFirst ? -kBeyond : terrain_.rowLine(terrain_.cellRows()) + kBeyond);
+            if (cap == nullptr) {
+                return nullptr;
+            }
+            caps_[which].emplace(terrain_, *cap, base_, frame_, hypsometry);
+        }
+        return &*caps_[which];
     }
 
     void readRows(std::size_t first, std::size_t last, std::size_t row)
@@ -256,7 +340,7 @@ private:
             return std::array{f.at_corner, f.at_corner + (triangle == 0 ? f.per_u : f.per_v),
                               f.at_corner + f.per_u + f.per_v};
         };
-        std::array<double, 2> above{};
+        std::array<std::array<double, 3>, 2> above{};
         if (base_.kind != VolumeBase::None) {
             for (std::size_t i = 0; i < 2; ++i) {
                 const auto z = corners(triangles_[i].elevation_m, i);
@@ -267,7 +351,7 @@ private:
                 if (triangles_[i].has_terrain && !is_above && !is_below) {
                     return false;
                 }
-                above[i] = (g[0] + g[1] + g[2]) / 3.0;
+                above[i] = g;
             }
         }
         for (std::size_t i = 0; i < 2; ++i) {
@@ -276,14 +360,15 @@ private:
                 continue;
             }
             const auto z = corners(t.elevation_m, i);
-            const UvPoint center =
-                i == 0 ? UvPoint{2.0 / 3.0, 1.0 / 3.0} : UvPoint{1.0 / 3.0, 2.0 / 3.0};
-            const double area_m2 = 0.5 * weight * t.cell_m2(center);
+            const auto m2 = corners(t.cell_m2, i);
+            const double area_m2 = 0.5 * weight * (m2[0] + m2[1] + m2[2]) / 3.0;
             covered_m2 += area_m2;
             surface_m2 += area_m2 * t.stretch;
-            height_m3 += area_m2 * (z[0] + z[1] + z[2]) / 3.0;
+            height_m3 += 0.5 * weight * meanProduct(m2, z);
             hypsometry.add(z, area_m2);
-            (above[i] >= 0.0 ? above_m3 : below_m3) += area_m2 * std::abs(above[i]);
+            const double above_base_m3 = 0.5 * weight * meanProduct(m2, above[i]);
+            (above_base_m3 * weight >= 0.0 ? above_m3 : below_m3) +=
+                above_base_m3 * weight >= 0.0 ? above_base_m3 : -above_base_m3;
         }
         return true;
     }
@@ -294,6 +379,20 @@ private:
     {
         min_m = std::fmin(min_m, height_m); // of two, fmin and fmax ignore NaN
         max_m = std::fmax(max_m, height_m);
+    }
+
+    // Whether the ground's area changes so much across a row of cells that it matters where in a
+    // triangle the terrain is high: near a pole of a map in degrees.
+    bool isUneven(std::size_t row, double column)
+    {
+        if (uneven_row_ != row) {
+            constexpr double kShare = 0.01;
+            const double top = metric_.at({column, terrain_.rowLine(row)}).cellArea();
+            const double bottom = metric_.at({column, terrain_.rowLine(row + 1)}).cellArea();
+            is_uneven_ = std::abs(top - bottom) > kShare * std::max(top, bottom);
+            uneven_row_ = row;
+        }
+        return is_uneven_;
     }
 
     // One of the two triangles of a cell.
@@ -319,7 +418,8 @@ private:
         const double width = right - left;
         const double height = bottom - top;
         CellHeights areas{};
-        if (is_partial) { // a whole triangle has the area of its center
+        if (is_partial ||
+            isUneven(row, left)) { // otherwise the area of its center is that of a triangle
             const auto area = [&](double c, double r) { return metric_.at({c, r}).cellArea(); };
             areas = {area(left, top), area(right, top), area(left, bottom), area(right, bottom)};
         }
@@ -372,11 +472,12 @@ private:
         covered_m2 += weight * sum.area_m2;
         surface_m2 += weight * sum.area_m2 * t.stretch;
         height_m3 += weight * sum.first;
-        forEachTriangle(part, t.cell_m2,
-                        [&](const UvPoint& o, const UvPoint& a, const UvPoint& b, double area_m2) {
-                            const LinearOnCell& z = t.elevation_m;
-                            hypsometry.add({z(o), z(a), z(b)}, weight * area_m2);
-                        });
+        forEachTriangle(part, [&](const UvPoint& o, const UvPoint& a, const UvPoint& b,
+                                  double cells) {
+            const LinearOnCell& z = t.elevation_m;
+            const double cell_m2 = t.cell_m2({(o.u + a.u + b.u) / 3.0, (o.v + a.v + b.v) / 3.0});
+            hypsometry.add({z(o), z(a), z(b)}, weight * cells * cell_m2);
+        });
         if (base_.kind == VolumeBase::None) {
             return;
         }
@@ -390,17 +491,23 @@ private:
         below_m3 += weight * sumOver(clipped(part, minus_g), t.cell_m2, minus_g).first;
     }
 
-    static constexpr double kNextTo = 1e-9; // from a line of the grid
+    static constexpr double kNextTo = 1e-9;  // from a line of the grid
+    static constexpr std::size_t kFirst = 0; // of two caps
+    static constexpr std::size_t kLast = 1;
     static constexpr std::size_t kNoRow = std::numeric_limits<std::size_t>::max();
 
     MeasuredTerrain& terrain_;
     MetricField& metric_;
     const VolumeSurface& base_;
+    const LocalFrame& frame_;
     double sign_ = 1.0;
+    std::array<std::optional<CapArea>, 2> caps_;
     std::vector<double> upper_;
     std::vector<double> lower_;
     std::size_t upper_row_ = kNoRow;
     std::size_t lower_row_ = kNoRow;
+    std::size_t uneven_row_ = kNoRow;
+    bool is_uneven_ = false;
     std::array<Triangle, 2> triangles_;
 };
 
@@ -528,7 +635,7 @@ Result<TerrainArea> measureArea(MeasuredTerrain& terrain,
     const GroundPosition center = ground.positionOf(middle);
     const LocalFrame frame = ground.frameAt(center);
     double reach_m = 0.0;
-    BorderPlane border(ground, frame);
+    Border border(ground, frame);
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         const GroundLine line = ground.line(vertices[i], vertices[(i + 1) % vertices.size()]);
         reach_m = std::max(reach_m, ground.distanceM(center, vertices[i]));
@@ -536,7 +643,7 @@ Result<TerrainArea> measureArea(MeasuredTerrain& terrain,
             return kBorderShare * static_cast<double>(k) / static_cast<double>(vertices.size());
         };
         const JobPart part(monitor, share(i), share(i + 1));
-        border.begin(line);
+        border.plane.begin(line);
         if (Status status = tracePath(terrain, line, monitor, border); !status) {
             return std::move(status).error();
         }
@@ -557,22 +664,26 @@ Result<TerrainArea> measureArea(MeasuredTerrain& terrain,
     base.period = terrain.period();
     base.middle_column = 0.5 * (outline.low.column + outline.high.column);
     if (options.base == VolumeBase::BorderPlane) {
-        if (Status status = setPlane(terrain, border, frame, reach_m, from, to, base); !status) {
+        if (Status status = setPlane(terrain, border.plane, frame, reach_m, from, to, base);
+            !status) {
             return std::move(status).error();
         }
     }
     const std::unique_ptr<MetricField> metric = MetricField::of(terrain, from, to);
-    AreaSummer sum(terrain, *metric, base, options.hypsometry_step_m);
+    AreaSummer sum(terrain, *metric, base, frame, options.hypsometry_step_m);
     const JobPart part(monitor, kBorderShare, 1.0);
     if (Status status = sum.run(std::move(outline.parts), sides.outside, sides.sign, monitor);
         !status) {
         return std::move(status).error();
     }
+    if (Status status = sum.addCaps(border.in_caps); !status) {
+        return std::move(status).error();
+    }
     area.covered_m2 = sum.covered_m2;
     area.surface_m2 = sum.surface_m2;
     area.mean_m = sum.covered_m2 != 0.0 ? sum.height_m3 / sum.covered_m2 : kNoMeasure;
-    area.min_m = std::fmin(sum.min_m, border.min_m);
-    area.max_m = std::fmax(sum.max_m, border.max_m);
+    area.min_m = std::fmin(sum.min_m, border.plane.min_m);
+    area.max_m = std::fmax(sum.max_m, border.plane.max_m);
     area.hypsometry = sum.hypsometry.result(area.min_m, area.max_m);
     area.crosses_itself = sum.crosses_itself;
     if (options.base != VolumeBase::None) {

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <span>
@@ -54,6 +55,13 @@ class PathVisitor {
 public:
     virtual ~PathVisitor() = default;
     virtual void visit(const PathPiece& piece) = 0;
+    /// In a cap also: a straight part in its plane, within one triangle. They follow each other
+    /// without a gap.
+    virtual void visitCap(const CapTerrain& /*cap*/,
+                          std::uint32_t /*face*/,
+                          const CapPlane::Point& /*from*/,
+                          const CapPlane::Point& /*to*/)
+    {}
 };
 
 /// Cuts `line` at every edge of the terrain's triangles that it crosses. Along an edge, the

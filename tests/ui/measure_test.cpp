@@ -1,6 +1,6 @@
 // Measuring in the window, by mouse and by keyboard.
 
-#include "core/measure/profile_statistics.h"
+#include "core/measure/statistics/profile_statistics.h"
 #include "tests/support/run_program.h"
 #include "tests/ui/map_window.h"
 #include "tests/ui/pointer_moves.h"

@@ -1,6 +1,6 @@
 #include "ui/panels/measure_panel.h"
 
-#include "core/measure/profile_statistics.h"
+#include "core/measure/statistics/profile_statistics.h"
 #include "core/session/crater_count.h"
 #include "core/session/measurement_features.h"
 #include "core/session/measurement_tables.h"

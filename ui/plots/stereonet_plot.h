@@ -1,7 +1,7 @@
 // The stereonet of attitudes, or the rose diagram of their strikes.
 #pragma once
 
-#include "core/measure/orientations.h"
+#include "core/measure/statistics/orientations.h"
 
 #include <QString>
 #include <QWidget>

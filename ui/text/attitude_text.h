@@ -1,7 +1,7 @@
 // Statistics of attitudes in words.
 #pragma once
 
-#include "core/measure/orientations.h"
+#include "core/measure/statistics/orientations.h"
 
 #include <QStringList>
 

@@ -1,6 +1,6 @@
 #include "ui/text/measure_text.h"
 
-#include "core/measure/profile_statistics.h"
+#include "core/measure/statistics/profile_statistics.h"
 #include "core/session/map.h"
 #include "ui/text/coordinate_text.h"
 

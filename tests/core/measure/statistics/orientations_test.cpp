@@ -1,5 +1,5 @@
 // Statistics of poles and the equal-area net against closed forms.
-#include "core/measure/orientations.h"
+#include "core/measure/statistics/orientations.h"
 
 #include <gtest/gtest.h>
 

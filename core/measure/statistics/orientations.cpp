@@ -1,4 +1,4 @@
-#include "core/measure/orientations.h"
+#include "core/measure/statistics/orientations.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "core/measure/profile_statistics.h"
+#include "core/measure/statistics/profile_statistics.h"
 
 #include "core/measure/constants.h"
 
