@@ -4,6 +4,7 @@
 #include "tests/ui/globe/globe_window.h"
 #include "tests/ui/test_device.h"
 #include "ui/controllers/haptics/haptics_controller.h"
+#include "ui/controllers/measure_controller.h"
 #include "ui/overlay/force_meter.h"
 #include "ui/overlay/globe_overlays.h"
 #include "ui/panels/haptics_panel.h"
@@ -15,7 +16,10 @@
 
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <set>
+#include <utility>
+#include <variant>
 
 namespace marsview {
 namespace {
@@ -228,6 +232,51 @@ TEST_F(GlobeDeviceTest, AnotherSceneTakesTheHandOverWithoutAStep)
     }
     EXPECT_EQ(scenes.size(), 2U);
     EXPECT_FALSE(ofLastScene(ticks).front().is_on_body);
+}
+
+// A tool that places points has the stylus as its pointer, and its button does not roll the globe.
+TEST_F(GlobeDeviceTest, TheButtonSetsPointsOfAProfileWhereTheStylusTouches)
+{
+    ASSERT_TRUE(begin(-112.0, 2.0, 8e5));
+    MeasureController& measuring = *window_->measuring();
+    measuring.begin(MeasurementKind::Profile);
+    QSignalSpy pressed(&device(), &DeviceSession::pointPressed);
+    QSignalSpy released(&device(), &DeviceSession::pointReleased);
+    const auto isStill = [&](const WorkspacePoint& at) {
+        const LoopState now = state();
+        return length(now.hand - at) < 1e-9 && now.contact.is_in_contact;
+    };
+    // Longitude and latitude on a sphere, from the proxy in the body-fixed frame.
+    const auto placeOfProxy = [&] {
+        const ScenePoint proxy = state().contact.proxy;
+        return std::pair(std::atan2(proxy.y, proxy.x),
+                         std::atan2(proxy.z, std::hypot(proxy.x, proxy.y)));
+    };
+    ASSERT_TRUE(body().isSphere());
+    int count = 0;
+    for (const WorkspacePoint& at :
+         {WorkspacePoint{-0.02, 0.0, -0.055}, WorkspacePoint{0.02, 0.015, -0.055}}) {
+        hand_->moveTo(at);
+        ASSERT_TRUE(waitFor([&] { return isStill(at); }));
+        const auto [longitude, latitude] = placeOfProxy();
+        const BodyCamera camera = globe().camera();
+        ++count;
+        hand_->buttons = 1;
+        ASSERT_TRUE(waitFor([&] { return pressed.count() == count; }));
+        hand_->buttons = 0;
+        ASSERT_TRUE(waitFor([&] { return released.count() == count; }));
+        EXPECT_EQ(globe().camera(), camera) << "the globe stays";
+        EXPECT_NE(state().mode, StylusMode::Pan);
+        ASSERT_NE(measuring.current(), nullptr);
+        ASSERT_EQ(measuring.current()->vertices.size(), static_cast<std::size_t>(count));
+        const auto* vertex = std::get_if<GeographicPoint>(&measuring.current()->vertices.back());
+        ASSERT_NE(vertex, nullptr);
+        const double tolerance = 0.01 * pixelM() / body().equatorial_m;
+        EXPECT_NEAR(std::remainder(vertex->longitude.radians() - longitude, 2.0 * std::numbers::pi),
+                    0.0, tolerance);
+        EXPECT_NEAR(vertex->latitude.radians(), latitude, tolerance);
+    }
+    EXPECT_GT(hand_->force_n, 0.5) << "the terrain is still felt";
 }
 
 TEST_F(GlobeDeviceTest, RecordsInLongitudeAndLatitudeAndReplaysThat)
