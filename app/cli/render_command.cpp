@@ -162,7 +162,7 @@ void addRenderCommand(CLI::App& app, CommandAction& run)
     command
         ->add_option("--samples", options->samples,
                      "per pixel, for anti-aliasing; by default 4, or 9 where neighboring pixels "
-                     "differ much")
+                     "differ much and with --full")
         ->check(wholeNumberFrom(1, 16));
     command->add_option("--shading", options->shading, "tint, hillshade or slope")
         ->capture_default_str()

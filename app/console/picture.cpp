@@ -132,7 +132,9 @@ Result<OffscreenPicture> drawPicture(const Scene& scene, const PictureOptions& o
     style.look.light_frame = options.subsolar ? LightFrame::Body : LightFrame::View;
     style.look.subsolar = options.subsolar;
     Result<OffscreenPicture> picture = drawOffscreen(*scene.renderer, request, style, DepthUse::No);
-    if (picture && !options.samples && contrastOf(picture->colors) > kSmoothContrastMax) {
+    // Every sample: colors of single points of pixels would be those of some of them.
+    if (picture && !options.samples &&
+        (options.has_every_sample || contrastOf(picture->colors, style) > kSmoothContrastMax)) {
         SupersampledPicture finer(*scene.renderer, request, style);
         if (const Status finished = finer.finish(); !finished) {
             return finished.error();

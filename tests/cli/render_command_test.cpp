@@ -345,6 +345,49 @@ TEST_F(RenderCommand, DrawsTheSameWithEverySampleAndWithinAPixel)
     EXPECT_EQ(full, draw("again.png", {"--full"}));
 }
 
+// Several samples fall into a pixel: a picture of one of them in each would be 4 levels off.
+TEST_F(RenderCommand, FullHasTheMeanOfThePixel)
+{
+    constexpr std::size_t kWidth = 500;
+    constexpr std::size_t kHeight = 400;
+    constexpr std::size_t kTimes = 4;
+    const auto draw = [&](const std::string& name, std::size_t times,
+                          const std::vector<std::string>& options) {
+        const std::string png = folder_.file(name);
+        std::vector<std::string> arguments{bundledMars(),
+                                           "-o",
+                                           png,
+                                           "--full",
+                                           "--scene",
+                                           "body",
+                                           "--exaggeration",
+                                           "1",
+                                           "--size",
+                                           fmt::format("{}x{}", times * kWidth, times * kHeight)};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        EXPECT_EQ(render(arguments).exit_status, 0);
+        return pixels(png);
+    };
+    const std::string full = draw("full.png", 1, {});
+    const std::string large = draw("large.png", kTimes, {"--samples", "4"});
+    ASSERT_EQ(full.size(), 3 * kWidth * kHeight);
+    ASSERT_EQ(large.size(), kTimes * kTimes * full.size());
+    const auto level = [](char byte) {
+        return static_cast<double>(static_cast<unsigned char>(byte));
+    };
+    std::size_t far = 0;
+    for (std::size_t i = 0; i < full.size(); ++i) {
+        const std::size_t row = i / kWidth; // of all bands
+        double sum = 0.0;
+        for (std::size_t j = 0; j < kTimes * kTimes; ++j) {
+            sum += level(large[(kTimes * row + j / kTimes) * kTimes * kWidth +
+                               kTimes * (i % kWidth) + j % kTimes]);
+        }
+        far += std::abs(level(full[i]) - sum / (kTimes * kTimes)) > 2.5 ? 1U : 0U;
+    }
+    EXPECT_LT(static_cast<double>(far), 0.01 * static_cast<double>(full.size()));
+}
+
 TEST_F(RenderCommand, DrawsWithEveryShadingAndRamp)
 {
     std::vector<std::string> seen;

@@ -27,14 +27,14 @@ Picture columnsOf(const std::vector<int>& levels, int height)
 
 TEST(Contrast, IsTheDistanceFromTheMeanOfTheNeighbors)
 {
-    EXPECT_EQ(contrastOf(columnsOf({10, 20, 30, 40, 50}, 9)), 0) << "a slope has none";
-    EXPECT_EQ(contrastOf(columnsOf({10, 90, 10, 90, 10}, 9)), 80);
-    EXPECT_EQ(contrastOf(columnsOf({10, 90}, 9)), 0) << "no pixel has two neighbors";
+    EXPECT_EQ(contrastOf(columnsOf({10, 20, 30, 40, 50}, 9), {}), 0) << "a slope has none";
+    EXPECT_EQ(contrastOf(columnsOf({10, 90, 10, 90, 10}, 9), {}), 80);
+    EXPECT_EQ(contrastOf(columnsOf({10, 90}, 9), {}), 0) << "no pixel has two neighbors";
     std::vector<int> one_edge(400, 10);
     one_edge[200] = 250;
-    EXPECT_EQ(contrastOf(columnsOf(one_edge, 9)), 0) << "3 of 398 columns differ";
+    EXPECT_EQ(contrastOf(columnsOf(one_edge, 9), {}), 0) << "3 of 398 columns differ";
     one_edge[100] = one_edge[300] = 250;
-    EXPECT_EQ(contrastOf(columnsOf(one_edge, 9)), 120) << "9 of 398 columns differ";
+    EXPECT_EQ(contrastOf(columnsOf(one_edge, 9), {}), 120) << "9 of 398 columns differ";
 }
 
 TEST(Contrast, IsThatOfRowsAsWell)
@@ -44,7 +44,37 @@ TEST(Contrast, IsThatOfRowsAsWell)
         std::fill_n(picture.rgb.begin() + static_cast<std::ptrdiff_t>(12 * y), 12,
                     std::uint8_t{50});
     }
-    EXPECT_EQ(contrastOf(picture), 50);
+    EXPECT_EQ(contrastOf(picture, {}), 50);
+}
+
+// Half of the picture is sky, in the default colors, which differ from row to row.
+TEST(Contrast, IsThatOfTheTerrainUnderTheSky)
+{
+    const DrawStyle style;
+    std::vector<int> levels(200, 100);
+    levels[100] = 200;
+    Picture picture = columnsOf(levels, 80);
+    EXPECT_EQ(contrastOf(picture, style), 50) << "3 of 198 columns differ";
+    for (int y = 0; y < 50; ++y) {
+        const double up = 1.0 - (y + 0.5) / 80.0;
+        const auto mixed = [up](std::uint8_t top, std::uint8_t bottom) {
+            return static_cast<std::uint8_t>(std::lround(bottom + up * (top - bottom)));
+        };
+        for (int x = 0; x < 200; ++x) {
+            std::uint8_t* pixel = &picture.rgb.at(static_cast<std::size_t>(3 * (200 * y + x)));
+            pixel[0] = mixed(style.sky_top.red, style.sky_bottom.red);
+            pixel[1] = mixed(style.sky_top.green, style.sky_bottom.green);
+            pixel[2] = mixed(style.sky_top.blue, style.sky_bottom.blue);
+        }
+    }
+    EXPECT_EQ(contrastOf(picture, style), 50) << "neither the sky nor the horizon counts";
+    const Picture sky{.width = 200,
+                      .height = 50,
+                      .rgb = {picture.rgb.begin(), picture.rgb.begin() + 3 * 200 * 50}};
+    DrawStyle of_part = style;
+    of_part.sky_bottom = {sky.rgb.at(3 * 200 * 49), sky.rgb.at(3 * 200 * 49 + 1),
+                          sky.rgb.at(3 * 200 * 49 + 2)};
+    EXPECT_EQ(contrastOf(sky, of_part), 0) << "nothing else to see";
 }
 
 class SupersampledPictureTest : public RenderTest {
@@ -110,7 +140,7 @@ TEST_F(SupersampledPictureTest, IsWithinFourLevelsOfTheOneWithEverySample)
     full.detail.has_every_sample = true;
     request_.samples = kSmoothSamples;
     const Picture smooth = drawOffscreen(*renderer_, request_, style_, DepthUse::No)->colors;
-    ASSERT_GT(contrastOf(smooth), kSmoothContrastMax);
+    ASSERT_GT(contrastOf(smooth, style_), kSmoothContrastMax);
     const auto levels = [](const Picture& a, const Picture& b) {
         std::vector<int> differences;
         for (std::size_t i = 0; i < a.rgb.size(); ++i) {
@@ -124,7 +154,22 @@ TEST_F(SupersampledPictureTest, IsWithinFourLevelsOfTheOneWithEverySample)
     SupersampledPicture reference(*renderer_, full, style_);
     ASSERT_TRUE(picture.finish() && reference.finish());
     EXPECT_LE(levels(picture.colors(), reference.colors()), 4);
-    EXPECT_GT(levels(smooth, reference.colors()), 8) << contrastOf(smooth);
+    EXPECT_GT(levels(smooth, reference.colors()), 8) << contrastOf(smooth, style_);
+}
+
+// Twice as wide a picture shows as much terrain, with more sky around it.
+TEST_F(SupersampledPictureTest, IsNeededWhateverTheShareOfTheSky)
+{
+    style_.sky_top = DrawStyle{}.sky_top;
+    style_.sky_bottom = DrawStyle{}.sky_bottom;
+    request_.samples = kSmoothSamples;
+    request_.viewport = {.width = 500, .height = 300};
+    const Picture narrow = drawOffscreen(*renderer_, request_, style_, DepthUse::No)->colors;
+    request_.viewport.width = 2000;
+    const Picture wide = drawOffscreen(*renderer_, request_, style_, DepthUse::No)->colors;
+    const int contrast = contrastOf(narrow, style_);
+    EXPECT_GT(contrast, kSmoothContrastMax);
+    EXPECT_NEAR(contrastOf(wide, style_), contrast, 2);
 }
 
 TEST_F(SupersampledPictureTest, HasContourLinesAsWideAsTheSmoothPicture)

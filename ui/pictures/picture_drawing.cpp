@@ -63,7 +63,8 @@ bool PictureDrawing::needsSecondDrawing() const
            contrastOf({.first = picture_.constBits(),
                        .width = picture_.width(),
                        .height = picture_.height(),
-                       .line_length = picture_.bytesPerLine()}) > kSmoothContrastMax;
+                       .line_length = picture_.bytesPerLine()},
+                      style_) > kSmoothContrastMax;
 }
 
 void PictureDrawing::drawNext()

@@ -75,7 +75,7 @@ GovernedPicture::paint(const PictureRequest& request, const DrawStyle& style, un
 std::unique_ptr<SupersampledPicture> GovernedPicture::finer(const PictureRequest& request,
                                                             const DrawStyle& style)
 {
-    if (contrastOf(renderer_.keptColors()) <= kSmoothContrastMax) {
+    if (contrastOf(renderer_.keptColors(), style) <= kSmoothContrastMax) {
         return nullptr;
     }
     DrawRequest draw{

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdlib>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace marsview {
@@ -79,9 +80,30 @@ void mergeSamples(const std::vector<std::uint8_t>& samples,
     }
 }
 
+// Of the pixels of a row, which ones are not of the sky's color there.
+std::vector<bool> terrainIn(const PixelRows& picture, int y, const DrawStyle& style)
+{
+    constexpr double kRounding = 1.0;
+    const double up = 1.0 - (y + 0.5) / picture.height;
+    const auto mixed = [up](std::uint8_t bottom, std::uint8_t top) {
+        return bottom + up * (top - bottom);
+    };
+    const std::array<double, 3> sky{mixed(style.sky_bottom.red, style.sky_top.red),
+                                    mixed(style.sky_bottom.green, style.sky_top.green),
+                                    mixed(style.sky_bottom.blue, style.sky_top.blue)};
+    std::vector<bool> is_terrain(static_cast<std::size_t>(picture.width));
+    const std::uint8_t* pixel = picture.first + y * picture.line_length;
+    for (std::size_t x = 0; x < is_terrain.size(); ++x, pixel += 3) {
+        is_terrain[x] = std::abs(pixel[0] - sky[0]) > kRounding ||
+                        std::abs(pixel[1] - sky[1]) > kRounding ||
+                        std::abs(pixel[2] - sky[2]) > kRounding;
+    }
+    return is_terrain;
+}
+
 } // namespace
 
-int contrastOf(const PixelRows& picture)
+int contrastOf(const PixelRows& picture, const DrawStyle& style)
 {
     if (picture.width < 3 || picture.height < 3) {
         return 0;
@@ -91,23 +113,39 @@ int contrastOf(const PixelRows& picture)
     };
     Levels along_rows;
     Levels along_columns;
+    std::vector<bool> above = terrainIn(picture, 0, style);
+    std::vector<bool> here = terrainIn(picture, 1, style);
     for (int y = 1; y + 1 < picture.height; ++y) {
+        std::vector<bool> below = terrainIn(picture, y + 1, style);
         const std::uint8_t* row = picture.first + y * picture.line_length;
-        const std::uint8_t* end = row + std::ptrdiff_t{3} * (picture.width - 1);
-        for (const std::uint8_t* at = row + 3; at < end; ++at) {
-            along_rows.add(deviation(at, 3));
-            along_columns.add(deviation(at, picture.line_length));
+        for (std::size_t x = 1; x + 1 < here.size(); ++x) {
+            if (!here[x]) {
+                continue;
+            }
+            const std::uint8_t* pixel = row + 3 * x;
+            if (here[x - 1] && here[x + 1]) {
+                for (const std::uint8_t* at = pixel; at < pixel + 3; ++at) {
+                    along_rows.add(deviation(at, 3));
+                }
+            }
+            if (above[x] && below[x]) {
+                for (const std::uint8_t* at = pixel; at < pixel + 3; ++at) {
+                    along_columns.add(deviation(at, picture.line_length));
+                }
+            }
         }
+        above = std::exchange(here, std::move(below));
     }
     return std::max(along_rows.exceededByOneInHundred(), along_columns.exceededByOneInHundred());
 }
 
-int contrastOf(const Picture& picture)
+int contrastOf(const Picture& picture, const DrawStyle& style)
 {
     return contrastOf({.first = picture.rgb.data(),
                        .width = picture.width,
                        .height = picture.height,
-                       .line_length = std::ptrdiff_t{3} * picture.width});
+                       .line_length = std::ptrdiff_t{3} * picture.width},
+                      style);
 }
 
 DrawRequest supersampled(const DrawRequest& request, TerrainRenderer& renderer, double exaggeration)

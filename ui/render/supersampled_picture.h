@@ -23,15 +23,16 @@ struct PixelRows {
     std::ptrdiff_t line_length = 0; // bytes from one row to the next
 };
 
-/// 99 in 100 color values are at most this far from the mean of their neighbors on both sides, in
-/// levels of 255, along rows or along columns: the larger of the two. 0 for a picture of less than
-/// three pixels a side.
-int contrastOf(const PixelRows& picture);
-int contrastOf(const Picture& picture);
+/// 99 in 100 color values of the terrain are at most this far from the mean of their neighbors on
+/// both sides, in levels of 255, along rows or along columns: the larger of the two. Pixels of the
+/// sky of `style`, and those next to it, do not count: there may be many of them. 0 where no pixel
+/// has terrain on both sides.
+int contrastOf(const PixelRows& picture, const DrawStyle& style);
+int contrastOf(const Picture& picture, const DrawStyle& style);
 
-/// Above this contrast a picture with four samples a pixel is visibly off the mean over its pixels
-/// (tests/bench/VIEW.md).
-inline constexpr int kSmoothContrastMax = 16;
+/// Above this contrast a picture with four samples a pixel may be more than four levels off the
+/// mean over its pixels (tests/bench/VIEW.md).
+inline constexpr int kSmoothContrastMax = 12;
 
 /// The request for the samples of the picture that `request` draws, or of its part.
 DrawRequest

@@ -207,7 +207,8 @@ TEST_F(ReportTest, PicturesOfHighContrastAreDrawnOnce)
     EXPECT_GT(contrastOf({.first = map.constBits(),
                           .width = map.width(),
                           .height = map.height(),
-                          .line_length = map.bytesPerLine()}),
+                          .line_length = map.bytesPerLine()},
+                         view().style()),
               kSmoothContrastMax);
     EXPECT_LE(shares.size(), 1U + 4U * 3U) << "blocks of 512 × 512 pixels";
     EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
