@@ -1,6 +1,7 @@
 #include "core/raster/dataset_opening.h"
 
 #include "core/files/archive_rasters.h"
+#include "core/files/gdal_drivers.h"
 #include "core/files/gdal_runtime.h"
 #include "core/files/open_guard.h"
 #include "core/files/raster_path.h"
@@ -8,9 +9,11 @@
 #include "core/raster/label_elevation.h"
 #include "core/raster/large_blocks.h"
 
+#include <cpl_string.h>
+#include <cpl_vsi.h>
+
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -19,6 +22,7 @@
 #include <system_error>
 #include <thread>
 #include <utility>
+#include <vector>
 
 namespace marsview {
 namespace {
@@ -116,43 +120,101 @@ Result<OpenedDataset> openRemote(const std::string& name)
     }
 }
 
-// Of an archive that can be listed; rastersInArchive() has found none in it.
-std::optional<std::string> refusalOfArchive(const std::string& path)
-{
-    constexpr int kNamedMax = 3;
-    const std::string archive = archiveNameFor(path);
-    const CPLStringList names(archive.empty() ? nullptr : VSIReadDir(archive.c_str()));
-    if (names.Count() == 0) {
-        return std::nullopt;
-    }
-    std::string listed;
-    for (int i = 0; i < std::min(names.Count(), kNamedMax); ++i) {
-        listed += fmt::format("{}{}", i > 0 ? ", " : "", names[i]);
-    }
-    return fmt::format(
-        "holds no raster that GDAL can read, only {}{}; a map among them is damaged or "
-        "in another format, and an archive must be unpacked first",
-        listed, names.Count() > kNamedMax ? ", …" : "");
-}
-
 // GDAL recognizes a tile by its size.
-std::optional<std::string> refusalOfSrtmTile(const std::string& path)
+std::optional<std::string> refusalOfSrtmTile(const std::string& path, vsi_l_offset bytes)
 {
-    const std::filesystem::path file(path);
-    std::string ending = file.extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    constexpr std::uintmax_t kThreeSeconds = 1201 * 1201 * 2;
-    constexpr std::uintmax_t kOneSecond = 3601 * 3601 * 2;
-    std::error_code failure;
-    const std::uintmax_t bytes = std::filesystem::file_size(file, failure);
-    if (ending != ".hgt" || failure || bytes == kThreeSeconds || bytes == kOneSecond) {
+    constexpr vsi_l_offset kThreeSeconds = 1201 * 1201 * 2;
+    constexpr vsi_l_offset kOneSecond = 3601 * 3601 * 2;
+    if (!lowerCase(path).ends_with(".hgt") || bytes == kThreeSeconds || bytes == kOneSecond) {
         return std::nullopt;
     }
     return fmt::format(
         "has {} bytes, but SRTM tiles have {} (1201 × 1201 samples) or {} "
         "(3601 × 3601); it may be cut short; fetch it again",
         bytes, kThreeSeconds, kOneSecond);
+}
+
+std::optional<std::string> refusalOfSrtmTile(const std::string& path)
+{
+    std::error_code failure;
+    const std::uintmax_t bytes = std::filesystem::file_size(path, failure);
+    return failure ? std::nullopt : refusalOfSrtmTile(path, bytes);
+}
+
+// Whether the beginning of a file in an archive cannot be unpacked.
+bool isPackedBadly(const std::string& name, vsi_l_offset bytes)
+{
+    constexpr vsi_l_offset kRead = 65536;
+    std::vector<char> beginning(static_cast<std::size_t>(std::min(bytes, kRead)));
+    VSILFILE* const file = VSIFOpenL(name.c_str(), "rb");
+    const std::size_t read =
+        file != nullptr ? VSIFReadL(beginning.data(), 1, beginning.size(), file) : 0;
+    if (file != nullptr) {
+        VSIFCloseL(file);
+    }
+    return read < beginning.size();
+}
+
+// Of a file in an archive that would be a raster if it were whole; empty for any other file.
+std::optional<std::string> refusalOfPacked(const std::string& name)
+{
+    const GdalMessages messages;
+    VSIStatBufL status;
+    if (VSIStatL(name.c_str(), &status) != 0 || VSI_ISDIR(status.st_mode)) {
+        return std::nullopt;
+    }
+    const auto bytes = static_cast<vsi_l_offset>(status.st_size);
+    if (isPackedBadly(name, bytes)) {
+        return "cannot be unpacked: the archive is damaged; fetch it again";
+    }
+    if (auto tile = refusalOfSrtmTile(name, bytes)) {
+        return tile;
+    }
+    if (!recognizingDriverFor(name)) {
+        return std::nullopt;
+    }
+    const Result<OpenedDataset> opened = openLocalDataset({name});
+    if (opened || opened.error().message.empty()) {
+        return std::nullopt;
+    }
+    const std::string& why = opened.error().message;
+    return why.find("; ") != std::string::npos
+               ? why
+               : fmt::format("cannot be opened ({}); fetch it again or convert it to GeoTIFF", why);
+}
+
+// Of an archive; rastersInArchive() has found none in it.
+std::optional<std::string> refusalOfArchive(const std::string& path)
+{
+    constexpr int kNamedMax = 3;
+    constexpr int kTriedMax = 64;
+    const std::string archive = archiveNameFor(path);
+    if (archive.empty()) {
+        return std::nullopt;
+    }
+    const CPLStringList names(VSIReadDirRecursive(archive.c_str()));
+    if (names.Count() == 0) {
+        return "is an archive without files that can be read; it is empty, cut short or damaged; "
+               "fetch it again";
+    }
+    for (int i = 0; i < std::min(names.Count(), kTriedMax); ++i) {
+        if (const auto refusal = refusalOfPacked(fmt::format("{}/{}", archive, names[i]))) {
+            return fmt::format("{} in it {}", names[i], *refusal);
+        }
+    }
+    std::string listed;
+    bool has_archive = false;
+    for (int i = 0; i < names.Count(); ++i) {
+        has_archive = has_archive || !archiveNameFor(names[i]).empty();
+    }
+    for (int i = 0; i < std::min(names.Count(), kNamedMax); ++i) {
+        listed += fmt::format("{}{}", i > 0 ? ", " : "", names[i]);
+    }
+    return fmt::format(
+        "holds no raster that GDAL can read, only {}{}; a map among them is damaged or in another "
+        "format{}",
+        listed, names.Count() > kNamedMax ? ", …" : "",
+        has_archive ? ", and an archive must be unpacked first" : "");
 }
 
 } // namespace

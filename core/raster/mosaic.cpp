@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fmt/format.h>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <mutex>
@@ -93,6 +94,7 @@ struct Opened {
 struct Parts {
     std::vector<Part> parts;
     std::vector<std::string> left_out; // names of other rasters
+    std::vector<std::string> damaged;  // why files that are named like a part are none
 };
 
 Opened openPart(const std::string& path, int band)
@@ -131,6 +133,7 @@ Result<Parts> openParts(const std::string& folder, const Listing& listing, int b
     });
     std::vector<Part> parts;
     std::vector<std::string> left_out;
+    std::vector<std::string> damaged;
     std::set<std::string> names;   // in GDAL
     std::set<std::string> endings; // of rasters
     std::set<std::string> files;   // that belong to one
@@ -155,17 +158,12 @@ Result<Parts> openParts(const std::string& folder, const Listing& listing, int b
             continue;
         }
         if (endings.contains(lowerCase(fs::path(path).extension().string()))) {
-            return Error{
-                ErrorCode::Unreadable,
-                fmt::format("{}: one of its files cannot be part of a mosaic ({}); repair it or "
-                            "move it elsewhere",
-                            folder, opened[i].failure)};
-        }
-        if (isRaster(path)) {
+            damaged.push_back(opened[i].failure);
+        } else if (isRaster(path)) {
             left_out.push_back(fs::path(path).filename().string());
         }
     }
-    return Parts{std::move(parts), std::move(left_out)};
+    return Parts{std::move(parts), std::move(left_out), std::move(damaged)};
 }
 
 bool isSameCrs(const std::optional<Crs>& a, const std::optional<Crs>& b)
@@ -347,7 +345,12 @@ void noteParts(const Parts& opened, double covered, RasterInfo& whole)
 {
     const std::vector<Part>& parts = opened.parts;
     std::set<std::string> said;
+    // First, since a part of the map is missing.
     std::vector<std::string> notices;
+    std::transform(opened.damaged.begin(), opened.damaged.end(), std::back_inserter(notices),
+                   [](const std::string& failure) {
+                       return fmt::format("left out a damaged file of the folder ({})", failure);
+                   });
     if (parts.size() > 1) {
         notices.push_back(
             covered < 1.0

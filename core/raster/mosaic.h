@@ -34,8 +34,8 @@ struct Mosaic {
 /// The rasters in the folder itself, not in its subfolders. They must have the same sample type,
 /// unit, scale, CRS and grid. Where parts overlap, the last by name is used, except for its voids;
 /// uncovered samples are void. Other files are skipped, with a notice if they are rasters. Files
-/// that are named like a part but cannot be read are an error, because they would leave a silent
-/// gap.
+/// that are named like a part but cannot be read are skipped too: the first notices name them, each
+/// with the reason, because they leave a gap.
 ///
 /// Opens every raster, on all cores; later calls only check whether any file has changed. Any
 /// thread. Errors begin with the folder and name the raster that does not fit.

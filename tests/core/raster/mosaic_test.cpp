@@ -385,10 +385,29 @@ TEST_F(MosaicTest, LeavesNoHoleWhereAPartIsDamaged)
     ASSERT_FALSE(read);
     EXPECT_THAT(read.error().message,
                 AllOf(StartsWith(parts() + ": reading rows 0 to 46 failed: " + cut_short)));
+}
+
+TEST_F(MosaicTest, SkipsDamagedFilesAndNamesThemFirst)
+{
+    const test::RasterRecipe map = test::recipeFor(kColumns, samples<float>());
+    cut(map, "a.flt", {0, 0, 20, kRows}, {"-of", "EHdr"});
+    cut(map, "b.flt", {20, 0, 20, kRows}, {"-of", "EHdr"});
+    cut(map, "c.flt", {40, 0, 21, kRows}, {"-of", "EHdr"});
     folder_.write("parts/b.flt", "");
-    EXPECT_THAT(refusal(),
-                AllOf(StartsWith(parts() + ": one of its files cannot be part of a mosaic"),
-                      HasSubstr("b.flt"), HasSubstr("empty")));
+    const auto mosaic = mosaicOf(parts(), 1);
+    ASSERT_TRUE(mosaic) << mosaic.error().message;
+    EXPECT_EQ((*mosaic)->parts.size(), 2U);
+    EXPECT_EQ((*mosaic)->info.columns, kColumns) << "with a gap";
+    ASSERT_FALSE((*mosaic)->info.notices.empty());
+    EXPECT_THAT((*mosaic)->info.notices.front(),
+                AllOf(StartsWith("left out a damaged file of the folder ("), HasSubstr("b.flt"),
+                      HasSubstr("empty")));
+    // Once it is whole again, it is a part.
+    cut(map, "b.flt", {20, 0, 20, kRows}, {"-of", "EHdr"});
+    const auto whole = mosaicOf(parts(), 1);
+    ASSERT_TRUE(whole) << whole.error().message;
+    EXPECT_EQ((*whole)->parts.size(), 3U);
+    EXPECT_THAT((*whole)->info.notices, Not(Contains(HasSubstr("damaged"))));
 }
 
 TEST_F(MosaicTest, SaysWhichPartIsGone)

@@ -6,6 +6,7 @@
 #include "tests/support/random.h"
 #include "tests/support/run_program.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,6 +18,9 @@
 
 namespace marsview {
 namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 using test::RasterRecipe;
 using test::recipeFor;
@@ -169,7 +173,37 @@ TEST(RasterFile, AnArchiveWithoutRastersIsRefused)
     EXPECT_EQ(file.error().message,
               archive +
                   ": holds no raster that GDAL can read, only readme.txt; a map among them is "
-                  "damaged or in another format, and an archive must be unpacked first");
+                  "damaged or in another format");
+}
+
+// The file in it, not the archive.
+TEST(RasterFile, ADamagedRasterInAnArchiveIsRefusedWithWhatIsWrong)
+{
+    const TempFolder folder;
+    const std::string tile = folder.write("N44W072.hgt", std::string(1000, 'x'));
+    const std::string tif =
+        folder.write("map.tif", std::string("II*\0", 4) + std::string(500, '\xff'));
+    const auto refusal_of = [&](const std::string& file) {
+        const std::string archive = folder.file("packed.zip");
+        const auto packed = test::runProgram({"python3", "-m", "zipfile", "-c", archive, file});
+        EXPECT_EQ(packed.exit_status, 0) << "python3 is needed to make an archive";
+        const auto opened = RasterFile::open(archive);
+        return opened ? std::string() : opened.error().message;
+    };
+    EXPECT_THAT(refusal_of(tile), HasSubstr("packed.zip: N44W072.hgt in it has 1000 bytes, but"));
+    EXPECT_THAT(refusal_of(tif), HasSubstr("packed.zip: map.tif in it cannot be opened ("));
+    EXPECT_THAT(refusal_of(tif), Not(HasSubstr("unpacked")));
+    // Bytes of the packed data.
+    refusal_of(writeRaster(folder, "inside.tif", "GTiff", recipeFor(kColumns, hills())));
+    std::string bytes = test::readFile(folder.file("packed.zip"));
+    std::fill_n(bytes.begin() + 45, 200, '\xff');
+    const auto spoiled = RasterFile::open(folder.write("spoiled.zip", bytes));
+    ASSERT_FALSE(spoiled);
+    EXPECT_THAT(spoiled.error().message,
+                HasSubstr("inside.tif in it cannot be unpacked: the archive is damaged"));
+    const auto cut = RasterFile::open(folder.write("cut.zip", bytes.substr(0, 100)));
+    ASSERT_FALSE(cut);
+    EXPECT_THAT(cut.error().message, HasSubstr("cut.zip: is an archive without files"));
 }
 
 // GTOPO30's headers do not state whether samples are signed. They are: the Dead Sea is below zero.
