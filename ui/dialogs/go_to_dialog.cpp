@@ -89,6 +89,22 @@ std::optional<MapPoint> localMapPointFrom(const QString& text)
     return is_x && is_y ? std::optional(MapPoint{x, y}) : std::nullopt;
 }
 
+// The map coordinates of its middle, as people may type them in any language.
+QString exampleOn(const Map& map)
+{
+    const Georeference& georeference = map.georeference();
+    const MapPoint middle =
+        georeference.toMap({0.5 * static_cast<double>(georeference.columns() - 1),
+                            0.5 * static_cast<double>(georeference.rows() - 1)});
+    const MapPoint next = georeference.toMap({0.5 * static_cast<double>(georeference.columns() + 1),
+                                              0.5 * static_cast<double>(georeference.rows() + 1)});
+    const double step = std::max(std::abs(next.x - middle.x), std::abs(next.y - middle.y));
+    const int digits =
+        step > 0.0 ? std::clamp(static_cast<int>(std::ceil(-std::log10(step))), 0, 6) : 0;
+    return QStringLiteral("%1, %2").arg(QString::number(middle.x, 'f', digits),
+                                        QString::number(middle.y, 'f', digits));
+}
+
 // Whether the text is a pair of map coordinates that cannot be degrees.
 bool isOnlyMapPoint(const QString& text)
 {
@@ -174,7 +190,7 @@ Result<FoundPlace> placeOnMap(const std::shared_ptr<const Map>& map,
     } else {
         const Result<WrittenPlace> place = placeFrom(written, bare);
         if (!place) {
-            return place.error();
+            return Error{ErrorCode::Invalid, place.error().message}; // on no map a place
         }
         const Angle latitude = read_as == ReadAs::Planetographic
                                    ? info.crs->ellipsoid()->planetocentric(place->latitude)
@@ -196,7 +212,7 @@ Result<FoundPlace> placeOnMaps(const std::vector<std::shared_ptr<const Map>>& ma
                                const QString& text)
 {
     Result<FoundPlace> found = placeOnMap(maps.front(), format, read_as, text);
-    if (found || found.error().code != ErrorCode::OutOfRange || maps.size() == 1) {
+    if (found || maps.size() == 1) {
         return found;
     }
     const std::optional<Crs>& first = maps.front()->info().crs;
@@ -209,6 +225,9 @@ Result<FoundPlace> placeOnMaps(const std::vector<std::shared_ptr<const Map>>& ma
         if (Result<FoundPlace> place = placeOnMap(maps[i], format, read_as, text)) {
             return place;
         }
+    }
+    if (found.error().code != ErrorCode::OutOfRange) {
+        return found;
     }
     return Error{ErrorCode::OutOfRange,
                  GoToDialog::tr("This place is outside all maps in the view.").toStdString()};
@@ -298,7 +317,7 @@ void GoToDialog::check()
     const GoToEntry now = entry();
     const bool is_map = readAs() == ReadAs::Map;
     // Examples are the same in every language.
-    field_->setPlaceholderText(is_map ? QStringLiteral("562345.5, 5117890")
+    field_->setPlaceholderText(is_map ? exampleOn(*map_)
                                       : QStringLiteral("18.65 N 226.2 E, 18°39′ N 133°48′ W"));
     if (now.text.isEmpty()) {
         const bool is_west =

@@ -142,6 +142,42 @@ TEST_F(GoToDialogTest, NamesTheExtentOfTheMapForPlacesOutside)
         << place.error().message;
 }
 
+TEST_F(GoToDialogTest, SaysWhatNoMapCanHave)
+{
+    const auto mars = load(maps_.mars());
+    const auto earth =
+        load(maps_.placed("earth", "EPSG:4326", {10.0, 0.25, 0.0, 20.0, 0.0, -0.25}));
+    for (const auto& maps : {std::vector{mars}, std::vector{mars, earth}}) {
+        const auto place = placeOnMaps(maps, {}, D::Planetocentric, QStringLiteral("95 N 12 E"));
+        ASSERT_FALSE(place);
+        EXPECT_EQ(place.error().message, "latitude 95 is beyond 90 degrees");
+    }
+    const auto outside =
+        placeOnMaps({mars, earth}, {}, D::Planetocentric, QStringLiteral("-50, 12"));
+    ASSERT_FALSE(outside);
+    EXPECT_EQ(outside.error().message, "This place is outside all maps in the view.");
+}
+
+// The place in the middle, which reads back.
+TEST_F(GoToDialogTest, ShowsAnExampleOfTheMapsOwnCoordinates)
+{
+    const auto example = [](const std::shared_ptr<const Map>& map) {
+        GoToDialog dialog({map}, {}, {.read_as = D::Map, .text = {}}, {});
+        const QString text =
+            dialog.findChild<QLineEdit*>(QStringLiteral("coordinate"))->placeholderText();
+        const auto place = placeOnMap(map, {}, D::Map, text);
+        EXPECT_TRUE(place) << text.toStdString();
+        const GridPoint grid = place ? place->grid : GridPoint{-1, -1};
+        EXPECT_NEAR(grid.column, 0.5 * static_cast<double>(map->info().columns - 1), 0.5);
+        EXPECT_NEAR(grid.row, 0.5 * static_cast<double>(map->info().rows - 1), 0.5);
+        return text;
+    };
+    const QString degrees =
+        example(load(maps_.placed("earth", "EPSG:4326", {10.0, 0.25, 0.0, 20.0, 0.0, -0.25})));
+    EXPECT_TRUE(degrees.startsWith(QStringLiteral("1"))) << degrees.toStdString();
+    example(load(maps_.hill())); // 500 km east
+}
+
 TEST_F(GoToDialogTest, EnablesGoOnlyForValidText)
 {
     GoToDialog dialog({load(maps_.mars())}, {}, {}, {});
