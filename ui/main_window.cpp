@@ -49,12 +49,15 @@
 #include <QCoreApplication>
 #include <QDockWidget>
 #include <QDragEnterEvent>
+#include <QFrame>
 #include <QGridLayout>
 #include <QKeyEvent>
 #include <QLineEdit>
 #include <QListWidget>
 #include <QMenu>
 #include <QMenuBar>
+#include <QMimeData>
+#include <QPalette>
 #include <QSettings>
 #include <QStatusBar>
 
@@ -97,6 +100,40 @@ bool isEntry(const QWidget& focus)
            qobject_cast<const QAbstractSpinBox*>(&focus) != nullptr ||
            qobject_cast<const QComboBox*>(&focus) != nullptr;
 }
+
+// Around the map, while files are dragged over the window.
+class DropFrame final : public QFrame {
+public:
+    DropFrame(QWidget& window, QWidget& center)
+        : QFrame(&center)
+    {
+        setObjectName(QStringLiteral("dropFrame"));
+        setFrameStyle(QFrame::Box | QFrame::Plain);
+        setLineWidth(kWidth);
+        setAttribute(Qt::WA_TransparentForMouseEvents);
+        hide();
+        window.installEventFilter(this);
+    }
+
+protected:
+    bool eventFilter(QObject* watched, QEvent* event) override
+    {
+        if (event->type() == QEvent::DragEnter) {
+            setVisible(!filesIn(*static_cast<QDragEnterEvent*>(event)->mimeData()).isEmpty());
+            setGeometry(parentWidget()->rect());
+            QPalette colors = palette();
+            colors.setColor(QPalette::WindowText, colors.color(QPalette::Highlight));
+            setPalette(colors);
+            raise();
+        } else if (event->type() == QEvent::DragLeave || event->type() == QEvent::Drop) {
+            hide();
+        }
+        return QFrame::eventFilter(watched, event);
+    }
+
+private:
+    static constexpr int kWidth = 4;
+};
 
 // The style comes before the first widget.
 QWidget* withLineStyle(QWidget* parent)
@@ -206,6 +243,7 @@ void MainWindow::makeCenter()
     connect(notice_bar_, &NoticeBar::coverChanged, this,
             [this] { overlays_->setCovered(notice_bar_->coveredHeight()); });
     setCentralWidget(center);
+    new DropFrame(*this, *center); // owned by it
 }
 
 void MainWindow::makePictures()

@@ -15,6 +15,7 @@
 #include <QDir>
 #include <QDropEvent>
 #include <QFileDialog>
+#include <QFrame>
 #include <QImage>
 #include <QLabel>
 #include <QLineEdit>
@@ -60,6 +61,37 @@ protected:
     TestMaps maps_;
     std::unique_ptr<MainWindow> window_;
 };
+
+TEST_F(MainWindowTest, FramesTheMapWhileFilesAreDraggedOverTheWindow)
+{
+    window_->show();
+    const auto frames = window_->findChildren<QFrame*>(QStringLiteral("dropFrame"));
+    ASSERT_EQ(frames.size(), 1);
+    QFrame& frame = *frames.front();
+    EXPECT_FALSE(frame.isVisible());
+    const auto enter = [&](const QMimeData& data) {
+        QDragEnterEvent event({100, 100}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+        QApplication::sendEvent(window_.get(), &event);
+    };
+    QMimeData text;
+    text.setText(QStringLiteral("18 N 226 E"));
+    enter(text);
+    EXPECT_FALSE(frame.isVisible()) << "not what can be dropped";
+    QMimeData files;
+    files.setUrls({QUrl::fromLocalFile(maps_.hill())});
+    enter(files);
+    EXPECT_TRUE(frame.isVisible());
+    const QRect shown(frame.mapTo(window_.get(), QPoint()), frame.size());
+    const QRect map(view().mapTo(window_.get(), QPoint()), view().size());
+    EXPECT_EQ(shown, map);
+    EXPECT_EQ(window_->childAt(map.center()), &view()) << "the mouse passes through it";
+    QDragLeaveEvent leave;
+    QApplication::sendEvent(window_.get(), &leave);
+    EXPECT_FALSE(frame.isVisible());
+    drop(maps_.hill());
+    EXPECT_FALSE(frame.isVisible());
+    EXPECT_TRUE(waitForLoad());
+}
 
 TEST_F(MainWindowTest, OpensAFileAskedForBeforeItWasShown)
 {
